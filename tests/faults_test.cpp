@@ -1,5 +1,5 @@
-// What goes wrong around the program: killed, no room, no permission, no memory, two at once. Nothing half written, no
-// temporary file left, a message with the place.
+// Faults around the program: killed, disk full, no permission, no memory, two at once. No file is left half written, no temporary file
+// remains, and a message gives the place.
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -86,7 +86,7 @@ TEST_F(Faults, AnInterruptedReferenceGoesOnToTheSameBytes) {
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove(output);
     std::vector<std::string> arguments = reference_to(output);
-    for (const double share : {0.6, 0.3}) {  // the second time it was already under way
+    for (const double share : {0.6, 0.3}) {  // the second time its work had started already
       const Child child = start(arguments, kNoLimit);
       std::this_thread::sleep_for(time * share);
       kill(child.pid, signal);
@@ -156,7 +156,7 @@ TEST_F(Faults, AClosedPipeEndsTheProgram) {
   EXPECT_TRUE(o.status == 128 + SIGPIPE || (o.status == 1 && !o.err.empty())) << o.status << o.err;
 }
 
-// From what the loader itself needs to what is enough: a message, or the picture; never an abort.
+// Memory limits from the loader's own needs to a sufficient amount: the result is a message or the picture, never an abort.
 TEST_F(Faults, NoMemoryIsSaid) {
   const fs::path output = results / "picture.exr";
   int refused = 0, rendered = 0;
@@ -219,7 +219,7 @@ TEST_F(Faults, ManyRendersInOneProcessKeepItsMemory) {
   };
   const double early = render_some(100), late = render_some(400);
   std::cout << "[ measured ] " << early << " MiB after 100 renders, " << late << " after 500\n";
-  // A leak of one picture a render would be 14 MB.
+  // A leak of one picture per render would be 14 MB.
   EXPECT_LT(late - early, 4);
 }
 

@@ -1,5 +1,5 @@
-// glTF files that are small, or say little, and ask for much: each is rendered or refused within two seconds of processor
-// time and one gigabyte. Every file here took more, in time that grew with a product or in memory.
+// glTF files that are small but demand much: each is rendered or refused within two seconds of processor time and one gigabyte. Every file
+// here once took more, in time that grew with a product or in memory.
 #include <nlohmann/json.hpp>
 
 #include <functional>
@@ -21,7 +21,7 @@ constexpr long kMostKib = 1'000'000;
 
 class HostileGltf : public Program {
  protected:
-  // Hard limits a little beyond, so that a failure does not take the machine with it.
+  // Hard limits a little above, so that a failure does not affect the whole machine.
   Outcome render(const std::string& gltf, std::vector<std::string> options = {}) {
     std::ofstream(folder / "scene.gltf", std::ios::binary) << gltf;
     std::vector<std::string> arguments = {"render", folder / "scene.gltf", "-o", folder / "out.png", "--size", "64x48"};
@@ -192,7 +192,7 @@ TEST_F(HostileGltf, MeansOfATextureOverManyTriangles) {
   EXPECT_NE(o.err.find("the means of its emissive texture"), std::string::npos) << o.err;
 }
 
-// What is refused by default is read where one asks for it.
+// Files that are refused by default are read if an option raises the limit.
 TEST_F(HostileGltf, LimitsAreRaisedByTheirOptions) {
   std::string text = R"({"asset":{"version":"2.0"},"extras":[[])";
   while (text.size() < 1'000'000) text += ",[]";

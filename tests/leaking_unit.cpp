@@ -1,4 +1,4 @@
-// A pack unit with the mistake that tests/pack_symbols.py looks for: an inline function outside the unit's namespace.
+// A pack unit with the mistake that tests/pack_symbols.py searches for: an inline function outside the unit's namespace.
 namespace steradian {
 
 __attribute__((noinline)) inline float leaks(float x) { return x * x + 1.0f; }

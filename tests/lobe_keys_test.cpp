@@ -1,4 +1,4 @@
-// `eval` and glTF's extras read a lobe by the same keys: the same material, and both refuse what one refuses.
+// `eval` and glTF's extras read a lobe by the same keys. They give the same material, and both refuse what one refuses.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -44,7 +44,7 @@ bool same(const Material& a, const Material& b) {
          a.foreshortening == b.foreshortening && a.axis_exponent == b.axis_exponent && a.multiple_scattering == b.multiple_scattering;
 }
 
-// Values that a key of a kind may have, and such as it may not.
+// Values that a key of a kind may have, and invalid ones.
 std::vector<json> values_of(const lobes::Key& key) {
   switch (key.kind) {
     case KeyKind::not_negative: return {0, 2.5, 1e6, -1, "many"};
@@ -81,7 +81,7 @@ TEST(LobeKeys, EvalAndScenesReadTheSame) {
         json lobe = least;
         lobe[std::string(key.name)] = value;
         compare(lobe);
-        if (key.kind == KeyKind::share) {  // the width said in one way
+        if (key.kind == KeyKind::share) {  // the width given by a single name
           lobe.erase("alpha");
           lobe[std::string(key.name)] = value;
           compare(lobe);

@@ -1,5 +1,5 @@
-// A Vulkan device that is lost, never ends or has no memory left, by a layer of the loader's (tests/faulty_device): the program says so,
-// leaves no half picture and does not hang.
+// A Vulkan device that is lost, never ends or has no memory left, simulated by a layer of the loader (tests/faulty_device). The program
+// reports it, leaves no half-written picture and does not hang.
 #include <set>
 
 #include "program.h"
@@ -23,7 +23,7 @@ class LostDevice : public Program {
       setenv("VK_LAYER_PATH", test::kFaultyDevice.c_str(), 1);
       setenv("VK_INSTANCE_LAYERS", "VK_LAYER_STERADIAN_faulty_device", 1);
       setenv("STERADIAN_FAULT", fault.c_str(), 1);
-      alarm(120);  // a hang is a failure, not a test without end
+      alarm(120);  // a hang is a failure, not an endless test
     });
   }
   std::vector<std::string> render(const std::string& scene, std::vector<std::string> more = {}) const {

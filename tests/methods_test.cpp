@@ -1,4 +1,4 @@
-// One table of methods: what it promises, that `eval` and `render` keep to it alike, and that the manual says the same.
+// The table of methods: its promises hold, `eval` and `render` follow it alike, and the manual agrees.
 #include "integrals/methods.h"
 
 #include <gtest/gtest.h>
@@ -25,11 +25,11 @@ using namespace scene;
 using methods::Row;
 
 struct NamedLobe {
-  const char* words;  // as Row::lobes has it
+  const char* words;  // in the form of Row::lobes
   Material lobe;
 };
 
-// A lobe of every kind that some method tells from its kin.
+// One lobe of every kind that some method distinguishes.
 std::vector<NamedLobe> lobes() {
   Material lambert, phong, between, foreshortened, ggx, anisotropic, bare, blinn, beckmann, charlie, product;
   phong.brdf = between.brdf = Brdf::phong;
@@ -91,7 +91,7 @@ TEST(Methods, NamesReadBackAndAreTheirOwn) {
   EXPECT_FALSE(method_of("magic"));
 }
 
-// The words of a row against its condition, lobe by lobe; and what it serves, it answers.
+// Compares the words of a row with its condition, lobe by lobe. A row answers every lobe that it serves.
 TEST(Methods, RowsServeWhatTheySay) {
   const ShadingPoint at = {{0.3, 0, 0.2}, {0, 1, 0}, normalized(Vec3d{1, 2, 0})};
   for (const Row& row : methods::all()) {
@@ -122,7 +122,7 @@ TEST(Methods, RowsServeWhatTheySay) {
   }
 }
 
-// The public call: the row of the table, for a light stored or prepared.
+// The public call gives the row's result, for a stored or a prepared light.
 TEST(Methods, RadianceIsWhatTheRowAnswers) {
   PolygonLight panel;
   panel.vertices = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
@@ -135,14 +135,14 @@ TEST(Methods, RadianceIsWhatTheRowAnswers) {
     EXPECT_EQ(radiance(light(), at, l.lobe).radiance, r.radiance) << l.words;
     const RadianceResult truth = radiance(panel, at, l.lobe, {.method = Method::reference});
     ASSERT_TRUE(truth.bound.has_value()) << l.words;
-    EXPECT_NEAR(r.radiance.x, truth.radiance.x, 0.05) << l.words;  // as rough as the roughest of the methods of auto
+    EXPECT_NEAR(r.radiance.x, truth.radiance.x, 0.05) << l.words;  // the error of the roughest method of auto
     EXPECT_EQ(radiance(panel, {at.position, at.normal, -at.view}, l.lobe).radiance, Vec3d{}) << l.words;
   }
   EXPECT_THROW(radiance(panel, at, lobes()[0].lobe, {.method = Method::ltc}), Error);
   EXPECT_THROW(radiance(panel, at, lobes()[0].lobe, {.method = Method::reference, .precision = Precision::float_}), Error);
 }
 
-// Round lights by the same call: Lambert in closed form, and what the ground truth says.
+// Round lights by the same call: closed forms for Lambert, and values near the ground truth.
 TEST(Methods, RadianceOfRoundLightsIsNearTheReference) {
   const ShadingPoint at = {{0.3, 0, 0.2}, {0, 1, 0}, normalized(Vec3d{1, 2, 0})};
   const AreaLight disk = {Ellipse{{0, 2, 0}, {1, 0, 0}, {0, 0, 1}}};
@@ -153,7 +153,7 @@ TEST(Methods, RadianceOfRoundLightsIsNearTheReference) {
       const RadianceResult r = radiance(round, at, lobe), truth = radiance(round, at, lobe, {.method = Method::reference});
       EXPECT_GT(truth.radiance.x, 0) << name_of(lobe.brdf);
       EXPECT_EQ(truth.method, Method::reference);
-      // Lambert is closed; a polygon of 12 corners is off by 0.5 % of the lobe at most, the methods by 0.2 % (docs/methods.md).
+      // Lambert is exact. A polygon of 12 corners is off by at most 0.5 % of the lobe, the methods by 0.2 % (docs/methods.md).
       const double allowed = lobe.brdf == Brdf::lambert ? 0 : 0.01;
       EXPECT_NEAR(r.radiance.x, truth.radiance.x, allowed + *truth.bound) << name_of(lobe.brdf);
     }
@@ -191,7 +191,7 @@ Scene scene_with(const Material& lobe) {
 TEST(Methods, EvalAndRenderServeTheSameLobes) {
   for (const Row& row : methods::all())
     for (const NamedLobe& l : lobes()) {
-      if (l.lobe.brdf == Brdf::lambert || l.lobe.brdf == Brdf::charlie) continue;  // exact and by its cubature beside all
+      if (l.lobe.brdf == Brdf::lambert || l.lobe.brdf == Brdf::charlie) continue;  // the same beside every method
       RenderOptions options;
       options.method = row.name;
       const bool serves = methods::find(row.method, l.lobe, Quality::normal) != nullptr;
@@ -202,7 +202,7 @@ TEST(Methods, EvalAndRenderServeTheSameLobes) {
     }
 }
 
-// Pixel by pixel, what the library's own call gives: half vectors for GGX, and GGX without shadowing exactly.
+// Every pixel equals the result of the library's own call: half vectors for GGX, and GGX without shadowing exactly.
 TEST(Methods, RenderAnswersAsTheLibraryDoes) {
   const auto compare = [](const char* method, const Material& lobe, const auto& expected_at) {
     const Scene scene = scene_with(lobe);
@@ -217,7 +217,7 @@ TEST(Methods, RenderAnswersAsTheLibraryDoes) {
         const auto d = static_cast<Vec3d>(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
         const Vec3d eye = scene.cameras[0].position, p = eye + d * (-eye.y / d.y);
         const double expected = expected_at(ShadingPoint{p, {0, 1, 0}, normalized(eye - p)});
-        // Hit points to 2e-6 of 10 m, under lobes whose slope is at most 1/alpha = 5 a radian; float besides.
+        // Hit points are exact to 2e-6 of 10 m, under lobes whose slope is at most 1/alpha = 5 per radian. Rounding of floats adds to that.
         EXPECT_NEAR(picture.at(x, y).x, expected, 2e-4 * expected + 1e-5) << method << " " << x << " " << y;
       }
   };
@@ -229,7 +229,7 @@ TEST(Methods, RenderAnswersAsTheLibraryDoes) {
   compare("exact", ggx, [&](const ShadingPoint& at) { return exact_ggx_radiance(light(), at, ggx).x; });
 }
 
-// The table of docs/eval.md, row by row and none besides; and no method that the table of methods does not know.
+// The table of docs/eval.md has exactly these rows. It names no method that the table of methods does not know.
 TEST(Methods, TheManualHasTheTable) {
   const std::string manual = text_of("docs/eval.md"), table = text_of("docs/methods.md");
   const std::string head = "| method | lobes | arithmetic | qualities | derivatives | what it is |\n|---|---|---|---|---|---|\n";

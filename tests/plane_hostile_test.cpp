@@ -1,4 +1,4 @@
-// Files that ask for much: each is drawn small within a few seconds and a gigabyte, or refused with what raises the limit.
+// Files that demand much: each is drawn small within a few seconds and a gigabyte, or refused with the option that raises the limit.
 #include <sys/resource.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ std::string repeated(const std::string& text, int count) {
   return all;
 }
 
-// Numbers that look random and are the same everywhere.
+// Numbers that appear random and are the same everywhere.
 double spread(int i, double range) { return range * std::fmod(i * 0.6180339887498949, 1.0); }
 
 const std::string kCurve = "<path id='shape' d='M0 0 C10 20 30 -10 20 15 C5 30 -10 10 0 0Z'/>";
@@ -61,7 +61,7 @@ std::string gradient(int stops) {
   return text + "</linearGradient></defs>";
 }
 
-// On a grid, one shape a cell.
+// Shapes on a grid, one per cell.
 template <class Shape>
 std::string grid(int count, Shape shape) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
@@ -81,7 +81,7 @@ std::string lights_among_shapes(int lights, int shapes) {
 
 class PlaneHostile : public Program {
  protected:
-  // Processor seconds: what is asked is 2, on a machine of one's own and with every optimisation; this allows for neither.
+  // The goal is 2 processor seconds on an otherwise idle machine with every optimisation. This limit assumes neither.
   void expect_bounded(const std::string& text, const std::vector<std::string>& more = {"--size", "64x48"}) {
     const std::string path = folder / "scene.svg";
     std::ofstream(path) << text;

@@ -163,7 +163,7 @@ TEST_F(Program, RenderOfAPlaneByFramesMovesAsTheDrawingDoes) {
   Outcome r = run({"render", svg, "-o", pattern, "--frames", "0..4", "--fps", "5"});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.err.find("not supported"), std::string::npos) << r.err;
-  // What is there stays, unless all is drawn anew.
+  // Existing frames stay, unless all are drawn again.
   const fs::path third = folder / "f_03.exr";
   fs::remove(third);
   std::ofstream(folder / "f_02.exr") << "not a picture";
@@ -215,13 +215,13 @@ TEST_F(Program, RenderOfAPlaneTakesEveryMethod) {
   };
   const double exact = mean("exact");
   EXPECT_GT(exact, 0);
-  // Of 1536 pixels with 64 stratified rays each: a ray's share of a pixel is 1/64, and errors average out.
+  // The estimate uses 1536 pixels with 64 stratified rays each: a ray's fraction of a pixel is 1/64, and errors average out.
   EXPECT_NEAR(mean("sampled") / exact, 1, 0.02);
   EXPECT_NEAR(mean("marched") / exact, 1, 0.02);
   const Outcome refused = run({"render", svg, "-o", folder / "par.exr", "--method", "par"});
   EXPECT_EQ(refused.status, 1) << "par knows no range";
   EXPECT_NE(refused.err.find("use exact"), std::string::npos) << refused.err;
-  // Where one light and nothing else stands, the heuristic is exact, but for who stands inside.
+  // If there is one light and nothing else, the heuristic is exact outside the light.
   std::ofstream(svg)
       << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 64'><circle cx='48' cy='32' r='9' class='light' fill='#fff'/></svg>";
   EXPECT_GT(mean("par"), 0);

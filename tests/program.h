@@ -1,4 +1,4 @@
-// Program: runs the program as a process, in a folder of its own.
+// Program: runs the program as a process, in a separate folder.
 #pragma once
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct Outcome {
   int status = -1;
   long peak_kib = 0;
-  double cpu_seconds = 0;  // of all its threads
+  double cpu_seconds = 0;  // sum over all its threads
   std::string out, err;
 };
 
@@ -40,19 +40,19 @@ class Program : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder); }
 
-  // Runs the program on the file `in` of the folder (made of `input`), out and err to files.
+  // Runs the program on the file `in` of the folder (written from `input`), with out and err to files.
   Outcome run(std::vector<std::string> arguments, const std::string& input = {}) {
     return run_limited(
         std::move(arguments), [] {}, input);
   }
 
-  // The same after `limit` was called in the new process: for setrlimit, chdir and the like.
+  // The same after calling `limit` in the new process: for setrlimit, chdir and the like.
   template <class Limit>
   Outcome run_limited(std::vector<std::string> arguments, Limit limit, const std::string& input = {}) {
     return finish(start(std::move(arguments), limit, input));
   }
 
-  // In two steps, for what happens while the program runs; `name` tells the streams of several programs apart.
+  // The same in two steps, for tests that act while the program runs. `name` distinguishes the streams of several programs.
   struct Child {
     pid_t pid;
     std::string name;

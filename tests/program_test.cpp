@@ -68,7 +68,7 @@ TEST_F(Program, EvalStreamsInConstantMemory) {
   const Outcome r = run({"eval"});
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 300000);
-#if !defined(__SANITIZE_ADDRESS__)  // which keeps freed memory
+#if !defined(__SANITIZE_ADDRESS__)  // a sanitizer keeps freed memory
   EXPECT_LT(r.peak_kib, 64 * 1024);
 #endif
 }
@@ -119,7 +119,7 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
   const Outcome listed = run({"bench", "--list", "--filter", "kernel/l"});
   EXPECT_NE(listed.out.find("kernel/lambert"), std::string::npos) << listed.err;
   EXPECT_EQ(listed.out.find(' '), std::string::npos) << listed.out;
-  // A misspelt name is answered by the nearest, one a line, not by all of them.
+  // The answer to a misspelt name lists the nearest names, one per line, not all of them.
   const Outcome misspelt = run({"bench", "--filter", "kernal/lamber"});
   EXPECT_EQ(misspelt.status, 1);
   EXPECT_NE(misspelt.err.find("the nearest are\n  kernel/lambert"), std::string::npos) << misspelt.err;
@@ -127,7 +127,7 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
   EXPECT_EQ(std::count(misspelt.err.begin(), misspelt.err.end(), '\n'), 14) << misspelt.err;
   std::istringstream lines(misspelt.err);
   for (std::string line; std::getline(lines, line);) EXPECT_LT(line.size(), 120u) << line;
-  // Against itself nothing is a thousand times slower; against a thousandth of its time everything is above 100.
+  // Compared with itself nothing is a thousand times slower. Compared with a thousandth of its time everything is above 100.
   const std::string base = folder / "base.json";
   std::ofstream(base) << r.out;
   const std::vector<std::string> again = {"bench", "--filter", "kernel/l", "--min-time", "0.01", "--compare", base, "--fail-above"};

@@ -1,4 +1,4 @@
-// `steradian render` and `diff` as processes: pictures, statistics, exit codes, nothing half written.
+// `steradian render` and `diff` as processes: pictures, statistics, exit codes, no half-written files.
 #include <nlohmann/json.hpp>
 
 #include "program.h"
@@ -134,7 +134,7 @@ TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
   EXPECT_EQ(run({"render", floor_scene(), "-o", exr, "--environment", "no_such.hdr"}).status, 1);
 }
 
-// A white Lambertian surface as measured: its table answers as Lambert's lobe does, in closed form.
+// A measured white Lambertian surface: its table gives the closed form of Lambert's lobe.
 TEST_F(Program, FitsSamplesToATableThatEvalReads) {
   const std::string samples = folder / "white.txt", table = folder / "white.json", wrong = folder / "wrong.txt";
   std::ofstream text(samples);
@@ -185,7 +185,7 @@ TEST_F(Program, ATableOfOnesOwnTakesThePlaceOfTheShippedOne) {
   EXPECT_GT(off, 1e-5) << "the table is read";
   EXPECT_LT(off, 0.2) << "8 x 8 nodes in place of 64 x 64 of the same lobe";
 
-  // Twice the magnitudes: twice the specular light, and the diffuse light as it was.
+  // Twice the magnitudes give twice the specular light, and the same diffuse light.
   json doubled = json::parse(contents(table));
   for (json& node : doubled["magnitude"])
     for (int i : {0, 1}) node[static_cast<std::size_t>(i)] = 2 * node[static_cast<std::size_t>(i)].get<double>();
@@ -320,9 +320,9 @@ TEST_F(Program, DiffMeasuresAndFailsAboveALimit) {
   EXPECT_EQ(run({"diff", b, a, "--fail-above", "relative_l2=0.49"}).status, 1);
 }
 
-// The error of methods without sampling against the converged reference: alpha 0.09, F = 1. The closed form is good to
-// 0.004 (docs/ggx.md), the tables to 0.02 (docs/ltc.md); the reference itself to its target of 0.02, estimated from a
-// pilot and thus itself uncertain by a quarter. Independent errors add in squares.
+// The error of methods without sampling against the converged reference: alpha 0.09, F = 1. The closed form is accurate to 0.004
+// (docs/ggx.md), the tables to 0.02 (docs/ltc.md). The reference itself is accurate to its target of 0.02, which is estimated from a pilot
+// and thus uncertain by a quarter. Independent errors add in squares.
 TEST_F(Program, GlossyMethodsAreNearTheReference) {
   const std::string reference = folder / "reference.exr";
   ASSERT_EQ(run({"render", glossy_scene(), "-o", reference, "--size", "48x27", "--method", "reference", "--target-error", "0.02"}).status,

@@ -1,4 +1,4 @@
-// All tests of a process share one Vulkan device, and so the pipelines that it has made.
+// All tests of a process share one Vulkan device, and so its pipelines.
 #include <gtest/gtest.h>
 
 #include <optional>

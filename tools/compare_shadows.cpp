@@ -1,5 +1,5 @@
-// compare_shadows FILE.svg [POINTS]: soft shadows by pieces, by clipping, by counts at places and by rays, as docs/shadows.md has them: the
-// tables on standard output, the picture of error over time in the file.
+// compare_shadows FILE.svg [POINTS]: soft shadows by pieces, by clipping, by counts at places and by rays, for docs/shadows.md. The tables
+// go to standard output, the picture of error over time to the file.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,7 +29,7 @@ moment::Curve curve_of(const std::vector<ShadowScene>& scenes, const std::string
   for (const std::size_t row : rows)
     curve.points.emplace_back(std::log10(geometric_mean(scenes, row, [](const ShadowRow& r) { return r.microseconds; })),
                               std::log10(geometric_mean(scenes, row, [](const ShadowRow& r) { return std::max(r.rms, 1e-8); })));
-  // A single row as a little cross.
+  // A single row is drawn as a little cross.
   if (rows.size() == 1) {
     const auto [x, y] = curve.points[0];
     curve.points = {{x - 0.06, y}, {x + 0.06, y}, {x, y}, {x, y - 0.15}, {x, y + 0.15}};

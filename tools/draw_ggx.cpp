@@ -93,7 +93,7 @@ void draw_warp(const std::string& name) {
     const double total = arc.sweep.x.v + arc.sweep.y.v;
     const int count = 1 + (total >= 0.25) + (total >= 0.8) + (total >= 1.6);
 
-    // Right: the edge in the plane of tau, the poles, and the angles under which they see it.
+    // Right: the edge in the plane of tau, the poles, and the angles under which the edge appears from them.
     const double px = 520 + 230.0 * static_cast<double>(n % 2), py = 60 + 230.0 * static_cast<double>(n / 2), w = 210, h = 190;
     const double span = 4.6, x0 = px + w / 2, y0 = py + h - 25, scale = w / span;
     const auto plane = [&](double x, double y) { return std::array<double, 2>{x0 + scale * x, y0 - scale * y}; };
@@ -171,7 +171,7 @@ void draw_error(const std::string& name) {
       if (p == 0) svg.text(px - 34, y + 24, format("%.2f", roughness[r]), "font-size:11px");
       for (std::size_t v = 0; v < views.size(); ++v) {
         const double x = px + cell * static_cast<double>(v), e = error[r * views.size() + v][p];
-        // From white at 1e-4 over yellow to dark red at 1.
+        // Colours from white at 1e-4 over yellow to dark red at 1.
         const double t = std::fmin(std::fmax((std::log10(e) + 4) / 4, 0), 1);
         svg.body << format("<rect x=\"%.1f\" y=\"%.1f\" width=\"38\" height=\"38\"", x, y)
                  << format(" fill=\"rgb(%.0f,%.0f,%.0f)\"/>\n", 255 - 110 * std::fmax(2 * t - 1, 0), 255 - 215 * t,

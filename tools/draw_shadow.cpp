@@ -1,5 +1,6 @@
-// draw_shadow FILE.svg: what one point sees of a light behind two boxes, in four steps, as docs/shadows.md shows it: the segments with
-// their weights, the counts of the regions between them, the levels with the ray that decides, and the pieces of the visible part.
+// draw_shadow FILE.svg: a point's view of a light behind two boxes, in four steps, for docs/shadows.md. Steps one and two are the segments
+// with their weights and the counts of the regions between them. Steps three and four are the levels with the ray that decides and the
+// pieces of the visible part.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -35,7 +36,7 @@ class Panel {
   static double height(const LightFrame& frame) { return kTitle + kWidth * frame.box_y / frame.box_x; }
   static constexpr double kWidth = 380, kTitle = 14;
 
-  // The region within closed chains of pieces.
+  // Fills the region within closed chains of pieces.
   void fill(std::vector<Boundary> rest, const char* colour) {
     print("<path fill=\"%s\" fill-rule=\"evenodd\" d=\"", colour);
     while (!rest.empty()) {
@@ -82,7 +83,7 @@ class Panel {
   const LightFrame& frame_;
 };
 
-// The boundary of what has a count of at most `level`.
+// The boundary of the region whose count is at most `level`.
 std::vector<Boundary> region_of(const std::vector<Piece>& pieces, std::int32_t level) {
   std::vector<Boundary> result;
   for (const Piece& p : pieces) {
@@ -105,7 +106,7 @@ double clearance(const SegmentSet& set, double cx, double cy) {
   return room;
 }
 
-// A place on the light, and its count.
+// A place on the light, with its count and its distance from the segments.
 struct Counted {
   double x, y, room;
   std::int32_t count;
@@ -170,7 +171,7 @@ int main(int argc, char** argv) {
     for (auto level = levels.rbegin(); level != levels.rend(); ++level)
       panel.fill(region_of(scratch.pieces, *level), shades[std::min(--shade, std::size_t{3})]);
     panel.segments(scratch.set, 1);
-    // Where there is most room, not twice in one neighbourhood.
+    // Labels go to the places with the most space, at most one per neighbourhood.
     std::vector<Counted> said;
     for (const Counted& place : places) {
       const bool near = std::any_of(said.begin(), said.end(), [&](const Counted& c) {

@@ -31,7 +31,7 @@ std::vector<Quad> fit(const std::function<Quad(Quad)>& f, int degree) {
   }
   for (int order = 1; order < n; ++order)
     for (int i = n - 1; i >= order; --i) divided[i] = (divided[i] - divided[i - 1]) / (node[i] - node[i - order]);
-  // Newton form to monomials.
+  // Converts the Newton form to monomials.
   std::vector<Quad> c(n, 0);
   for (int i = n - 1; i >= 0; --i) {
     for (int k = n - 1; k > 0; --k) c[k] = c[k - 1] - node[i] * c[k];
@@ -55,7 +55,7 @@ std::string number(Quad x) {
   char text[64];
   std::snprintf(text, sizeof text, "%.17g", static_cast<double>(x));
   std::string s = text;
-  if (s.find('e') != std::string::npos) {  // the dialect has plain decimals only
+  if (s.find('e') != std::string::npos) {  // the dialect only has plain decimals
     std::snprintf(text, sizeof text, "%.25f", static_cast<double>(x));
     s = text;
   }
@@ -82,7 +82,7 @@ std::string function(const char* name, const char* variable, const std::function
   return out.str();
 }
 
-// acos(1 - t) / sqrt(1 - (1 - t)^2), by its series where the quotient is 0/0.
+// acos(1 - t) / sqrt(1 - (1 - t)^2), by its series near 0/0.
 Quad angle_over_sine(Quad t) {
   if (t < 1e-12Q) return 1 + t / 3 + 2 * t * t / 15;
   return acosq(1 - t) / sqrtq(t * (2 - t));

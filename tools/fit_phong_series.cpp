@@ -4,12 +4,11 @@
 //   fit_phong_series                 prints the two functions as they stand in the kernel file, and their errors
 //   fit_phong_series --check FILE    exit 0 when FILE holds exactly these functions, 1 when it does not
 //
-// E depends on two numbers: kap2 = 1 - c^m in (0, 1) and g = 1/m in (0, 1/2]. At every node of a grid over both, its
-// harmonics come from the trapezoidal rule, which is exact to rounding for a smooth periodic function, and amplitudes
-// b_k of the few harmonics kept from least squares on the integral of E from the foot, which is what an edge needs:
-// the harmonics left out are partly made good by b_0. Then each b_k / (1 - kap2) is fitted by a polynomial in kap2
-// and g. A node counts by about kap, the factor of E in the integral, and more for large exponents, which are rare in
-// g; the powers in fit() gave the smallest errors on lights among a dozen tried.
+// E depends on two numbers: kap2 = 1 - c^m in (0, 1) and g = 1/m in (0, 1/2]. At every node of a grid over both, its harmonics come from
+// the trapezoidal rule, which is exact to rounding for a smooth periodic function. The amplitudes b_k of the few harmonics that stay come
+// from least squares on the integral of E from the foot, which is what an edge needs. So b_0 partly compensates the dropped harmonics. Then
+// each b_k / (1 - kap2) is fitted by a polynomial in kap2 and g. The weight of a node is about kap, the factor of E in the integral. It is
+// larger for large exponents, which are rare in g. The powers in fit() gave the smallest errors on lights among a dozen tried.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -46,7 +45,7 @@ Long factor(const Node& p, Long u) {
 
 // E - 1 = b_0 + sum_k b_k cos 2ku.
 std::vector<Long> harmonics(const Node& p, int highest) {
-  static const std::vector<Long> cosine = [] {  // of pi j / kSamples, over two turns
+  static const std::vector<Long> cosine = [] {  // cosines of pi j / kSamples, over two turns
     std::vector<Long> table;
     for (int j = 0; j < 2 * kSamples; ++j) table.push_back(std::cos(kPi * j / kSamples));
     return table;
@@ -99,7 +98,7 @@ std::vector<Long> solve(std::vector<std::vector<Long>> rows) {
   return x;
 }
 
-// The amplitudes b_0..b_highest with which the integral of E from the foot to u is closest, over all u.
+// The amplitudes b_0..b_highest that approximate the integral of E from the foot to u best, over all u.
 std::vector<Long> amplitudes(const Node& p, int highest) {
   const std::vector<Long> all = harmonics(p, 40);
   std::vector<std::vector<Long>> rows;
@@ -145,7 +144,7 @@ Series fit(int highest, int powers) {
   return series;
 }
 
-// Largest error of the integral from the foot to any u, over the full lobe's 2 pi.
+// Largest error of the integral from the foot to any u, relative to the full lobe's 2 pi.
 Long worst_half_edge(const Series& series) {
   Long worst = 0;
   for (int a = 1; a < 60; ++a)

@@ -1,6 +1,6 @@
-// judge_shadows [--size WIDTHxHEIGHT] [--error E] [--studio] FILE...: pictures of glTF files with shadows against `reference`, pixel by
-// pixel: the share of pixels that the test accepts, and the worst of the others. --studio adds the studio's area lights, for files without
-// lights of their own.
+// judge_shadows [--size WIDTHxHEIGHT] [--error E] [--studio] FILE...: compares pictures of glTF files with shadows with `reference`, pixel
+// by pixel. It prints the fraction of pixels that the test accepts, and the worst of the others. --studio adds the studio's area lights,
+// for files without lights.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -33,7 +33,7 @@ void judge(const std::string& file, const LoadOptions& load, RenderOptions optio
   options.method = "auto";
   options.shadows = Shadows::off;
   image::add_variance_of_rare_samples(reference, render(scene, options));
-  // What no picture shows.
+  // A variance too small to be visible in any picture.
   double squares = 0;
   for (const Vec3f p : reference.pixels) squares += static_cast<double>(dot(p, p)) / static_cast<double>(reference.pixels.size());
   const auto unseen = static_cast<float>(1e-10 * squares);
@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
   RenderOptions options;
   options.width = 96;
   options.height = 72;
-  double error = 0.03;  // of a lobe's method in a penumbra
+  double error = 0.03;  // error of a lobe's method in a penumbra
   LoadOptions load;
   bool any = false;
   for (int i = 1; i < argc; ++i) {

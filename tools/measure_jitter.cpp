@@ -1,9 +1,9 @@
-// measure_jitter SCENE [FRAMES]: how much the bounce's own error changes from frame to frame of a moving camera, at silhouettes and
-// elsewhere, with the filter and without it; the table of docs/indirect.md.
+// measure_jitter SCENE [FRAMES]: measures the change of the bounce's own error from frame to frame of a moving camera, at silhouettes and
+// elsewhere, with the filter and without it. Writes the table of docs/indirect.md.
 //
-// The camera moves sideways by a quarter of a pixel a frame. Each frame's error is its difference from the sum of all virtual lights
-// at every pixel, so that what the motion itself changes does not count; the jitter is the mean absolute change of an error from a frame
-// to the next, over the mean light. A pixel is at a silhouette where a neighbour sees another mesh, or a normal 26 degrees off.
+// The camera moves sideways by a quarter of a pixel a frame. Each frame's error is its difference from the sum of all virtual lights at
+// every pixel, so that changes from the motion itself do not count. The jitter is the mean absolute change of an error from one frame to
+// the next, over the mean light. A pixel is at a silhouette if a neighbour shows another mesh, or a normal 26 degrees off.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
   Scene scene = load_scene(argv[1]).scene;
   const int frames = argc > 2 ? std::atoi(argv[2]) : 120;
   const RayScene rays(scene);
-  // A pixel's width at the middle of what is seen.
+  // A pixel's width at the surface in the middle of the picture.
   const Camera first = scene.cameras[0];
   RTCRayHit middle;
   const CameraRays camera(first, kWidth, kHeight);

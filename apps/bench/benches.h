@@ -1,4 +1,4 @@
-// Every bench of `steradian bench`: one file a topic, one line here.
+// The benches of `steradian bench`: one file per topic, one line here.
 #pragma once
 
 #include "bench/run.h"
@@ -6,7 +6,7 @@
 
 namespace steradian::bench {
 
-// Where frames are made; device: as RenderOptions::device.
+// The back end that renders frames; device: as RenderOptions::device.
 struct Where {
   Backend backend = Backend::cpu;
   std::string device;
@@ -28,7 +28,7 @@ void add_indirect(BenchList& list);
 void add_indirect_frames(BenchList& list, const Where& where);
 void add_shadow(BenchList& list);
 
-// Of a Vulkan device: frames, under the names of the CPU's with the prefix vulkan/.
+// All benches. For a Vulkan device only frames, under the CPU's names with the prefix vulkan/.
 inline BenchList all_benches(const Where& where = {}) {
   BenchList list;
   if (where.backend == Backend::vulkan) {

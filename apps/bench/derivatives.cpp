@@ -1,5 +1,5 @@
-// kernel/{lambert,phong,ggx,ltc}/quad/double and .../derivatives: what a quad sends, in double, without and with its derivatives
-// by vertices and point (of lambert: by the normal too). The ratio of the two is what derivatives cost.
+// kernel/{lambert,phong,ggx,ltc}/quad/double and .../derivatives: the radiance of a quad in double, without and with its derivatives by
+// vertices and point (for lambert by the normal too). The ratio of the two is the cost of derivatives.
 #include <functional>
 #include <memory>
 
@@ -20,7 +20,7 @@ PolygonLight quad() {
 
 ShadingPoint at(std::size_t i) { return {{1e-3 * static_cast<double>(i), 0.1, 0.0}, {0, 0, 1}, normalized(Vec3d{0.3, 0.2, 0.9})}; }
 
-// The sum over the points of a number that nothing but `evaluate` makes.
+// Sums over the points a number that only `evaluate` computes.
 void add(BenchList& list, const std::string& name, const std::function<double(const ShadingPoint&)>& evaluate) {
   list.add(name, [name, evaluate](const BenchOptions&) -> Bench {
     return {name, kPoints, "scalar", [evaluate] {

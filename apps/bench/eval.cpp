@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kQueries = 1000;
 
 struct Stream {
-  std::vector<std::string> lines;  // each with room behind its end
+  std::vector<std::string> lines;  // each with padding behind its end
   std::string answers;
   eval::QueryReader reader;
 };

@@ -1,4 +1,4 @@
-// A floor that fills the picture, its materials, and quads above it: what frames are timed on.
+// The scene that frames are timed on: a floor that fills the picture, its materials, and quads above it.
 #pragma once
 
 #include "scene/test_meshes.h"
@@ -6,9 +6,9 @@
 
 namespace steradian::bench {
 
-inline constexpr double kFloorHalf = 8;  // of the floor's side [m]
+inline constexpr double kFloorHalf = 8;  // half of the floor's side [m]
 
-// It covers the whole picture.
+// The floor covers the whole picture.
 inline Scene floor_scene() { return scene::floor_scene({}, static_cast<float>(kFloorHalf), {0, 3, 4}, 0.6); }
 
 inline SurfaceMaterial diffuse() {

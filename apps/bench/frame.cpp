@@ -1,12 +1,12 @@
 // frame/...: whole pictures, with the time of every pass.
 //
-//   frame/direct/METHOD/1080p   a floor that fills the picture under one quad light; diffuse for `exact`, with a GGX lobe
-//                               on top for the others. The lighting is the passes `direct` and `specular`.
-//   frame/gallery/METHOD/720p   the gallery's direct light without shadows
-//   frame/moved/METHOD/SIZE     the same after its polygons have moved, with what RenderCache keeps, and all that makes a picture ready
-//   frame/rays/arcade/1080p     primary rays of the colonnade alone
+// frame/direct/METHOD/1080p   a floor that fills the picture under one quad light; diffuse for `exact`, with a GGX lobe
+//                            on top for the others. The lighting is the passes `direct` and `specular`.
+// frame/gallery/METHOD/720p   the gallery's direct light without shadows
+// frame/moved/METHOD/SIZE     the same after its polygons have moved, with the contents of RenderCache, including all preparation
+// frame/rays/arcade/1080p     primary rays of the colonnade alone
 //
-// On a Vulkan device the same, but for the rays, under vulkan/frame/...
+// On a Vulkan device the same benches except the rays run under vulkan/frame/...
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -95,7 +95,7 @@ struct Rays {
   }
 };
 
-// Made by the build, beside the program's folder.
+// The build writes this file beside the program's folder.
 std::filesystem::path arcade() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -107,7 +107,7 @@ Bench rays(const std::string& name, int threads) {
   return {name, std::size_t{kWidth} * kHeight, "", [work] { work->call(); }, false, {}};
 }
 
-// One thread, and two under a name of its own.
+// Adds a bench for one thread, and one for two threads under a separate name.
 void add(BenchList& list, const std::string& name, const std::function<Bench(const std::string&, int)>& make) {
   for (const int threads : {1, 2}) {
     const std::string one = threads == 1 ? name : name + "/threads=" + std::to_string(threads);
@@ -120,7 +120,7 @@ void add(BenchList& list, const std::string& name, const std::function<Bench(con
 void add_frame(BenchList& list, const Where& where) {
   const bool on_cpu = where.backend == Backend::cpu;
   const std::string prefix = on_cpu ? "frame/" : "vulkan/frame/";
-  // A device has threads of its own: one name, and all of the host's.
+  // A device has its own threads, so there is one name, with all threads of the host.
   const auto add_by = [&](const std::string& name, auto make) {
     if (on_cpu)
       add(list, prefix + name, make);

@@ -1,5 +1,5 @@
-// A whole picture as a bench: it is rendered again and again, and its passes are medians over the calls. A Vulkan device and its pipelines
-// stay from call to call.
+// A whole picture as a bench. It is rendered repeatedly, and its passes are medians over the calls. A Vulkan device and its pipelines stay
+// from call to call.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace steradian::bench {
 
-// A scene, what to do with it, and the passes of every call so far.
+// A scene, its render options, and the passes of every call so far.
 struct Frame {
   Scene scene;
   RenderOptions options;
   std::vector<std::string> order;
   std::map<std::string, std::vector<double>> passes;
-  RenderCache cache = {};  // keeps the Vulkan device and its pipelines
+  RenderCache cache = {};  // holds the Vulkan device and its pipelines
 
   Picture rendered(RenderStats& stats) {
     return options.backend == Backend::cpu ? render(scene, options, &stats) : render(scene, options, cache, &stats);
@@ -47,7 +47,7 @@ struct Frame {
   }
 };
 
-// Without a scene yet.
+// A frame without a scene.
 inline std::shared_ptr<Frame> frame_on(const Where& where, int threads) {
   auto frame = std::make_shared<Frame>();
   frame->options.backend = where.backend;
@@ -58,7 +58,7 @@ inline std::shared_ptr<Frame> frame_on(const Where& where, int threads) {
 
 inline Bench bench_of(const std::string& name, std::shared_ptr<Frame> frame) {
   const auto pixels = static_cast<std::size_t>(frame->options.width) * static_cast<std::size_t>(frame->options.height);
-  // Not pinned: it is for all cores.
+  // Not pinned, because it uses all cores.
   return {name, pixels, name_of(active_simd()), [frame] { frame->call(); }, false, [frame] { return frame->medians(); }};
 }
 

@@ -1,5 +1,5 @@
-// kernel/closed-form/quad and its draft and high qualities, and the other ways to GGX, Beckmann and Blinn-Phong lobes: one quad on
-// 16,384 pixels of a floor seen at a slant.
+// kernel/closed-form/quad and its draft and high qualities, and the other methods for GGX, Beckmann and Blinn-Phong lobes: one quad on
+// 16,384 pixels of a floor viewed at a slant.
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -30,8 +30,8 @@ struct Floor {
   }
 };
 
-// A floor of 8 by 8 m with gentle waves in its normals, an eye 2 m above its edge, an upright quad that dips below it, and
-// roughness from 0.1 to 0.85 from left to right. Pixels come in blocks of 4 by 4, as the renderer's tiles have them.
+// A floor of 8 by 8 m with gentle waves in its normals, and an upright quad that dips below it. The eye is 2 m above the floor's edge. The
+// roughness rises from 0.1 to 0.85 from left to right. Pixels come in blocks of 4 by 4, as in the renderer's tiles.
 std::shared_ptr<Floor> make_floor() {
   auto floor = std::make_shared<Floor>();
   for (int slot = 0; slot < kSide * kSide; ++slot) {

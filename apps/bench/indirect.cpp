@@ -1,7 +1,7 @@
-// indirect/pair/{ltc,ltc-schlick,ggx}: one pair of a receiver and a virtual light, a diffuse and a glossy lobe at each end,
-// nothing culled; 1024 receivers times 512 lights, GGX by kernels/lobe/microfacet.glsl.
-// indirect/frame/{ltc,ggx}/N: 1080p of scenes/ring.glb with N virtual lights, both on the same lists; all threads, with
-// the time of every pass. Virtual lights are points in both (no quads), so that only the pair differs. On a Vulkan device under
+// indirect/pair/{ltc,ltc-schlick,ggx}: one pair of a receiver and a virtual light, with a diffuse and a glossy lobe at each end and without
+// culling; 1024 receivers times 512 lights, GGX by kernels/lobe/microfacet.glsl.
+// indirect/frame/{ltc,ggx}/N: 1080p of scenes/ring.glb with N virtual lights, both on the same lists; all threads, with the time of every
+// pass. Virtual lights are points in both (no quads), so that only the pair differs. On a Vulkan device the benches are under
 // vulkan/indirect/frame/..., without shadows.
 #include <cmath>
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace indirect;
 
-// Surfaces of a box' lower half seen from its middle, and virtual lights on its upper half.
+// Surfaces on the lower half of a box, viewed from its middle, and virtual lights on its upper half.
 struct Pairs {
   static constexpr std::size_t kReceivers = 1024, kLights = 512;
   Receivers receivers;

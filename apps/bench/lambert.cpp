@@ -1,5 +1,5 @@
-// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, all of which see the quad only in part; the same of a
-// sphere and a capsule.
+// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, all of which see the quad only in part. The same for a sphere
+// and a capsule.
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -46,7 +46,7 @@ std::shared_ptr<Floor> make_floor() {
   return floor;
 }
 
-// A ball and a tube where the quad is.
+// A ball and a tube at the quad's place.
 const Vec3d kCenter{0, 0.5, -0.6}, kHalf{1, 0.1, 0};
 const Ellipsoid kBall = {kCenter, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}};
 const Capsule kTube = {kCenter - kHalf, kCenter + kHalf, 0.1};
@@ -55,7 +55,7 @@ PackLight pack_light(const Shape& shape) {
   Scene scene;
   scene.area_lights = {AreaLight{shape}};
   PackLight result = prepare_lights(scene).front();
-  result.area = nullptr;  // goes with the scene; the irradiance does not ask for it
+  result.area = nullptr;  // belongs to the scene; the irradiance does not need it
   return result;
 }
 

@@ -1,5 +1,5 @@
-// kernel/ltc/quad, kernel/ltc-high/quad (Fresnel by a lobe of its own), kernel/ltc-compact/quad: both lobes of one quad on 16,384 pixels of
-// a floor that gets rougher away from the eye, decoding included; most pixels see the whole quad. fit/ggx/64: the fitter.
+// kernel/ltc/quad, kernel/ltc-high/quad (Fresnel by a separate lobe), kernel/ltc-compact/quad: both lobes of one quad on 16,384 pixels of a
+// floor that gets rougher away from the eye, decoding included. Most pixels see the whole quad. fit/ggx/64: the fitter.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -70,7 +70,7 @@ void add(BenchList& list, const std::string& name, Run LtcPackTable::*run, LtcPa
   }
 }
 
-// The whole fit of the shipped table's size; items are its cells.
+// The whole fit of the shipped table's size; items are the table's cells.
 Bench make_fit(int threads) {
   FitOptions fit;
   fit.threads = threads;

@@ -1,4 +1,4 @@
-// steradian-bench: the times of the integrals on this machine; `steradian bench` starts it.
+// steradian-bench: measures the times of the integrals on this machine. `steradian bench` starts it.
 #include "bench/run.h"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ struct Options {
   double slower = 0;
 };
 
-// The published comparison of Phong area lights, made again.
+// Repeats the published comparison of Phong area lights.
 void print_table2(const Options& options) {
   moment::Table2Options table;
   table.min_time = options.min_time < 0.5 ? options.min_time : 0.05;
@@ -79,7 +79,7 @@ std::vector<BenchResult> run(const Options& options) {
   return results;
 }
 
-// How many times faster than the scalar form of the same bench, if that ran too: "8.3 x scalar".
+// The speed-up over the scalar form of the same bench, if that ran too: "8.3 x scalar".
 std::string against_scalar(const std::vector<BenchResult>& results, const BenchResult& r) {
   for (const BenchResult& other : results) {
     constexpr std::string_view kScalar = "/scalar";
@@ -99,7 +99,7 @@ void print_table(const std::vector<BenchResult>& results) {
   }
 }
 
-// What `bench --json` wrote before: median of a call by name.
+// Reads an earlier output of `bench --json`: the median of a call by name.
 std::map<std::string, double> read_base(const std::string& path) {
   Budget budget{Limits{}};
   const Bytes bytes = read_file(path, path, budget);
@@ -114,7 +114,7 @@ std::map<std::string, double> read_base(const std::string& path) {
   return base;
 }
 
-// Beside what was measured before, name by name; the geometric mean of the ratios last. False where one is above the limit.
+// Prints the results beside an earlier run, name by name, with the geometric mean of the ratios last. False if a ratio is above the limit.
 bool print_ratios(const std::vector<BenchResult>& results, const std::map<std::string, double>& base, double limit) {
   fmt::print("{:<40} {:>12} {:>12} {:>8}\n", "bench", "ns/item", "before", "ratio");
   double logs = 0;

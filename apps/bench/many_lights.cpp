@@ -1,4 +1,4 @@
-// frame/lights/...: pictures under many lights, added up as `--lights auto` does; with /all behind it, one by one.
+// frame/lights/...: pictures under many lights, summed as `--lights auto` does; with the suffix /all one by one.
 //
 //   frame/lights/N               a diffuse floor under N quads at 320 x 180
 //   frame/lights/hall/N          a diffuse hall of 40 x 10 x 60 m with N small rectangles below its ceiling, on its walls and above its
@@ -6,9 +6,9 @@
 //   frame/lights/balls/N         the same with 24 balls in it
 //   frame/lights/near/H/N        the hall's floor under N rectangles that face it from H metres above
 //   frame/lights/METHOD/N        the hall of a metal of roughness 0.4
-//   frame/lights/shadowed/N      the hall with shadows, at 480 x 270: nothing stands before its lights
+// frame/lights/shadowed/N      the hall with shadows, at 480 x 270; nothing occludes its lights
 //
-// On a Vulkan device one by one, under vulkan/frame/...
+// On a Vulkan device lights are summed one by one, under vulkan/frame/...
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -38,9 +38,9 @@ std::vector<AreaLight> ceiling(int count) {
   return lights;
 }
 
-// What the hall is lit by: 70 of 100 near the ceiling, tilted up to 29 degrees, 20 on walls, 10 lamps of any direction.
+// A random light of the hall: 70 of 100 near the ceiling, tilted up to 29 degrees, 20 on walls, 10 lamps of any direction.
 AreaLight hall_light(std::mt19937& random, double size) {
-  // Not std::uniform_real_distribution, whose numbers are the library's choice.
+  // std::uniform_real_distribution is avoided, because its numbers depend on the library.
   const auto uniform = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random()) / 4294967296.0); };
   const double kind = uniform(0, 1), z = uniform(-30, 30), a = size * uniform(0.5, 1.5), b = size * uniform(0.5, 1.5);
   Vec3d center{uniform(-20, 20), uniform(9, 9.9), z}, normal{uniform(-0.4, 0.4), -1, uniform(-0.4, 0.4)};
@@ -92,7 +92,7 @@ Scene hall_with_balls(int count) {
   return scene;
 }
 
-// On a grid over the whole floor.
+// Lights on a grid over the whole floor.
 Scene hall_lit_from(double height, int count) {
   Scene scene = empty_hall();
   const int across = static_cast<int>(std::ceil(std::sqrt(count / 1.5))), along = (count + across - 1) / across;
@@ -106,7 +106,7 @@ Scene hall_lit_from(double height, int count) {
   return scene;
 }
 
-// Nothing of them comes through the ceiling or a wall.
+// The lights keep clear of the ceiling and the walls.
 Scene hall_with_room(int count) {
   Scene scene = hall(count);
   scene.area_lights.clear();
@@ -126,7 +126,7 @@ Scene hall_with_room(int count) {
 void add_many_lights(BenchList& list, const Where& where) {
   const bool on_cpu = where.backend == Backend::cpu;
   const std::string prefix = on_cpu ? "frame/lights/" : "vulkan/frame/lights/";
-  // most: the largest count that is done one by one, which takes up to a minute a frame.
+  // most: the largest count that is summed one by one, which takes up to a minute per frame.
   const auto add = [&](const std::string& what, int count, int most, auto scene, auto change) {
     const std::pair<const char*, LightSum> sums[] = {{"", LightSum::automatic}, {"/all", LightSum::all}};
     for (const auto& [suffix, sum] : sums) {

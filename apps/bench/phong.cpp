@@ -1,5 +1,5 @@
-// kernel/{arvo,lorentzian,pearson,ellipsoid,series}/quad/n=N: a Phong plane under one upright quad, 16,384 pixels of
-// the published comparison's scene (`steradian bench --table2` has the whole of it).
+// kernel/{arvo,lorentzian,pearson,ellipsoid,series}/quad/n=N: a Phong plane under one upright quad, 16,384 pixels of the published
+// comparison's scene (`steradian bench --table2` runs the whole comparison).
 #include <memory>
 
 #include "benches.h"

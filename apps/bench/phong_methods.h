@@ -1,4 +1,4 @@
-// The methods for Phong lobes that benches time, under the names of their benches.
+// The methods for Phong lobes that the benches time, under the names of their benches.
 #pragma once
 
 #include <string>

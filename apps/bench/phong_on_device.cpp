@@ -1,5 +1,5 @@
-// vulkan/kernel/METHOD/{quad,star,triangle}/n=N: a Phong plane under one light, 1280 x 720 pixels on a Vulkan device, one item an edge of
-// a point; the passes are the device's own time for all edges and for one.
+// vulkan/kernel/METHOD/{quad,star,triangle}/n=N: a Phong plane under one light, 1280 x 720 pixels on a Vulkan device. One item is one edge
+// of one point. The passes are the device's own time for all edges and for one.
 #include "bench/phong_on_device.h"
 
 #include <algorithm>
@@ -33,8 +33,8 @@ std::vector<float> points_of(const moment::PhongPlane& plane) {
   return points;
 }
 
-// The corners in walk order, counter-clockwise about a direction in the light: as the lit side sees them, the other way round. Then the
-// normal.
+// The corners in walk order, then the normal. The order is counter-clockwise about a direction in the light, which is clockwise from the
+// emitting side.
 std::vector<float> corners_of(const moment::NamedLight& light) {
   std::vector<float> corners;
   Vec3d area;
@@ -60,7 +60,7 @@ struct PhongOnDevice::Parts {
     corners = std::make_unique<Buffer>(device, c.size() * sizeof(float), BufferUse::host_writes);
     corners->write(c.data(), c.size() * sizeof(float));
     results = std::make_unique<Buffer>(device, count * sizeof(float), BufferUse::host_reads);
-    // The best form of each fit: docs/moments.md.
+    // The best variant of each fit: docs/moments.md.
     const bool x = options.method == Method::lorentzian || options.method == Method::pearson;
     const auto edges = static_cast<std::int32_t>(light.corners.size());
     dispatch.pipeline = program.pipeline(0, {vulkan::phong_method(options), exponent, x ? 1 : 0, edges, 2 * edges + 2});

@@ -12,15 +12,15 @@ namespace steradian::bench {
 
 class PhongOnDevice {
  public:
-  // Throws Error where there is no such device.
+  // Throws Error if there is no such device.
   PhongOnDevice(const moment::PhongPlane& plane, const moment::NamedLight& light, int exponent, const PhongOptions& options,
                 const std::string& device);
   ~PhongOnDevice();
 
-  // Radiance at every point; the buffers stay from call to call.
+  // Radiance at every point. The buffers stay from call to call.
   void run();
   std::vector<float> radiance() const;
-  double device_ms() const;  // of the last run, by the device's clock; 0 where it has none
+  double device_ms() const;  // time of the last run by the device's clock; 0 if it has none
 
  private:
   struct Parts;

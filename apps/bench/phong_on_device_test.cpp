@@ -1,4 +1,4 @@
-// The CPU's packs judge the device: every method on every light of the published comparison.
+// Compares the device with the CPU's packs: every method on every light of the published comparison.
 #include "bench/phong_on_device.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@
 namespace steradian::bench::phong_on_device_test {
 namespace {
 
-// Both are float: the n-th power of a cosine that is off by a rounding is off by n roundings of either, and edges and atan by 1e-5 in all.
+// Both are float. If a cosine is off by one rounding, its n-th power is off by n roundings in either. Edges and atan are off by 1e-5 in
+// all.
 TEST(VulkanPhong, HasEveryMethodOfTheComparison) {
   if (vulkan::list_devices().empty()) GTEST_SKIP() << "no Vulkan device";
   const moment::PhongPlane plane = moment::make_phong_plane(64, 36);

@@ -1,12 +1,15 @@
-// plane/frame/LxB: 1080p frames of the plane, cold but for the picture's memory; plane/warm/LxB: with the scene prepared; plane/rays/LxB:
-// 64 rays a pixel over the grid, on every 97th pixel of a frame; plane/par/LxB and plane/marched/LxB: the published heuristic, and 64
-// marched rays, on up to 100 points of the frame, lights without their range; plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes;
+// plane/frame/LxB: 1080p frames of the plane, cold except for the picture's memory;
+// plane/warm/LxB: the same with the scene prepared;
+// plane/rays/LxB: 64 rays a pixel over the grid, on every 97th pixel of a frame;
+// plane/par/LxB and plane/marched/LxB: the published heuristic, and 64 marched rays, on up to 100 points of the frame, for lights without
+// range;
+// plane/drawing/SHAPE-EMISSION: 1080p of fifteen shapes;
 // plane/extras/WHAT: 640x360 of eight lamps and sixty boxes, some of which are glass, mirrors or stones, or under suns, or in fog;
 // plane/extras-move/WHAT: one of the boxes moves by 3.6 pixels, and a stage follows;
-// plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them; plane/bounce-lattice/N:
-// the same by a lattice, to 3e-3;
-// vulkan/plane/frame/LxB: plane/frame/LxB on a Vulkan device, all threads of the host;
-// plane/move/LxB and plane/move-lamp/LxB: a box, and a lamp, moves by 3.6 pixels, another one every time, and a 1080p stage follows.
+// plane/bounce/N: all bounces in a room of N boxes, one item an element; plane/bounce-frame/N: 1080p with them;
+// plane/bounce-lattice/N: the same by a lattice, to 3e-3;
+// vulkan/plane/frame/LxB: plane/frame/LxB on a Vulkan device, with all threads of the host;
+// plane/move/LxB and plane/move-lamp/LxB: a box, or a lamp, moves by 3.6 pixels, another one every time, and a 1080p stage follows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -102,7 +105,7 @@ Bench rays(const LightField& field) {
           }};
 }
 
-// At points of the frame, by a method that knows no range: the fewer the more pairs of light and box there are.
+// Evaluates points of the frame by a method without ranges. The more pairs of light and box, the fewer points.
 Bench points(LightField field, const char* name, PlaneMethod method) {
   const double pairs = static_cast<double>(field.lights) * field.boxes;
   const auto count = static_cast<std::size_t>(std::clamp(3e6 / pairs, 2.0, 100.0));
@@ -122,7 +125,7 @@ Bench points(LightField field, const char* name, PlaneMethod method) {
   return result;
 }
 
-// A closed room of boxes, four lamps in it.
+// A closed room of boxes with four lamps in it.
 PlaneScene room_of(int boxes) {
   PlaneScene scene = make_light_field({4, boxes, std::numeric_limits<double>::infinity(), 14, 30}, kSeed);
   for (PlaneBody& body : scene.bodies)

@@ -15,7 +15,7 @@ namespace {
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// This thread stays on its core until the end of the scope.
+// Pins this thread to its core until the end of the scope.
 class PinnedToOneCore {
  public:
   PinnedToOneCore() {
@@ -39,7 +39,7 @@ class PinnedToOneCore {
   bool pinned_ = false;
 };
 
-// A run is long enough for the clock not to count: 1 ms is 20,000 times its step.
+// A run is so long that the clock's resolution does not matter: 1 ms is 20,000 times its step.
 constexpr double kShortestRun = 1e-3;
 constexpr double kWarmUp = 0.05;
 
@@ -80,7 +80,7 @@ BenchResult measure(const Bench& bench, const BenchOptions& options) {
   return result;
 }
 
-// The library's worker threads take over the cores that their starter may run on, for good: they start before any is pinned.
+// The library's worker threads permanently inherit the cores on which their starter may run. So they start before any thread is pinned.
 void start_workers() {
   const int workers = tbb::info::default_concurrency();
   std::atomic<int> arrived{0};

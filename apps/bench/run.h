@@ -1,4 +1,4 @@
-// Benches: a body is run again and again on one core, and the median of the runs counts.
+// Benches: a body runs repeatedly on one core, and the median of the runs counts.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace steradian {
 struct BenchOptions {
   double min_time = 0.5;  // seconds of runs per bench
   int min_runs = 9;
-  Simd simd = active_simd();  // for what follows the active set
+  Simd simd = active_simd();  // for benches that follow the active set
 };
 
 // A part of a call.
@@ -22,18 +22,18 @@ struct BenchPass {
   double ms = 0;
 };
 
-// Anything that is to be measured: the closure holds the prepared data, a call does the work on all items once.
+// A measurable workload. The closure holds the prepared data; a call does the work on all items once.
 struct Bench {
   std::string name;   // "kernel/lambert/quad"
-  std::size_t items;  // of one call
-  std::string simd;   // the instruction set that runs, "scalar", or empty where none is chosen
+  std::size_t items;  // items per call
+  std::string simd;   // the instruction set that runs, "scalar", or empty if none is chosen
   std::function<void()> body;
-  bool one_core = true;                                 // pinned; false for frames on all threads
+  bool one_core = true;                                 // pinned to one core; false for frames on all threads
   std::function<std::vector<BenchPass>()> passes = {};  // medians of the calls so far; none: a call has no parts
-  bool once = false;                                    // takes seconds: one call, neither warmed up nor repeated
+  bool once = false;                                    // takes seconds: one call without warm-up or repetition
 };
 
-// What `steradian bench` can run. Data is made only when a bench is chosen by its name.
+// The benches that `steradian bench` can run. A bench's data is prepared only when its name is chosen.
 class BenchList {
  public:
   using Make = std::function<Bench(const BenchOptions&)>;
@@ -53,17 +53,17 @@ struct BenchResult {
   std::string name;
   std::size_t items = 0;
   double ns_per_item = 0;  // median
-  double median_ms = 0;    // of one call
+  double median_ms = 0;    // median time of one call
   double fastest_ms = 0;
   int runs = 0;
   std::string simd;
   std::vector<BenchPass> passes;
 };
 
-// Warms up, pins the thread to the core it is on, runs for at least min_time and min_runs; the pin is undone after.
+// Warms up, pins the thread to its current core, and runs for at least min_time and min_runs. Unpins the thread afterwards.
 BenchResult run_bench(const Bench& bench, const BenchOptions& options);
 
-// Keeps the compiler from dropping work whose result nobody reads.
+// Prevents the compiler from removing work whose result is not read.
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");

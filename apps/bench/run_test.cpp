@@ -25,12 +25,12 @@ TEST(Bench, MeasuresASleepAndPinsAndUnpinsTheThread) {
   EXPECT_EQ(CPU_COUNT(&during), 1);
   EXPECT_TRUE(CPU_EQUAL(&before, &after));
   EXPECT_GE(r.runs, options.min_runs);
-  EXPECT_GE(r.median_ms, 2.0);  // a sleep is never shorter than asked
+  EXPECT_GE(r.median_ms, 2.0);  // a sleep is never shorter than requested
   EXPECT_LE(r.fastest_ms, r.median_ms);
   EXPECT_DOUBLE_EQ(r.ns_per_item, 1e6 * r.median_ms / 10);
 }
 
-// A pinned bench that is the first to use all cores must not leave the workers on one.
+// A pinned bench may be the first to use all cores. It must not leave the workers on one core.
 TEST(Bench, LeavesTheWorkersTheirCores) {
   const auto narrowest = [] {
     std::atomic<int> least{1 << 30};

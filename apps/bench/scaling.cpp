@@ -1,5 +1,5 @@
-// How a picture's time grows: frame/pixels/WIDTHxHEIGHT under one quad, frame/triangles/N of a wavy floor, and
-// frame/textured/1080p, whose floor has a texture that lies farther than a texel a pixel for most of it.
+// Scaling of a picture's time: frame/pixels/WIDTHxHEIGHT under one quad, frame/triangles/N of a wavy floor, and frame/textured/1080p, whose
+// floor has a texture that is minified for most of its area.
 #include <cmath>
 #include <memory>
 
@@ -23,7 +23,7 @@ std::shared_ptr<Frame> floor_frame(int width, int height) {
   return frame;
 }
 
-// Low waves in place of the flat floor: as many triangles as a square grid has that has no more.
+// Low waves in place of the flat floor, with the largest square grid that has no more than that many triangles.
 Mesh waves(int triangles) {
   const int side = std::max(1, static_cast<int>(std::sqrt(triangles / 2)));
   Mesh mesh;
@@ -41,7 +41,7 @@ Mesh waves(int triangles) {
   return mesh;
 }
 
-// Squares of 32 texels, eight by eight to a picture, which lies 20 times across the floor.
+// Squares of 32 texels, eight by eight in a picture that repeats 20 times across the floor.
 void lay_squares(Scene& scene) {
   Image image{"squares", 256, 256, {}};
   for (int y = 0; y < 256; ++y)

@@ -1,5 +1,5 @@
 // shadow/frame/{objects,room,statue}: whole pictures at 1920 x 1080 with exact soft shadows of one quad light, on two threads. The pass
-// `shadows` is what they cost; /light=3 is the same under a light three times as wide and as deep.
+// `shadows` is their cost; /light=3 is the same under a light three times as wide and as deep.
 //
 //   objects   five balls and four tori on a floor: 46,656 triangles
 //   room      a closed room with a table, a shelf and two boxes, of 15 boxes: large triangles, few edges
@@ -54,7 +54,7 @@ Mesh torus(Vec3d center, double large, double small) {
   });
 }
 
-// side 1: seen from outside; -1: from inside.
+// side 1: the faces point outwards; -1: inwards.
 Mesh box(Vec3d low, Vec3d high, double side) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis)
@@ -62,7 +62,7 @@ Mesh box(Vec3d low, Vec3d high, double side) {
       const auto first = static_cast<std::uint32_t>(mesh.positions.size());
       for (int corner = 0; corner < 4; ++corner) {
         const double s = corner == 1 || corner == 2 ? 1 : -1, t = corner >= 2 ? 1 : -1;
-        const double turned = s * end * side;  // counter-clockwise from the side that is seen
+        const double turned = s * end * side;  // counter-clockwise from the visible side
         double c[3];
         c[axis] = end;
         c[(axis + 1) % 3] = turned;

@@ -118,7 +118,7 @@ Verb CommandLine::all() { return Verb(&parser_->app); }
 
 int CommandLine::run(int argc, char** argv) {
   CLI::App& app = parser_->app;
-  // A limit on file sizes is then an error of the write, with the file's name, and not the end of the process.
+  // Exceeding a limit on file sizes is then an error of the write, with the file's name, and does not end the process.
   std::signal(SIGXFSZ, SIG_IGN);
   if (parser_->has_verbs && argc >= 2 && argv[1][0] != '-' && argv[1][0] != '\0') {
     std::vector<std::string> verbs;

@@ -1,5 +1,5 @@
-// The command line: verbs, their options and the errors of wrong use. CLI11 stands behind it in verb.cpp alone, because its single header
-// costs every unit that includes it about fifteen seconds.
+// The command line: verbs, their options and usage errors. Only verb.cpp includes CLI11, because its single header costs every unit that
+// includes it about fifteen seconds.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class Option;
 
 namespace steradian::app {
 
-// Wrong use of an option: the command line prints "OPTION: MESSAGE" and exits with 2.
+// Wrong use of an option. The command line prints "OPTION: MESSAGE" and exits with 2.
 class WrongOption : public std::runtime_error {
  public:
   WrongOption(std::string option, const std::string& message) : std::runtime_error(message), option_(std::move(option)) {}
@@ -45,7 +45,7 @@ class VerbOption {
   VerbOption& range(int low, int high, const std::string& text = {});
   VerbOption& range(double low, double high, const std::string& text = {});
   VerbOption& range(std::uint64_t low, std::uint64_t high);
-  VerbOption& bytes();  // takes 500MB and 4GB
+  VerbOption& bytes();  // accepts 500MB and 4GB
   VerbOption& existing_file();
   VerbOption& existing_folder();
   // `problem` returns an empty text for a valid argument, else the message.
@@ -77,8 +77,8 @@ class Verb {
   VerbOption add(const std::string& name, std::uint64_t& value, const std::string& help);
   VerbOption add(const std::string& name, double& value, const std::string& help);
   VerbOption add_flag(const std::string& name, bool& value, const std::string& help);
-  void add_limits(Limits& limits);  // --max-memory and --max-work: the most that a file may take
-  // All arguments from the first that is no option of the verb, --help too.
+  void add_limits(Limits& limits);  // --max-memory and --max-work: the most that a file may use
+  // Takes all arguments from the first that is no option of the verb, including --help.
   void pass_on(std::vector<std::string>& arguments);
 
   bool given(const std::string& name) const;
@@ -116,7 +116,7 @@ class CommandLine {
   Exit exit_;
 };
 
-// The version of the library behind it, CLI11.
+// The version of CLI11, the library used.
 std::string command_line_library();
 
 }  // namespace steradian::app

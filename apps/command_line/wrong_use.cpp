@@ -7,8 +7,8 @@
 namespace steradian::app {
 namespace {
 
-// Insertions, deletions, replacements and swaps of neighbours that turn a word into each beginning of the other (optimal string alignment),
-// from the empty one to all of it.
+// Edit distances between a word and each prefix of the other, from the empty one to the whole word. Counts insertions, deletions,
+// replacements and swaps of neighbours (optimal string alignment).
 std::vector<std::size_t> edit_distances(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -38,7 +38,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 
 std::vector<std::string> nearest_beginnings(const std::string& word, std::vector<std::string> candidates, std::size_t most) {
   const std::string start = word.substr(0, 64);
-  std::vector<std::pair<std::size_t, std::size_t>> order;  // distance, place
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // distance, index
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const std::vector<std::size_t> distances = edit_distances(start, candidates[i]);
     order.emplace_back(*std::min_element(distances.begin(), distances.end()), i);

@@ -1,4 +1,4 @@
-// Messages for words that are not there: the nearest word, or the nearest names of a list.
+// Messages for unknown words: the nearest word, or the nearest names of a list.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 
 namespace steradian::app {
 
-// The candidate nearest to a misspelt word by edit distance, at most a third of the word away (and at least one letter);
-// empty where none is.
+// The candidate nearest to a misspelt word by edit distance, at most a third of the word away (and at least one letter); empty if there is
+// none.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
-// At most `most` of the candidates, first those whose beginnings are most like the word.
+// At most `most` of the candidates, those whose beginnings are most similar to the word first.
 std::vector<std::string> nearest_beginnings(const std::string& word, std::vector<std::string> candidates, std::size_t most);
 
-// The message for a first argument that is no verb of the program; empty where it is one.
+// The message for a first argument that is no verb of the program; empty if it is a verb.
 std::string unknown_verb(const std::string& word, const std::vector<std::string>& verbs);
 
 }  // namespace steradian::app

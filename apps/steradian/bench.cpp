@@ -1,4 +1,4 @@
-// steradian bench: starts the program steradian-bench, which stands beside this one.
+// steradian bench: starts the program steradian-bench in the same folder.
 #include <unistd.h>
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// The command that runs, as it was typed: for statistics.
+// The running command as it was typed, for statistics.
 #pragma once
 
 #include <fstream>
@@ -7,7 +7,7 @@
 
 namespace steradian::app {
 
-// Arguments joined by spaces; empty where the system does not tell (/proc is Linux's).
+// The arguments joined by spaces; empty if the system does not provide them (/proc exists on Linux only).
 inline std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(file)), {});

@@ -1,4 +1,4 @@
-// steradian compare SCENE --methods a,b,c -o DIR: every method against the reference, as pictures, numbers and a page.
+// steradian compare SCENE --methods a,b,c -o DIR: compares every method with the reference, as pictures, numbers and a page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,28 +34,28 @@ struct CompareArguments {
   RenderOptions render;
 };
 
-// What a method made of the scene.
+// The picture of a method, with its time and passes.
 struct Made {
   Picture picture;
   double ms = 0;
   std::vector<PassTime> passes;
 };
 
-// One setting of a method: its name, and how it is made.
+// One setting of a method: its name, and the function that renders it.
 struct Setting {
   std::string words;
   std::function<Made()> make;
 };
 
-// A scene of three dimensions or of the plane, as `compare` asks for it.
+// A scene in three dimensions or in the plane, in the form that `compare` needs.
 struct Subject {
   std::function<Made()> reference;
   std::string reference_words;
-  // The settings of a method, from cheap to dear, and which of them stands in the table.
+  // The settings of a method, from cheap to expensive, and the index of the one in the table.
   std::function<std::pair<std::vector<Setting>, std::size_t>(const std::string& method)> settings;
 };
 
-// A progress bar of its own for each picture.
+// A separate progress bar for each picture.
 std::function<void(std::uint64_t, std::uint64_t)> progress_of(const std::string& label) {
   auto bar = std::make_shared<std::unique_ptr<Progress>>();
   auto mutex = std::make_shared<std::mutex>();
@@ -167,7 +167,7 @@ Subject plane_subject(const std::shared_ptr<const PlaneWorld>& world, const Comp
 
 // ---- The comparison ----------------------------------------------------------------------------------------------
 
-// Of an estimate with a layer of variances: the root of their sum over the picture's norm.
+// Relative error of an estimate with a layer of variances: the root of their sum over the picture's norm.
 double own_error(const Picture& picture) {
   const auto layer = picture.layers.find("variance");
   if (layer == picture.layers.end()) return 0;
@@ -181,7 +181,7 @@ double own_error(const Picture& picture) {
 }
 
 Report compared(const Subject& subject, const CompareArguments& options) {
-  // All of a method's settings first, so that a method that does not exist or serve is refused before the long work.
+  // The settings of all methods are built first, so that an unknown or unsuitable method is refused before the long work.
   std::vector<std::pair<std::vector<Setting>, std::size_t>> settings;
   for (const std::string& method : options.methods) settings.push_back(subject.settings(method));
 
@@ -242,7 +242,7 @@ std::shared_ptr<const Scene> scene_of(const CompareArguments& options) {
 
 using Names = std::vector<std::string>;
 
-// Whether the heuristic serves the scene's lights.
+// True if the heuristic supports the scene's lights.
 bool takes_par(const PlaneWorld& world) {
   try {
     world.query(world.scene().origin, PlaneMethod::par);

@@ -37,13 +37,13 @@ Limit parse_limit(const std::string& text) {
     try {
       const double value = std::stod(text.substr(equals + 1), &used);
       if (used == text.size() - equals - 1 && !std::isnan(value)) return {metric, value};
-    } catch (const std::exception&) {  // falls through to the message
+    } catch (const std::exception&) {  // continues with the message below
     }
   }
   throw WrongOption("--fail-above", "'" + text + "' is not METRIC=VALUE with rmse, relative_l2 or max");
 }
 
-// The largest difference of alpha, where both pictures have it.
+// The largest difference of alpha, if both pictures have it.
 std::optional<double> largest_of_alpha(const Picture& a, const Picture& b) {
   const auto of_a = a.layers.find("alpha"), of_b = b.layers.find("alpha");
   if (of_a == a.layers.end() || of_b == b.layers.end()) return {};
@@ -53,7 +53,7 @@ std::optional<double> largest_of_alpha(const Picture& a, const Picture& b) {
   return largest;
 }
 
-// Pixels and alpha are compared, not what else the files hold.
+// Reports the layers that are not compared. Only pixels and alpha are compared.
 void say_what_is_left_out(const std::string& path, const Picture& picture, bool with_alpha) {
   std::vector<std::string> names = picture.unread;
   for (const auto& [layer, pixels] : picture.layers)

@@ -1,4 +1,4 @@
-// steradian eval: single integrals, JSON lines in, JSON lines out, in constant memory.
+// steradian eval: evaluates single integrals, JSON lines in, JSON lines out, in constant memory.
 #include "eval/answer.h"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ constexpr std::size_t kReadSize = 1 << 18;
 constexpr std::size_t kWriteSize = 1 << 16;
 constexpr std::size_t kLongestLine = 64 << 20;
 
-// Lines of a descriptor; the memory is that of the longest line.
+// Reads the lines of a descriptor in the memory of the longest line.
 class LineReader {
  public:
   LineReader(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {
@@ -63,7 +63,7 @@ class LineReader {
   }
 
  private:
-  // The unfinished line goes to the front, and there is room behind it.
+  // Moves the unfinished line to the front and provides space behind it.
   void make_room() {
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
@@ -82,7 +82,7 @@ class LineReader {
   int descriptor_;
   std::string name_;
   std::string buffer_;
-  std::size_t begin_ = 0, end_ = 0;  // what was read and not yet given out
+  std::size_t begin_ = 0, end_ = 0;  // range of bytes read but not yet returned
   bool at_end_ = false;
 };
 
@@ -127,7 +127,7 @@ struct Input {
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
-// True when every line was answered; `answer` appends to the output.
+// True if every line was answered. `answer` appends to the output.
 template <class Answer>
 bool answer_stream(const std::string& in, const std::string& out, Answer answer) {
   const Input input(in);
@@ -137,7 +137,7 @@ bool answer_stream(const std::string& in, const std::string& out, Answer answer)
   bool all_answered = true;
   std::string_view line;
   for (;;) {
-    // Whoever writes one query and waits for its answer gets it.
+    // The output is flushed before waiting, so that a client that writes one query and waits gets its answer.
     const auto got = lines.next(line, [&] { output.flush(); });
     if (got == LineReader::Got::end) break;
     if (got == LineReader::Got::too_long) {

@@ -20,7 +20,7 @@ struct PlaneQueryDefaults {
 class PlaneAnswers {
  public:
   explicit PlaneAnswers(const PlaneQueryDefaults& defaults) : defaults_(defaults) {}
-  // Appends the answer and a newline; false where it is an error.
+  // Appends the answer and a newline; false if it is an error.
   bool answer_line(std::string_view line, std::string& out);
 
  private:

@@ -82,7 +82,7 @@ void run(const FitArguments& options) {
   LobeSamples samples;
   if (!options.samples.empty()) samples = read_lobe_samples(options.samples, options.limits);
   const LobeFamily& family = options.samples.empty() ? lobe_family(options.lobe) : samples.family;
-  // A wrong ending is found before the work, not after it.
+  // A wrong file ending is reported before the work.
   if (!options.output.empty()) {
     if (options.layout == "classic")
       classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4), ClassicNormalisation::middle},

@@ -31,7 +31,7 @@ std::string numbered(const std::string& pattern, int frame) {
 }
 
 std::vector<int> frames_to_make(const FrameRange& range, const std::string& output, bool force) {
-  numbered(output, 0);  // throws where there is no #
+  numbered(output, 0);  // throws if there is no #
   std::vector<int> wanted;
   for (int frame = range.first; frame <= range.last; ++frame)
     if (force || !std::filesystem::exists(numbered(output, frame))) wanted.push_back(frame);

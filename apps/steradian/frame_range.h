@@ -12,10 +12,10 @@ struct FrameRange {
 // "A..B", 0 <= A <= B.
 FrameRange frame_range(const std::string& text);
 
-// The #s of a name become the frame's number.
+// Replaces the #s of a name by the frame's number.
 std::string numbered(const std::string& pattern, int frame);
 
-// The frames of a range whose pictures are not there yet, or all; says how many are there. Throws UsageError where the name has no #.
+// The frames of a range whose pictures do not exist yet, or all; prints the number that exist. Throws UsageError if the name has no #.
 std::vector<int> frames_to_make(const FrameRange& range, const std::string& output, bool force);
 
 }  // namespace steradian::app

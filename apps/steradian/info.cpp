@@ -1,4 +1,4 @@
-// steradian info: version and what this machine offers; steradian info SCENE: what a scene holds.
+// steradian info: the version and this machine's features; steradian info SCENE: the contents of a scene.
 #include <fmt/format.h>
 #include <xsimd/config/xsimd_config.hpp>
 #include <simdjson.h>
@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Everything that info says, by key; the text form prints the same. A new fact is one more entry.
+// All facts of `info`, by key; the text form prints the same. A new fact is one more entry.
 Json facts() {
   Json info;
   info["version"] = version();

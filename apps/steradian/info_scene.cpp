@@ -76,7 +76,7 @@ Json punctual_light_facts(const PunctualLight& light) {
   return facts;
 }
 
-// By the material's factors; textures may dim a lobe to nothing.
+// The lobes by the material's factors; textures may still reduce a lobe to zero.
 Json lobes_of(const SurfaceMaterial& m) {
   Json lobes = Json::array();
   if (m.unlit) return lobes;
@@ -134,7 +134,7 @@ Json scene_facts(const std::string& path, const Limits& limits) {
 
 namespace {
 
-constexpr std::size_t kMostLines = 32;  // of a list; --json has all
+constexpr std::size_t kMostLines = 32;  // per list; --json has all
 
 std::string short_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>().empty() ? "''" : value.get<std::string>();

@@ -1,4 +1,4 @@
-// What a scene file holds, for steradian info SCENE.
+// The contents of a scene file, for steradian info SCENE.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace steradian::app {
 
-// Cameras, lights, materials with their lobes, extensions, what is not supported, and which method `render --method auto` takes.
-// Throws as load_scene does.
+// Cameras, lights, materials with their lobes, extensions, unsupported features, and the method that `render --method auto` chooses. Throws
+// as load_scene does.
 nlohmann::ordered_json scene_facts(const std::string& path, const Limits& limits);
 
-// The same to be read by people: lists as tables, a line each.
+// The same for people: lists as tables, one line per entry.
 std::string scene_text(const nlohmann::ordered_json& facts);
 
 }  // namespace steradian::app

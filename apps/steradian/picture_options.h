@@ -1,4 +1,4 @@
-// Options that verbs with pictures share: how their words become numbers.
+// Options shared by verbs with pictures: converts their words to numbers.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@ struct PictureSize {
   int width = 0, height = 0;
 };
 
-// "1280x720". Throws WrongOption. The limit keeps a slip of the finger from asking for terabytes.
+// Parses "1280x720". Throws WrongOption. The limit prevents a typing error from asking for terabytes.
 PictureSize picture_size(const std::string& text);
 
-// Stops, -30 to 30; none for "auto". Throws WrongOption.
+// Parses stops, -30 to 30; none for "auto". Throws WrongOption.
 std::optional<float> exposure_stops(const std::string& text);
 
-// What --tone takes: names of steradian/tone.h.
+// The values of --tone: the names of steradian/tone.h.
 std::vector<std::string> tone_curve_names();
 
 }  // namespace steradian::app

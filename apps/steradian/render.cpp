@@ -108,7 +108,7 @@ void parse_indirect(RenderArguments& options) {
     throw WrongOption("--indirect-shadows", "the baseline --indirect ggx has none");
 }
 
-// Whether it may take minutes: such a render keeps what it has when it is interrupted.
+// True if the render may take minutes. Such a render saves its state when it is interrupted.
 bool samples(const RenderArguments& options) {
   return options.render.method == "reference" || options.render.method == "sampled" || options.indirect == "path";
 }
@@ -126,7 +126,7 @@ std::string identity_of(const RenderArguments& options, const Scene& scene) {
                      r.spp, r.target_error, r.seed);
 }
 
-// The picture; running out of memory says what was being made, and how large it is.
+// Renders the picture. The error for running out of memory gives the picture and its size.
 Picture rendered(const Scene& scene, const RenderArguments& options, RenderStats& stats, RenderState& state) {
   try {
     return render(scene, options.render, &stats, &state);
@@ -138,7 +138,7 @@ Picture rendered(const Scene& scene, const RenderArguments& options, RenderStats
   }
 }
 
-// Of three dimensions: what an option needs to have an effect.
+// Refuses options without effect in three dimensions.
 void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
   const RenderOptions& r = options.render;
   const bool path = options.indirect == "path", points = options.indirect == "ltc" || options.indirect == "ggx";
@@ -169,7 +169,7 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--edits", false, "a plane scene (.svg)"}});
 }
 
-// Of the plane: the options of three dimensions have none.
+// Refuses options without effect in the plane, such as those of three dimensions.
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
@@ -211,7 +211,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
        {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
-// A plane scene has its own size, one unit a pixel, and its own methods.
+// A plane scene has its own size, one unit per pixel, and its own methods.
 void run_plane(RenderArguments& options) {
   PlaneRender job;
   job.scene = options.scene;

@@ -29,7 +29,7 @@ GltfAnimation chosen(const GltfFile& file, const SceneFrames& job) {
   throw Error("--animation", "none is named '" + job.animation + "'", all.empty() ? "the file has none" : "there are: " + names);
 }
 
-// The scene at a moment; what its reading warns of is said once for all frames.
+// The scene at a moment. The reader's warnings are printed once for all frames.
 class Moments {
  public:
   explicit Moments(const SceneFrames& job)
@@ -56,7 +56,7 @@ class Moments {
   std::set<std::string> said_;
 };
 
-// Of the first frame at a quarter of its size: the same for all, also where the first is there already.
+// The exposure of the first frame at a quarter of its size. It is the same for all frames, even if the first frame exists already.
 float exposure_of(const SceneFrames& job, Moments& moments) {
   RenderOptions small = job.render;
   small.width = std::max(1, small.width / 4);
@@ -76,9 +76,9 @@ void render_scene_frames(SceneFrames job) {
   const float exposure = job.exposure ? *job.exposure : mapped ? exposure_of(job, moments) : 0.0f;
   if (!job.exposure && mapped) fmt::print(stderr, "steradian: --exposure {:.2f} (auto, of the first frame)\n", exposure);
 
-  constexpr std::uint64_t kParts = 1000;  // that a frame counts in the one bar
+  constexpr std::uint64_t kParts = 1000;  // progress steps per frame in the common bar
   Progress progress("frames", wanted.size() * kParts);
-  RenderCache cache;  // of what does not move
+  RenderCache cache;  // cache for parts of the scene that do not move
   for (const int frame : wanted) {
     const Scene scene = moments.at(frame / job.fps);
     std::atomic<std::uint64_t> shown{0};

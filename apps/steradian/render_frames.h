@@ -1,4 +1,4 @@
-// render SCENE.glb --frames A..B: pictures of a scene that moves.
+// render SCENE.glb --frames A..B: pictures of an animated scene.
 #pragma once
 
 #include <optional>
@@ -12,19 +12,19 @@
 namespace steradian::app {
 
 struct SceneFrames {
-  std::string scene, output;  // the #s of the output's name become the frame's number
+  std::string scene, output;  // the frame's number replaces the #s of the output's name
   FrameRange range;
   double fps = 24;
   std::string animation;  // by name; empty: the first
-  bool force = false;     // frames that are there are made again
+  bool force = false;     // existing frames are rendered again
   LoadOptions load;
   RenderOptions render;
-  std::optional<float> exposure;  // none: that of the first frame for all
+  std::optional<float> exposure;  // none: the first frame's exposure for all
   ToneCurve tone = ToneCurve::neutral;
   bool multiple_scattering = false;
 };
 
-// A frame is there when it is whole: an interrupted sequence goes on with the same command.
+// A frame's file exists only when it is complete. So the same command continues an interrupted sequence.
 void render_scene_frames(SceneFrames job);
 
 }  // namespace steradian::app

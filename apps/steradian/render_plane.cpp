@@ -26,7 +26,7 @@ bool is_plane_scene(const std::string& path) { return path.size() > 4 && (path.e
 
 void render_plane_scene(const PlaneRender& job) {
   PlaneSvg loaded = load_plane_scene(job.scene, job.limits);
-  // Of a drawing that moves, animations are left out only where no frames are asked for.
+  // For an animated drawing, animations are skipped only if no frames are requested.
   if (!loaded.ignored.empty() && (job.frames.empty() || !PlaneAnimation(job.scene, job.limits).moves())) {
     std::string names;
     for (const std::string& name : loaded.ignored) names += (names.empty() ? "" : ", ") + name;
@@ -110,7 +110,7 @@ void render_plane_scene(const PlaneRender& job) {
                                  {"passes", passes},
                                  {"total_ms", stats.prepare_ms + stats.frame_ms}};
   if (device) {
-    // Parts of the frame's time; those of the device are its own clock's.
+    // Parts of the frame's time. The device's parts come from its own clock.
     const PlaneDeviceStats& d = device->stats();
     const std::pair<const char*, double> parts[] = {{"frame: lists", d.lists_ms},         {"frame: upload", d.upload_ms},
                                                     {"frame: device", d.device_ms},       {"frame: resolve", d.resolve_ms},

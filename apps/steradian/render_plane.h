@@ -1,4 +1,4 @@
-// render SCENE.svg: a picture of the plane.
+// render SCENE.svg: renders a picture of the plane.
 #pragma once
 
 #include <map>
@@ -10,20 +10,20 @@
 namespace steradian::app {
 
 struct PlaneRender {
-  std::string scene, output, method, stats;  // method "auto" is exact
+  std::string scene, output, method, stats;  // method "auto" means exact
   PlaneFrameOptions frame;
   float exposure = 0;
   ToneCurve tone = ToneCurve::neutral;
   int bounces = 0;          // kAllBounces: all
   double lattice = 0;       // PlaneFrameOptions::bounce_lattice
-  std::string normal_map;   // a picture of it is lit instead; empty: none
-  double lamp_height = 45;  // of it, in degrees
+  std::string normal_map;   // a picture of this normal map is lit instead; empty: none
+  double lamp_height = 45;  // height of the lamp over the normal map, in degrees
   std::string frames;       // A..B; empty: one picture
-  std::string edits;        // of frames
-  double fps = 24;          // of frames: of a drawing that moves
-  bool force = false;       // of frames: those that are there already, too
+  std::string edits;        // JSON file of edits, for frames
+  double fps = 24;          // frames per second of an animated drawing
+  bool force = false;       // for frames: renders existing frames again
   bool vulkan = false;
-  std::string device;  // of vulkan
+  std::string device;  // device for vulkan
   Limits limits;
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What happens to the bodies of an id before each of some frames.
+// A change to the bodies with an id, applied before each frame of a range.
 struct Edit {
   int first = 0, last = 0;
   std::string id;
@@ -105,7 +105,7 @@ void write(const Picture& drawn, const PlaneRender& job, int frame) {
   write_picture(picture, numbered(job.output, frame), job.exposure, job.tone);
 }
 
-// On the device each frame is drawn anew.
+// On the device each frame is rendered from scratch.
 void render_animation(const PlaneRender& job, const std::vector<int>& wanted, const PlaneFrameOptions& options,
                       const PlaneAnimation& animation, PlaneDevice* device) {
   const bool staged = device == nullptr && options.aa <= 1 && options.occluders == PlaneOccluders::black && !options.moments;
@@ -115,7 +115,7 @@ void render_animation(const PlaneRender& job, const std::vector<int>& wanted, co
     PlaneSvg now = animation.at(frame / job.fps);
     for (const std::string& name : now.ignored)
       if (named.insert(name).second) fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, name);
-    // A stage has the suns and the fog that it began with.
+    // A stage keeps the suns and the fog that it began with.
     if (!staged || !now.scene.suns.empty() || now.scene.fog_density > 0) {
       stage.reset();
       const PlaneWorld world(std::move(now.scene), job.limits);

@@ -10,11 +10,11 @@ namespace steradian::app {
 
 struct PlaneFrames {
   FrameRange range;
-  std::string edits;  // JSON file: what changes before which frame
+  std::string edits;  // JSON file: the changes before each frame
 };
 
-// Writes the frames that are not there yet: the #s of the output's name become the frame's number. Frame i of a drawing that moves is at
-// i / fps seconds.
+// Writes the frames that do not exist yet. The frame's number replaces the #s of the output's name. Frame i of an animated drawing is at i
+// / fps seconds.
 void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, const PlaneFrameOptions& options, PlaneScene scene);
 
 }  // namespace steradian::app

@@ -1,4 +1,4 @@
-// A long render that may be interrupted: what it has is kept beside its output, and --resume goes on with it.
+// A long render that may be interrupted. Its state is stored beside its output, and --resume continues from it.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace steradian::app {
 
-// While one lives, SIGINT and SIGTERM ask to stop; a second one ends the program as ever.
+// While an object exists, SIGINT and SIGTERM request a stop. A second signal ends the program as usual.
 class StopSignals {
  public:
   StopSignals();
@@ -18,18 +18,18 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 
   const std::atomic<bool>& asked() const;
-  [[noreturn]] void end_by_it() const;  // the way of a program that does not handle the signal
+  [[noreturn]] void end_by_it() const;  // ends as a program without a handler for the signal
 };
 
-// The file of what is done: a picture to look at, whose metadata says which tiles are done.
+// The path of the partial result: a viewable picture whose metadata lists the finished tiles.
 std::string partial_path(const std::string& output);
 
-// identity: of everything that the picture depends on; a state of another is refused.
+// identity: describes everything that the picture depends on; a state with another identity is refused.
 void write_state(const RenderState& state, const std::string& identity, const std::string& output);
-RenderState read_state(const std::string& identity, const std::string& output);  // an empty one where there is none
+RenderState read_state(const std::string& identity, const std::string& output);  // an empty state if there is none
 
-// A text that tells two scenes apart: of the bytes of its files, those that are no file aside, and of the meshes and pictures that it took
-// from others.
+// A text that distinguishes scenes. It covers the bytes of the scene's files, except names that are no file, and the meshes and pictures
+// taken from other files.
 std::string fingerprint(const std::vector<std::string>& files, const Scene& scene);
 
 }  // namespace steradian::app

@@ -1,4 +1,4 @@
-// The program's verbs, one file each: add_x describes the verb's options to the command line, with the function that runs it.
+// The program's verbs, one file each. add_x describes the verb's options to the command line, with the function that runs it.
 #pragma once
 
 #include "verb.h"

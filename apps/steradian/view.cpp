@@ -26,7 +26,7 @@ void run(const ViewArguments& options) {
   window.render.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
   if (options.backend == "vulkan") {
     window.render.backend = Backend::vulkan;
-    window.render.shadows = Shadows::off;  // which it does not have
+    window.render.shadows = Shadows::off;  // this backend has no shadows here
   }
   window.exposure = exposure_stops(options.exposure);
   window.tone = tone_curve_named(options.tone);

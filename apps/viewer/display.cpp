@@ -11,7 +11,7 @@
 namespace steradian::view {
 namespace {
 
-template <class FillRow>  // (first pixel, how many, their bytes, four a pixel)
+template <class FillRow>  // (first pixel, count, their bytes, four per pixel)
 Display filled(int width, int height, FillRow fill_row) {
   Display display{width, height, {}};
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);

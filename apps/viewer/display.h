@@ -1,4 +1,4 @@
-// A picture as a screen shows it: 8 bits a channel, rows from the top.
+// A picture in screen form: 8 bits per channel, rows from the top.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@ struct Display {
   std::vector<std::uint8_t> rgba;
 };
 
-// As a PNG of the exposure and the curve is written, bit for bit.
+// Equals a PNG written with this exposure and curve, bit for bit.
 Display shown(const Picture& picture, float exposure_stops, ToneCurve curve);
 
-// |a - b|, the largest of three channels, over the mean luminance of b: black at 0, through red and yellow to white at `most`.
+// |a - b|, the largest of three channels, over the mean luminance of b. The colours run from black at 0 through red and yellow to white at
+// `most`.
 Display error_map(const Picture& a, const Picture& b, double most);
-// The colour of a share of `most`, 0 to 1.
+// The colour of a fraction of `most`, 0 to 1.
 Vec3f heat(double share);
 
-// Left of the column `a`, from it on `b`: of one size.
+// Shows `a` left of the column and `b` from the column on. Both have one size.
 Display split(const Display& a, const Display& b, int column);
 
 }  // namespace steradian::view

@@ -7,7 +7,7 @@ namespace {
 
 using Pointer = Json::json_pointer;
 
-// Up to which of a pointer's objects the document has it: the highest that is missing, or the pointer itself.
+// The highest of a pointer's parents that is missing in the document, or the pointer itself.
 Pointer first_missing(const Json& json, const Pointer& pointer) {
   Pointer at = pointer;
   while (!at.parent_pointer().empty() && !json.contains(at.parent_pointer())) at = at.parent_pointer();
@@ -59,7 +59,7 @@ std::size_t Document::count(const std::string& array) const {
 
 void Document::set(const std::string& pointer, Json value) {
   const Pointer target(pointer), top = first_missing(file_.json, target);
-  // What is made on the way is objects, or the first element of an array.
+  // Missing parents become objects, or arrays if the key is the first element of an array.
   Pointer at = target;
   while (at != top) {
     const std::string key = at.back();
@@ -84,7 +84,7 @@ void Document::record(const std::string& where, std::optional<Json> after) {
   if (before == after) return;
   put(where, after);
   redone_from_.clear();
-  // A drag changes the same few values again and again: each is kept once, unless what holds it was changed since.
+  // A drag changes the same few values repeatedly. Each value is stored once, unless its container was changed since.
   for (std::size_t i = open_.size(); i-- > 0;) {
     Change& change = open_[i];
     if (change.where == where) {

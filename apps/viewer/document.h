@@ -1,7 +1,7 @@
-// Document: the JSON of a glTF file with its history. Every change of a scene is a change of its file, so that what is saved is what was
-// seen, and what nobody touched stays as it was.
+// Document: the JSON of a glTF file with its history. Every change of a scene is a change of its file. So the saved file equals the
+// displayed scene, and untouched values stay as they were.
 //
-// A change is a value put at a JSON pointer. Changes between two calls of close_step are one step of undo: a drag is one.
+// A change is a value put at a JSON pointer. Changes between two calls of close_step are one step of undo: a drag is one step.
 #pragma once
 
 #include <cstddef>
@@ -22,19 +22,19 @@ class Document {
 
   const scene::GltfFile& file() const { return file_; }
   const Json& json() const { return file_.json; }
-  const Json* find(const std::string& pointer) const;  // null where nothing is
-  // What is there, or `otherwise` where nothing is or something of another kind: a file may say anything.
+  const Json* find(const std::string& pointer) const;  // null if there is no value
+  // The value, or `otherwise` if there is no value or one of another type: a file may contain anything.
   double number(const std::string& pointer, double otherwise) const;
   int index(const std::string& pointer) const;  // -1
   std::string text(const std::string& pointer, const std::string& otherwise) const;
   bool flag(const std::string& pointer) const;
-  std::vector<double> numbers(const std::string& pointer, std::size_t count) const;  // of that many; empty
+  std::vector<double> numbers(const std::string& pointer, std::size_t count) const;  // `count` numbers, or empty
 
-  // Puts a value, and makes the objects that are missing on the way there; an array's next index appends.
+  // Puts a value, and creates the missing parent objects. An array's next index appends.
   void set(const std::string& pointer, Json value);
-  // Removes a member of an object, or the last element of an array; nothing where nothing is.
+  // Removes a member of an object, or the last element of an array. Does nothing if it does not exist.
   void erase(const std::string& pointer);
-  std::size_t count(const std::string& array) const;  // 0 where it is absent
+  std::size_t count(const std::string& array) const;  // 0 if absent
 
   void close_step();
   bool can_undo() const { return !open_.empty() || !undone_from_.empty(); }

@@ -1,4 +1,4 @@
-// Documents, their lamps and nodes: what an edit does to a file, and what it leaves.
+// Documents, their lamps and nodes: the effect of an edit on a file, and the values that it leaves unchanged.
 #include "document.h"
 
 #include <gtest/gtest.h>
@@ -147,7 +147,7 @@ TEST(ViewLamps, FindAllKindsAndTheirValues) {
   spot.color = {0, 1, 0};
   set_values(d, lamps[2], spot);
   const Scene s = scene_of(d);
-  ASSERT_EQ(s.area_lights.size(), 2u);  // the rect's and the mesh's
+  ASSERT_EQ(s.area_lights.size(), 2u);  // the lights of the rect and of the mesh
   EXPECT_EQ(s.area_lights[1].radiance, (Vec3d{3, 3, 0}));
   EXPECT_TRUE(s.area_lights[1].two_sided);
   ASSERT_EQ(s.punctual_lights.size(), 1u);
@@ -166,7 +166,7 @@ TEST(ViewLamps, FindAllKindsAndTheirValues) {
   EXPECT_EQ(read.base_color.y, 0.5f);
 }
 
-// Whatever the parents, and whether the file gives a matrix or its parts: the node's world transform changes as asked.
+// The node's world transform changes as requested, whatever the parents, and whether the file gives a matrix or its parts.
 TEST(ViewNodes, MoveTurnAndScaleInTheWorldUnderAnyParent) {
   const Json poses[] = {{{"translation", {1, 2, 3}}, {"rotation", {0, 0.6, 0, 0.8}}, {"scale", {2, 2, 2}}},
                         {{"matrix", {0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1}}}};
@@ -189,7 +189,7 @@ TEST(ViewNodes, MoveTurnAndScaleInTheWorldUnderAnyParent) {
       set_pose(d, 0, turned(pose_of(d, 0), above, axis, 0.7));
       const Affine turned_world = NodeTree(d).world(0);
       EXPECT_NEAR(length(turned_world.t - before.t), 0, 1e-12);
-      // Rodrigues' formula in the world.
+      // Rodrigues' formula in world space.
       const auto expected = [&](Vec3d v) {
         return v * std::cos(0.7) + cross(axis, v) * std::sin(0.7) + axis * (dot(axis, v) * (1 - std::cos(0.7)));
       };

@@ -76,7 +76,7 @@ void Drawing::show_time() {
   std::vector<PlaneBody>& bodies = sheet_.scene.bodies;
   const std::vector<PlaneBody>& last = sheet_.moment.bodies;
   if (next.bodies.size() != last.size()) {
-    // Shapes have come or gone: which is which, nobody says. What was added by hand stays on top.
+    // Shapes were added or removed, and nothing tells which is which. Bodies that were added by hand stay on top.
     std::vector<PlaneBody> added;
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (sheet_.origin[i] < 0) added.push_back(std::move(bodies[i]));
@@ -245,7 +245,7 @@ void Drawing::undo() {
   show_again();
 }
 
-// A step may be of another moment.
+// A step may belong to another moment.
 void Drawing::show_again() {
   show();
   if (duration_ > 0) time_wanted_ = true;

@@ -1,4 +1,4 @@
-// Drawing: a scene of the plane, from SVG, in the hand: its lamps and blockers dragged, turned, resized, recoloured, added and removed.
+// Drawing: an editable scene of the plane, from SVG. Its lamps and blockers can be dragged, turned, resized, recoloured, added and removed.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace steradian::view {
 
 class Drawing : public Stage {
  public:
-  // Throws Error where the file is no scene of the plane.
+  // Throws Error if the file is no scene of the plane.
   Drawing(const std::string& path, int width, int height, int threads);
 
   bool update() override;
@@ -24,16 +24,16 @@ class Drawing : public Stage {
   const PlaneStageStats& stats() const { return stats_; }
 
   void resize(int width, int height) override;
-  // Left drags the body under the pointer; its corner handle, when it is selected, resizes it.
+  // The left button drags the body under the pointer. The corner handle of a selected body resizes it.
   void press(PointerButton button, bool shift, Vec2d at) override;
   void drag(Vec2d to) override;
   void release(Vec2d at) override;
   bool dragging() const override { return hold_ != Hold::nothing; }
-  void wheel(double steps, Vec2d at) override;  // over what is selected: larger and smaller
+  void wheel(double steps, Vec2d at) override;  // over the selected body: larger and smaller
   void fly(double, double, double) override {}
   void set_moving(bool moving) override;
 
-  // Of a file that moves by itself: what its animations move goes where they say; what was changed here and they leave alone stays so.
+  // For an animated file. Animated bodies move as the file says. Bodies that were changed here and are not animated stay unchanged.
   double duration() const override { return duration_; }
   double time() const override { return time_; }
   void set_time(double seconds) override;
@@ -53,7 +53,7 @@ class Drawing : public Stage {
 
   Vec2d to_scene(Vec2d pixel) const;
   Vec2d to_pixel(Vec2d point) const;
-  std::optional<Vec2d> resize_handle() const;  // in pixels: the lower right corner of what is selected
+  std::optional<Vec2d> resize_handle() const;  // in pixels: the lower right corner of the selected body
 
   const std::string& path() const override { return path_; }
   bool unsaved() const override { return open_.has_value() || before_.size() != saved_steps_; }
@@ -64,9 +64,9 @@ class Drawing : public Stage {
 
  private:
   struct Sheet {
-    PlaneScene scene;         // with what was changed
-    PlaneScene moment;        // of a file that moves, as the file has it
-    std::vector<int> origin;  // by body of scene: that of moment; -1: added here
+    PlaneScene scene;         // scene with the edits
+    PlaneScene moment;        // moment of an animated file, without edits
+    std::vector<int> origin;  // for each body of scene its index in moment; -1: added here
   };
   void load();
   Sheet fresh_sheet(PlaneScene scene) const;
@@ -79,14 +79,14 @@ class Drawing : public Stage {
   Sheet sheet_;
   std::optional<PlaneAnimation> animation_;
   double duration_ = 0, time_ = 0;
-  bool endless_ = false, time_wanted_ = false;  // it is another moment than that of sheet_
+  bool endless_ = false, time_wanted_ = false;  // time_wanted_: the moment differs from that of sheet_
   std::filesystem::file_time_type file_time_{};
   int width_, height_;
   std::optional<std::size_t> selection_;
-  // Sheets before the steps that can be undone, and after those that can be redone; the one before the step that is open.
+  // States before the steps that can be undone, and after those that can be redone. open_ is the state before the current step.
   std::vector<Sheet> before_, after_;
   std::optional<Sheet> open_;
-  std::size_t saved_steps_ = 0;  // of before_, when it was saved
+  std::size_t saved_steps_ = 0;  // size of before_ when it was saved
 
   enum class Hold { nothing, body, corner } hold_ = Hold::nothing;
   bool moving_ = false;

@@ -1,4 +1,4 @@
-// A drawing under a hand: its bodies, its picture, its file.
+// Editing a drawing: its bodies, its picture, its file.
 #include "drawing.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ TEST(ViewDrawing, IsSavedAsAnSvgThatReadsBackAsIt) {
   EXPECT_THROW(d.save_scene(scene::test_path("saved.png")), Error);
 }
 
-// A drawing's own motion, and a hand in it: what moves goes where the file says, what does not stays where it was put.
+// An animated drawing with edits: animated bodies move as the file says, others stay where they were put.
 TEST(ViewDrawing, PlaysItsOwnMotionAndKeepsWhatAHandHasMoved) {
   const std::string svg =
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 160 100'>"
@@ -128,7 +128,7 @@ TEST(ViewDrawing, PlaysItsOwnMotionAndKeepsWhatAHandHasMoved) {
   d.wait_until_settled();
   EXPECT_EQ(d.scene().bodies[0].center, (Vec2d{45, 20}));
   EXPECT_EQ(d.picture().pixels, fresh(PlaneAnimation(path).at(0.5).scene, 160, 100).pixels);
-  // Nothing that stands still far away is drawn again.
+  // Tiles far from the animated bodies are not drawn again.
   EXPECT_LE(d.stats().drawn, d.stats().tiles);
 
   d.press(PointerButton::left, false, d.to_pixel({70, 60}));

@@ -36,7 +36,7 @@ std::uint64_t DrawingWorker::follow(PlaneScene scene) {
 
 std::uint64_t DrawingWorker::edit(PlaneEdit edit) {
   const std::lock_guard lock(mutex_);
-  // Of a body that is dragged only where it is now is drawn.
+  // For a dragged body only its latest position is drawn.
   if (!edits_.empty() && edit.kind == PlaneEdit::Kind::replace && edits_.back().kind == edit.kind && edits_.back().body == edit.body)
     edits_.back() = std::move(edit);
   else
@@ -78,7 +78,7 @@ void DrawingWorker::run() {
     drawn.request = request;
     try {
       if (scene) stage.emplace(std::move(*scene), options);
-      // A stage has the suns and the fog that it began with.
+      // A stage keeps the suns and the fog that it began with.
       if (followed && (!followed->suns.empty() || followed->fog_density > 0))
         stage.emplace(std::move(*followed), options);
       else if (followed)

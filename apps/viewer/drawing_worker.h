@@ -1,4 +1,4 @@
-// Draws a scene of the plane in a thread of its own, after each change only what the change may reach (PlaneStage).
+// Draws a scene of the plane in a separate thread. After each change it draws only the parts that the change may reach (PlaneStage).
 #pragma once
 
 #include <condition_variable>
@@ -16,7 +16,7 @@ struct PlaneEdit {
   enum class Kind { replace, add, remove };
   Kind kind = Kind::replace;
   std::size_t body = 0;
-  PlaneBody with{};  // of replace and add
+  PlaneBody with{};  // for replace and add
 };
 
 struct DrawnPicture {
@@ -33,12 +33,12 @@ class DrawingWorker {
   DrawingWorker(const DrawingWorker&) = delete;
   DrawingWorker& operator=(const DrawingWorker&) = delete;
 
-  // What is asked while it draws is done together, after it. Both answer with the number of the request.
+  // Requests made while it draws are handled together afterwards. Both functions return the number of the request.
   std::uint64_t show(PlaneScene scene, int width, int height);  // another scene, or size
-  std::uint64_t follow(PlaneScene scene);                       // the scene as it is now: only what is another is drawn
+  std::uint64_t follow(PlaneScene scene);                       // the current scene: only the changed parts are drawn
   std::uint64_t edit(PlaneEdit edit);
   std::optional<DrawnPicture> take();
-  void wait();  // until there is a picture, or nothing to do
+  void wait();  // until there is a picture, or no work
 
  private:
   void run();

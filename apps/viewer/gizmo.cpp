@@ -7,11 +7,11 @@
 namespace steradian::view {
 namespace {
 
-constexpr double kFar = 1e300;  // of a handle that is not seen
+constexpr double kFar = 1e300;  // distance of a handle that is not visible
 
 const Vec3d& axis_of(const Gizmo& gizmo, Handle handle) { return gizmo.axes[handle == Handle::x ? 0 : handle == Handle::y ? 1 : 2]; }
 
-// How far along a line through the origin a ray comes nearest to it.
+// The position along a line through the origin that is nearest to a ray.
 std::optional<double> along_axis(Vec3d origin, Vec3d axis, const Ray& ray) {
   const double c = dot(axis, ray.direction), d = 1 - c * c;
   if (d < 1e-4) return {};  // within half a degree of the axis: a pixel would be metres
@@ -94,7 +94,7 @@ std::optional<Turn> drag_turn(const Gizmo& gizmo, Handle handle, const Camera&, 
 
 std::optional<Vec3d> drag_scale(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to) {
   constexpr double kSmallest = 0.01;
-  if (handle == Handle::free) {  // right and up: larger
+  if (handle == Handle::free) {  // to the right and up: larger
     const auto a = meets_plane(gizmo.origin, camera.z, from), b = meets_plane(gizmo.origin, camera.z, to);
     if (!a || !b) return {};
     const double factor = std::max(std::exp2(dot(*b - *a, camera.x + camera.y) / gizmo.size), kSmallest);

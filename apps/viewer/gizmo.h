@@ -1,6 +1,6 @@
-// The handles around what is selected: arrows to move it along the axes of the world, rings to turn it, boxes to scale it.
+// The handles around the selected object: arrows to move it along the axes of the world, rings to turn it, boxes to scale it.
 //
-// A drag is answered from where it began, not from where it was last: going back with the pointer goes back in the scene.
+// A drag is computed from its start, not from the last position. So moving the pointer back restores the scene.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@
 namespace steradian::view {
 
 enum class GizmoMode { move, turn, scale };
-// free: in the plane of the picture; of scale all axes alike.
+// free: in the plane of the picture; for scale, all axes alike.
 enum class Handle { none, x, y, z, free };
 
 struct Gizmo {
   GizmoMode mode = GizmoMode::move;
   Vec3d origin;
   double size = 1;                                    // length of an arrow
-  Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // unit; of scale those of the node
+  Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // unit; for scale the node's axes
 };
 
-// A gizmo that has the same size in every picture: a seventh of its height.
+// A gizmo of the same size in every picture: a seventh of the picture's height.
 Gizmo gizmo_at(GizmoMode mode, const Affine& world, const Camera& camera);
 
 // The handle under the pointer, within `reach` pixels.
 Handle handle_at(const Gizmo& gizmo, const Camera& camera, Vec2d pointer, double width, double height, double reach = 8);
 
-// Where a ray meets a plane that it does not graze.
+// The point where a ray meets a plane that it does not graze.
 std::optional<Vec3d> meets_plane(Vec3d origin, Vec3d normal, const Ray& ray);
 
-// What a drag of a handle from one ray to another means. Nothing where a ray does not meet the handle's line or plane.
+// The result of a drag of a handle from one ray to another. Empty if a ray does not meet the handle's line or plane.
 std::optional<Vec3d> drag_move(const Gizmo& gizmo, Handle handle, const Camera& camera, const Ray& from, const Ray& to);
 struct Turn {
   Vec3d axis;

@@ -1,4 +1,4 @@
-// What the keys of the window do: one list for the window, its help on F1 and scripts.
+// The actions of the window's keys: one list for the window, its help on F1 and scripts.
 #pragma once
 
 #include <optional>
@@ -38,7 +38,7 @@ struct KeyBinding {
 };
 
 std::span<const KeyBinding> key_bindings();
-// Upper and lower case are one.
+// Ignores case.
 std::optional<Action> action_of(std::string_view key);
 
 }  // namespace steradian::view

@@ -28,10 +28,10 @@ const char* extension_of(LampKind kind) {
 std::string node_pointer(int node) { return "/nodes/" + std::to_string(node); }
 std::string material_pointer(int material) { return "/materials/" + std::to_string(material); }
 
-// Where the values of a lamp stand.
+// The JSON pointer of a lamp's values.
 std::string values_pointer(const Lamp& lamp) {
   if (lamp.kind == LampKind::mesh) return material_pointer(lamp.light);
-  if (lamp.kind == LampKind::profile) return node_pointer(lamp.node) + "/extensions/" + kProfile;  // colour and factor are the node's
+  if (lamp.kind == LampKind::profile) return node_pointer(lamp.node) + "/extensions/" + kProfile;  // colour and factor belong to the node
   return std::string("/extensions/") + extension_of(lamp.kind) + "/lights/" + std::to_string(lamp.light);
 }
 
@@ -41,7 +41,7 @@ Vec3d color(const Document& document, const std::string& pointer, Vec3d otherwis
   return otherwise;
 }
 
-// Written where it differs from what is there, or from what its absence means.
+// Writes a value if it differs from the present value, or from the default if there is none.
 template <class T>
 void put(Document& document, const std::string& pointer, const T& value, const T& now, const Json& json) {
   if (value != now) document.set(pointer, json);
@@ -108,7 +108,7 @@ LampValues values_of(const Document& document, const Lamp& lamp) {
   }
   v.color = color(document, at + "/color", {1, 1, 1});
   v.intensity = document.number(at + (lamp.kind == LampKind::profile ? "/multiplier" : "/intensity"),
-                                lamp.kind == LampKind::area ? 1000 : 1);  // the draft's
+                                lamp.kind == LampKind::area ? 1000 : 1);  // the default of the draft
   if (lamp.kind == LampKind::punctual && lamp.type == "spot") {
     v.inner_angle = document.number(at + "/spot/innerConeAngle", 0);
     v.outer_angle = document.number(at + "/spot/outerConeAngle", std::numbers::pi / 4);
@@ -155,7 +155,7 @@ int add_light(Document& document, const std::string& type, Vec3d position, Vec3d
   Json json = {{"type", type}, {"name", name}, {"color", {1, 1, 1}}, {"intensity", 5}};
   if (!punctual) {
     json["size"] = size;
-    json["extras"] = {{"steradian", {{"scale", "axes"}}}};  // so that each handle of the gizmo scales one side
+    json["extras"] = {{"steradian", {{"scale", "axes"}}}};  // lets each handle of the gizmo scale one side
   }
   if (type == "spot") json["spot"] = Json::object();
   use_extension(document, extension);
@@ -167,14 +167,14 @@ int add_node(Document& document, Json json, Vec3d position, Vec3d direction) {
   const std::size_t node = document.count("/nodes");
   const Frame frame = Frame::from_normal(-normalized(direction));
   document.set("/nodes/" + std::to_string(node), std::move(json));
-  // The rotation of the frame, as a quaternion: turned from z to the frame's z about the axis across both.
+  // The rotation of the frame, as a quaternion: a turn from z to the frame's z about the axis perpendicular to both.
   NodePose pose;
   pose.translation = position;
   const Vec3d axis = cross(Vec3d{0, 0, 1}, frame.z);
   const double angle = std::atan2(length(axis), frame.z.z);
   if (angle > 1e-9) pose = turned(pose, {}, length(axis) > 1e-9 ? normalized(axis) : Vec3d{1, 0, 0}, angle);
   set_pose(document, static_cast<int>(node), pose);
-  // A file with scenes lists its nodes; one without shows all.
+  // A file with scenes lists its nodes; a file without scenes shows all.
   if (document.count("/scenes") > 0) {
     const std::string list = "/scenes/" + std::to_string(static_cast<int>(document.number("/scene", 0))) + "/nodes";
     document.set(list + "/" + std::to_string(document.count(list)), node);
@@ -192,7 +192,7 @@ void remove_lamp(Document& document, const Lamp& lamp) {
   document.erase(extensions != nullptr && extensions->size() == 1 ? node + "/extensions" : node + "/extensions/" + extension_of(lamp.kind));
 }
 
-// Without the lobes of cloth and paint, which stand beside a specular one, and products, which need an axis.
+// Excludes the lobes of cloth and paint, which accompany a specular lobe, and lobe products, which need an axis.
 std::vector<std::string> lobe_names() {
   std::vector<std::string> names;
   for (const lobes::LobeRow& row : lobes::lobe_rows())

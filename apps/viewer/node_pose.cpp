@@ -17,7 +17,7 @@ std::array<double, 4> product(const std::array<double, 4>& a, const std::array<d
           a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-// What differs from what the file says is written; a value that is glTF's default and not there stays away.
+// Writes a value if it differs from the file's. A value that is absent and equals glTF's default stays absent.
 void put(Document& document, int node, const char* key, const Json& value, const Json& otherwise) {
   const std::string pointer = node_pointer(node, key);
   const Json* now = document.find(pointer);
@@ -28,7 +28,7 @@ void put(Document& document, int node, const char* key, const Json& value, const
 }  // namespace
 
 NodeTree::NodeTree(const Json& json, const std::string& path) {
-  // The nodes alone, judged and multiplied out by the reader of files.
+  // Only the nodes are read; the file reader checks them and multiplies their transforms.
   Budget budget;
   scene::GltfDocument nodes;
   nodes.path = path;
@@ -94,7 +94,7 @@ NodePose moved(NodePose pose, const Affine& parent, Vec3d by) {
 
 NodePose turned(NodePose pose, const Affine& parent, Vec3d axis, double angle) {
   Vec3d local = normalized(inverse(parent).vector(axis));
-  if (parent.determinant() < 0) angle = -angle;  // a mirror turns the other way
+  if (parent.determinant() < 0) angle = -angle;  // a mirror reverses the rotation
   if (pose.is_matrix) {
     for (Vec3d* column : {&pose.matrix.x, &pose.matrix.y, &pose.matrix.z}) *column = rotated(*column, local, angle);
     return pose;

@@ -1,4 +1,4 @@
-// Where a node of a glTF file stands, and how it is moved, turned and scaled: in the words that the file uses for it, a matrix or
+// The pose of a node in a glTF file, and functions to move, turn and scale it. They keep the form that the file uses: a matrix, or
 // translation, rotation and scale.
 #pragma once
 
@@ -12,10 +12,10 @@ namespace steradian::view {
 
 using scene::Affine;
 
-// The transforms of all nodes of a document as it stands.
+// The transforms of all nodes of a document in its present state.
 class NodeTree {
  public:
-  NodeTree() = default;  // of no nodes
+  NodeTree() = default;  // without nodes
   explicit NodeTree(const Document& document) : NodeTree(document.json(), document.file().path) {}
   NodeTree(const Json& json, const std::string& path);  // throws Error as load_scene does
   const Affine& world(int node) const { return nodes_.world[static_cast<std::size_t>(node)]; }
@@ -30,19 +30,19 @@ class NodeTree {
 
 struct NodePose {
   bool is_matrix = false;
-  Affine matrix;  // of a node with one
+  Affine matrix;  // for a node with a matrix
   Vec3d translation, scale{1, 1, 1};
   std::array<double, 4> rotation{0, 0, 0, 1};  // x y z w
 };
 NodePose pose_of(const Document& document, int node);
-void set_pose(Document& document, int node, const NodePose& pose);  // writes what differs alone
+void set_pose(Document& document, int node, const NodePose& pose);  // writes changed values only
 
-// `parent`: the world transform of the node's parent. Directions, axes and distances are the world's; a parent of unequal scales turns
-// an axis to the direction that its image has in the parent.
+// `parent`: the world transform of the node's parent. Directions, axes and distances are in world space. A parent with unequal scales turns
+// an axis to the direction of its image in the parent.
 NodePose moved(NodePose pose, const Affine& parent, Vec3d by);
 NodePose turned(NodePose pose, const Affine& parent, Vec3d axis, double angle);  // about the node's own origin
 NodePose scaled(NodePose pose, Vec3d factors);                                   // along the node's own axes
 
-Affine inverse(const Affine& a);  // of one that can be inverted
+Affine inverse(const Affine& a);  // the map must be invertible
 
 }  // namespace steradian::view

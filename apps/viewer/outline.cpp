@@ -13,17 +13,17 @@
 namespace steradian::view {
 namespace {
 
-constexpr const char* kOutlineName = "steradian view: an outline";  // of the buffer that holds it
-constexpr std::size_t kMostCorners = 1000;                          // edges are tried against each other at every step of a drag
+constexpr const char* kOutlineName = "steradian view: an outline";  // name of the buffer that holds it
+constexpr std::size_t kMostCorners = 1000;                          // every step of a drag tests all pairs of edges
 
 std::string indexed(const char* array, std::size_t i) { return std::string("/") + array + "/" + std::to_string(i); }
 
 struct Place {
-  std::string primitive;  // the pointer of it
+  std::string primitive;  // its JSON pointer
   const Json* json = nullptr;
 };
 
-// The one primitive of the lamp's material.
+// The only primitive with the lamp's material.
 std::optional<Place> place_of(const Document& document, const Lamp& lamp) {
   if (lamp.kind != LampKind::mesh) return {};
   const int mesh = document.index("/nodes/" + std::to_string(lamp.node) + "/mesh");
@@ -56,7 +56,7 @@ Contours flattened(const Outline& outline, const Frame& frame) {
   return result;
 }
 
-// Bytes, as a buffer of the file's text has them.
+// Bytes in the form of a buffer in the file's text.
 class Packed {
  public:
   template <class T>
@@ -79,7 +79,7 @@ class Packed {
   std::vector<std::size_t> offsets_;
 };
 
-// The first of the three accessors that an outline of ours has; the next free number where the primitive has none yet.
+// The first of the three accessors of an outline written here; the next free number if the primitive has none yet.
 std::size_t first_accessor(const Document& document, const Json& primitive) {
   const Json::json_pointer at("/attributes/POSITION");
   if (primitive.contains(at) && primitive.at(at).is_number_unsigned()) {
@@ -98,7 +98,7 @@ std::optional<Outline> outline_of(const Document& document, const Lamp& lamp) tr
   if (!place || has_texture(*document.find("/materials/" + std::to_string(lamp.light)))) return {};
   Budget budget;
   const scene::GltfDocument file = scene::document_of(document.file(), budget);
-  const nlohmann::json json = *place->json;  // a cursor keeps no copy
+  const nlohmann::json json = *place->json;  // a copy, because a cursor only refers to its JSON
   const scene::JsonCursor primitive(json, place->primitive);
   if (primitive.integer("mode", 4, 0, 6) != 4) return {};
   const std::size_t accessors = file.count("accessors");
@@ -130,7 +130,7 @@ std::optional<Outline> outline_of(const Document& document, const Lamp& lamp) tr
   for (auto& hole : polygon.holes) outline.contours.push_back(std::move(hole));
   return outline;
 } catch (const std::exception&) {
-  return {};  // of a broken file, which is said when it is read
+  return {};  // the file is broken; the error appears when it is read
 }
 
 bool set_outline(Document& document, const Lamp& lamp, const Outline& outline) {
@@ -142,7 +142,7 @@ bool set_outline(Document& document, const Lamp& lamp, const Outline& outline) {
 
   std::vector<Vec3f> positions, normals;
   Vec3f low{INFINITY, INFINITY, INFINITY}, high = -low;
-  const double height = dot(outline.contours[0][0], frame.z);  // all on one plane: a hand's corners are only near it
+  const double height = dot(outline.contours[0][0], frame.z);  // puts all corners on one plane: dragged corners are only near it
   for (const auto& contour : outline.contours)
     for (const Vec3d& p : contour) {
       const auto q = static_cast<Vec3f>(p + frame.z * (height - dot(p, frame.z)));
@@ -197,7 +197,7 @@ int add_polygon_light(Document& document, Vec3d position, Vec3d direction, doubl
                {{"name", name}, {"primitives", Json::array({{{"attributes", Json::object()}, {"material", material}}})}});
   const int node = add_node(document, {{"name", name}, {"mesh", mesh}}, position, direction);
   Outline outline;
-  outline.normal = {0, 0, -1};  // as area lights shine
+  outline.normal = {0, 0, -1};  // the direction in which area lights shine
   auto& contour = outline.contours.emplace_back();
   for (int i = 0; i < 5; ++i) {
     const double angle = std::numbers::pi / 2 - 2 * std::numbers::pi * i / 5;

@@ -1,4 +1,4 @@
-// The corners of a lamp that is a flat polygon: a mesh of its file, one primitive of one material.
+// The corners of a lamp that is a flat polygon: a mesh of its file, with one primitive of one material.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 namespace steradian::view {
 
 struct Outline {
-  Vec3d normal{0, 0, 1};                     // of the side from which the first contour runs counter-clockwise: its front
-  std::vector<std::vector<Vec3d>> contours;  // in the frame of its node, holes after what is around them
+  Vec3d normal{0, 0, 1};                     // normal of the front, from which the first contour runs counter-clockwise
+  std::vector<std::vector<Vec3d>> contours;  // in the frame of its node, holes after their outer contour
 };
 
-// Nothing where the lamp is no such mesh: not flat, in several pieces, with a texture, or moved by a skin or morph targets.
+// Empty if the lamp's mesh is not flat, is in several pieces, has a texture, or is moved by a skin or morph targets.
 std::optional<Outline> outline_of(const Document& document, const Lamp& lamp);
 
-// Puts the outline in the place of the lamp's mesh, for all nodes that show it. False, and nothing changed, where it crosses itself.
+// Replaces the lamp's mesh by the outline, for all nodes that show it. Returns false and changes nothing if the outline crosses itself.
 bool set_outline(Document& document, const Lamp& lamp, const Outline& outline);
 
-// A lamp of five corners, radiance 5, that shines along `direction`; its node.
+// Adds a lamp of five corners with radiance 5 that shines along `direction`; returns its node.
 int add_polygon_light(Document& document, Vec3d position, Vec3d direction, double size = 1);
 
 }  // namespace steradian::view

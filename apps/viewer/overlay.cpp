@@ -1,4 +1,4 @@
-// Over the picture: the handles of what is selected, and marks where lamps without an extent are.
+// Overlay on the picture: the handles of the selected object, and marks for lamps without an extent.
 #include <imgui.h>
 
 #include <cmath>
@@ -106,7 +106,7 @@ void draw_plane_handles(const Drawing& drawing, double scale) {
   list->AddRectFilled({corner.x - 5, corner.y - 5}, {corner.x + 5, corner.y + 5}, kBright);
 }
 
-// What stands on both sides of the split screen.
+// Labels both sides of the split screen.
 void name_halves(const Session& s, float x) {
   const RenderedFrame& frame = s.frame();
   std::string right = frame.other_stats.method;

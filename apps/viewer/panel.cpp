@@ -1,4 +1,4 @@
-// The panel: lights, what is selected, how it is rendered, files, times.
+// The panel: lights, the selection, render options, files, times.
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -13,7 +13,7 @@
 namespace steradian::view {
 namespace {
 
-// ImGui works in float; what nobody touched keeps its double.
+// ImGui works in float; an untouched value keeps its double precision.
 bool drag_double(const char* label, double& value, float speed, double low, double high, const char* format = "%.3g") {
   auto v = static_cast<float>(value);
   if (!ImGui::DragFloat(label, &v, speed, static_cast<float>(low), static_cast<float>(high), format, ImGuiSliderFlags_AlwaysClamp))
@@ -34,7 +34,7 @@ bool choose(const char* label, const char* (&names)[N], int& chosen) {
   return ImGui::Combo(label, &chosen, names, static_cast<int>(N));
 }
 
-// One of some names; true where it was another one before.
+// Chooses one of some names; true if the choice changed.
 template <class Names>
 bool choose_name(const char* label, const Names& names, std::string& chosen) {
   bool changed = false;
@@ -89,7 +89,7 @@ void corner_controls(Session& s) {
   if (ImGui::SmallButton("remove")) s.remove_corner();
 }
 
-// The keys of a lobe that stand in its JSON.
+// Edits the keys in a lobe's JSON.
 bool edit_lobe(Json& lobe) {
   bool changed = false;
   for (auto& [key, value] : lobe.items()) {
@@ -133,7 +133,7 @@ void material_controls(Session& s, int material) {
   s.changed();
 }
 
-// About the axes of the world, by what is added while a number is held: angles of their own a rotation has none.
+// Turns about the axes of the world by the amount added while a number is held, because a rotation has no unique angles.
 bool edit_turn(NodePose& pose, const Affine& parent) {
   constexpr double kDegree = 3.14159265358979324 / 180;
   constexpr Vec3d kAxes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -186,7 +186,7 @@ void light_list(Session& s) {
   const std::vector<Lamp>& lamps = s.lamps();
   if (ImGui::BeginListBox("##lights",
                           {-1, std::min(8.0f, static_cast<float>(lamps.size()) + 0.5f) * ImGui::GetTextLineHeightWithSpacing()})) {
-    ImGuiListClipper clipper;  // of thousands only those that are seen
+    ImGuiListClipper clipper;  // draws only the visible ones of thousands
     clipper.Begin(static_cast<int>(lamps.size()));
     while (clipper.Step())
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
@@ -289,12 +289,12 @@ void time_controls(ViewState& state) {
   if (ImGui::SmallButton(state.playing ? "pause" : "play")) state.playing = !state.playing;
 }
 
-// A colour for a pass of the list, told apart from its neighbours.
+// A colour for a pass of the list that differs from its neighbours.
 ImU32 color_of_pass(std::size_t number) {
   return ImColor::HSV(std::fmod(0.58f + 0.381966f * static_cast<float>(number), 1.0f), 0.55f, 0.9f);
 }
 
-// The last pictures from left to right, the times of their passes one upon another.
+// The latest pictures from left to right, with the times of their passes stacked.
 void graph_of_passes(const ViewState& state) {
   double most = 1e-3;
   for (const auto& passes : state.history) {

@@ -4,7 +4,7 @@
 
 namespace steradian::view {
 
-// Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection", 1997.
+// Intersects a ray with the scene's triangles. Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection", 1997.
 std::optional<Hit> pick(const Scene& scene, const Ray& ray) {
   std::optional<Hit> nearest;
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {

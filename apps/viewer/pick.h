@@ -1,4 +1,4 @@
-// What a ray meets first.
+// The first hit of a ray.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 namespace steradian::view {
 
 struct Hit {
-  std::size_t mesh = 0, triangle = 0;  // into Scene::meshes
+  std::size_t mesh = 0, triangle = 0;  // indices into Scene::meshes
   double distance = 0;
-  Vec3d point, normal;  // of the triangle, towards the ray's origin
+  Vec3d point, normal;  // the normal is the triangle's, towards the ray's origin
 };
 
-// Every triangle is asked: a click can wait for a million of them.
+// Tests every triangle: a million of them are fast enough for a click.
 std::optional<Hit> pick(const Scene& scene, const Ray& ray);
 
 }  // namespace steradian::view

@@ -7,7 +7,7 @@
 namespace steradian::view {
 namespace {
 
-// How often the contours run around a point, counter-clockwise in a plane whose y is up.
+// The number of times that the contours run around a point, counter-clockwise in a plane whose y points up.
 int winding(const PlaneBody& body, Vec2d p) {
   int around = 0;
   for (const auto& contour : body.contours)
@@ -50,7 +50,7 @@ double distance_to_outline(const PlaneBody& body, Vec2d p) {
   return nearest;
 }
 
-// `point` of places, `direction` of what has no place.
+// `point` maps places, `direction` maps vectors without a place.
 template <class Point, class Direction>
 PlaneBody mapped(PlaneBody body, Point point, Direction direction) {
   for (auto& contour : body.contours)

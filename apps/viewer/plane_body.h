@@ -1,4 +1,4 @@
-// Bodies of the plane under a hand: which one a point is in, and what it looks like moved, turned and scaled.
+// Editing bodies of the plane: the body at a point, and copies that are moved, turned and scaled.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace steradian::view {
 
-// The uppermost body that a point is in, or within `reach` of: thin ones are hard to hit.
+// The uppermost body that contains a point, or is within `reach` of it, because thin bodies are hard to hit.
 std::optional<std::size_t> body_at(const PlaneScene& scene, Vec2d point, double reach);
 
 struct PlaneBox {
@@ -17,8 +17,8 @@ struct PlaneBox {
 PlaneBox bounds_of(const PlaneBody& body);
 
 PlaneBody moved(PlaneBody body, Vec2d by);
-// About a point; a gradient goes along, a spot's axis turns.
+// Scales about a point. A gradient scales along, a spot's axis turns.
 PlaneBody scaled(PlaneBody body, Vec2d about, double factor);
-PlaneBody turned(PlaneBody body, Vec2d about, double angle);  // radians, clockwise as seen: y is down
+PlaneBody turned(PlaneBody body, Vec2d about, double angle);  // radians, clockwise on screen: y points down
 
 }  // namespace steradian::view

@@ -22,7 +22,7 @@ std::string text_of(const std::string& what, const nlohmann::json& value) {
   return value.get<std::string>();
 }
 
-// True where it was a value of a lamp.
+// True if it was a value of a lamp.
 bool set_of_lamp(LampValues& v, const std::string& what, const nlohmann::json& value) {
   if (what == "intensity")
     v.intensity = number_of(what, value);
@@ -232,7 +232,7 @@ void act(ViewState& state, Action action) {
       choose_other(state);
       break;
     case Action::play: state.playing = !state.playing && stage.duration() > 0; break;
-    case Action::fly: break;  // while it is held, by the window
+    case Action::fly: break;  // the window handles it while the key is held
     case Action::quit: state.quit = true; break;
   }
 }

@@ -1,4 +1,4 @@
-// A script of what a hand does: one JSON object a line. What a window records, and plays.
+// A script of user input: one JSON object per line. A window records and plays such scripts.
 //
 //   {"press": "left", "at": [400, 300]}   {"move": [420, 300]}   {"release": "left"}
 //   {"drag": "left", "from": [400, 300], "to": [500, 260], "steps": 10}      "shift": true with press and drag
@@ -41,16 +41,16 @@ enum class ScriptWord {
 
 struct ScriptEvent {
   ScriptWord word = ScriptWord::quit;
-  std::string text;   // button, key, name, path; of set: what
-  Vec2d at;           // press, move, click, wheel; of resize the size
+  std::string text;   // button, key, name, path; set: name of the value
+  Vec2d at;           // press, move, click, wheel; resize: the size
   double number = 0;  // wheel: steps; wait: seconds, or kSettled or kPicture
   bool shift = false;
   nlohmann::json value;  // set
 };
 
-inline constexpr double kSettled = -1, kPicture = -2;  // wait: until the picture is the whole one; until there is one
+inline constexpr double kSettled = -1, kPicture = -2;  // wait: until the final picture is done; until there is any picture
 
-// A drag is its press, moves and release. Throws Error with file, line and what a line may say.
+// Expands a drag into its press, moves and release. Throws Error with file, line and the valid commands.
 std::vector<ScriptEvent> read_script(const std::string& text, const std::string& path);
 std::string script_line(const ScriptEvent& event);
 

@@ -1,4 +1,4 @@
-// Scripts of the window: lines there and back, and what a wrong line says.
+// Scripts of the window: lines written and read back, and the messages for invalid lines.
 #include "script.h"
 
 #include <gtest/gtest.h>

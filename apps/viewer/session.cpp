@@ -14,7 +14,7 @@ std::filesystem::file_time_type scene_time(const std::string& path) {
 
 Vec3d middle_of(const Scene& scene) { return (scene.bounds_min + scene.bounds_max) * 0.5; }
 
-// What a camera looks at first: what stands in the middle of its picture, or the middle of the scene.
+// The distance to the point that a camera first orbits: the surface in the middle of its picture, or else the middle of the scene.
 double distance_of_view(const Scene& scene, const Camera& camera) {
   if (const auto hit = pick(scene, {camera.position, -camera.z})) return hit->distance;
   const double d = dot(camera.position - middle_of(scene), camera.z);
@@ -87,7 +87,7 @@ bool Session::update() {
   }
   if (submitted_ != wanted_ || (submitted_moving_ && !moving_)) try {
       submit();
-    } catch (const std::exception& e) {  // a file so broken that no camera can be put into it
+    } catch (const std::exception& e) {  // the file is too broken to contain a camera
       say(e.what());
       submitted_moving_ = moving_;
       settled_ = true;
@@ -127,7 +127,7 @@ const NodeTree& Session::tree() const {
     tree_.emplace(shown_json(), path());
     lamps_ = lamps_of(*document_, *tree_);
   } catch (const std::exception&) {
-    tree_.emplace();  // of a broken file, which message() says when it is read
+    tree_.emplace();  // the file is broken; message() tells it when it is read
   }
   return *tree_;
 }
@@ -199,7 +199,7 @@ void Session::drag_handle(Vec2d to) {
 
 void Session::drag(Vec2d to) {
   if (!button_) return;
-  constexpr double kClick = 3;  // pixels that a hand may tremble
+  constexpr double kClick = 3;  // tolerance of a click in pixels
   if (!moved_ && length(to - pressed_) <= kClick) return;
   moved_ = true;
   set_moving(true);
@@ -270,7 +270,7 @@ std::optional<CornerPlace> Session::corner() const {
   return corner_;
 }
 
-// The outline is read back from the triangles it becomes: from another corner on, and without corners on a straight line.
+// The outline is read back from its triangles. It may start at another corner, and corners on a straight line are dropped.
 bool Session::put_corners(const Outline& outline, Vec3d taken) {
   const Lamp* lamp = selected_mesh();
   if (lamp == nullptr || !set_outline(*document_, *lamp, outline)) return false;
@@ -298,12 +298,12 @@ void Session::drag_corner(Vec2d to) {
   const auto met = meets_plane(at, normal, ray(to));
   if (!met) return;
   corner = inverse(world).point(*met);
-  if (!put_corners(drag_outline_, corner)) corner = before;  // stays where the outline was whole
+  if (!put_corners(drag_outline_, corner)) corner = before;  // keeps the last position at which the outline was valid
 }
 
 void Session::add_corner() {
   if (!corner()) return;
-  constexpr double kOut = 1e-3;  // of the edge: a corner on it would be none
+  constexpr double kOut = 1e-3;  // fraction of the edge: a corner exactly on it would not count
   Outline outline = *outline_;
   auto& contour = outline.contours[corner_->contour];
   const Vec3d from = contour[corner_->corner], to = contour[(corner_->corner + 1) % contour.size()];
@@ -319,7 +319,7 @@ void Session::remove_corner() {
   if (contour.size() > 3)
     contour.erase(contour.begin() + static_cast<std::ptrdiff_t>(corner_->corner));
   else if (corner_->contour > 0)
-    outline.contours.erase(outline.contours.begin() + static_cast<std::ptrdiff_t>(corner_->contour));  // a hole of three
+    outline.contours.erase(outline.contours.begin() + static_cast<std::ptrdiff_t>(corner_->contour));  // a hole of three corners
   else
     return;
   const Vec3d removed = outline_->contours[corner_->contour][corner_->corner];

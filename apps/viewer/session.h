@@ -1,5 +1,4 @@
-// Session: a scene in the hand: its document, the camera that looks at it, what is selected, and the picture of all that. A window, a
-// script and a test drive it by the same calls.
+// Session: an interactive scene: its document, camera, selection and picture. A window, a script and a test use the same calls.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +17,8 @@
 namespace steradian::view {
 
 struct Selection {
-  int node = -1;      // of the document; -1: nothing
-  int material = -1;  // of the mesh that was picked; -1: a lamp without one
+  int node = -1;      // node of the document; -1: nothing
+  int material = -1;  // material of the picked mesh; -1: a lamp without one
 };
 
 struct CornerPlace {
@@ -29,7 +28,7 @@ struct CornerPlace {
 
 class Session : public Stage {
  public:
-  // Throws Error where the file cannot be read; what is wrong with its scene is said in message() once the first picture was tried.
+  // Throws Error if the file cannot be read. Problems of its scene appear in message() after the first picture was tried.
   Session(const std::string& path, RenderOptions options, Worker::Render render = {});
 
   bool update() override;
@@ -38,7 +37,7 @@ class Session : public Stage {
   const Picture& picture() const override { return frame_.picture; }
   const RenderedFrame& frame() const { return frame_; }
 
-  // The picture asked for: method, shadows, size and so on. changed() after a change.
+  // The options of the picture: method, shadows, size and so on. Call changed() after a change.
   RenderOptions& options() { return options_; }
   std::optional<RenderOptions>& other() { return other_; }
   void resize(int width, int height) override;
@@ -46,8 +45,8 @@ class Session : public Stage {
   void changed() { ++wanted_; }
   void set_moving(bool moving) override;
 
-  // The pointer: on a handle it drags what is selected; else left orbits, or selects where it was not moved; middle, and left with shift,
-  // pans; right looks around.
+  // The pointer. On a handle it drags the selected object. Otherwise left orbits, or selects if the pointer has not moved. Middle, and left
+  // with shift, pans; right looks around.
   void press(PointerButton button, bool shift, Vec2d at) override;
   void drag(Vec2d to) override;
   void release(Vec2d at) override;
@@ -58,14 +57,14 @@ class Session : public Stage {
   Handle dragged_handle() const { return handle_; }
 
   bool has_camera() const { return camera_.has_value(); }
-  ViewCamera& camera() { return *camera_; }  // once has_camera; changed() after a change
+  ViewCamera& camera() { return *camera_; }  // valid if has_camera(); call changed() after a change
   Camera shown_camera() const { return camera_->camera(); }
-  void frame_selected() override;  // orbits about what is selected, or the whole scene
+  void frame_selected() override;  // orbits about the selected object, or the whole scene
   void reset_camera() override;
 
   Document& document() { return *document_; }
-  const NodeTree& tree() const;            // of the document as it is
-  const std::vector<Lamp>& lamps() const;  // of the document as it is
+  const NodeTree& tree() const;            // nodes of the document in its present state
+  const std::vector<Lamp>& lamps() const;  // lamps of the document in its present state
   const Selection& selection() const { return selection_; }
   void select(Selection selection) {
     selection_ = selection;
@@ -73,18 +72,18 @@ class Session : public Stage {
   }
   void select_named(const std::string& name) override;
   void deselect() override { selection_ = {}; }
-  // Of a selected lamp that is a polygon, its corners in the world, contour after contour: a press takes one, and a drag carries it over
-  // the polygon's plane, as far as the outline does not cross itself.
+  // The corners in world space of a selected lamp that is a polygon, contour after contour. A press takes a corner. A drag carries it over
+  // the polygon's plane as long as the outline does not cross itself.
   const std::vector<std::vector<Vec3d>>& corners() const;
   std::optional<CornerPlace> corner_under(Vec2d at) const;
-  std::optional<CornerPlace> corner() const;  // that was taken last
-  void add_corner();                          // by the middle of the edge after it, and takes that
+  std::optional<CornerPlace> corner() const;  // the corner taken last
+  void add_corner();                          // at the middle of the edge after the taken corner; takes the new corner
   void remove_corner();
 
   GizmoMode gizmo_mode = GizmoMode::move;
-  std::optional<Gizmo> gizmo() const;  // of what is selected
+  std::optional<Gizmo> gizmo() const;  // the handles of the selected object
 
-  // The moment of the file's animation that is shown; nothing where it has none.
+  // The displayed moment of the file's animation; nothing if it has none.
   const std::vector<scene::GltfAnimation>& animations() const { return animations_; }
   std::size_t animation() const { return animation_; }
   void choose_animation(std::size_t animation);
@@ -92,13 +91,13 @@ class Session : public Stage {
   double time() const override { return time_; }
   void set_time(double seconds) override;
 
-  void add_light(const std::string& type);  // above what is looked at, and selected; polygon: of five corners
+  void add_light(const std::string& type);  // above the orbited point, and selected; polygon: with five corners
   void remove_selected() override;
   void undo() override;
   void redo() override;
 
   const std::string& path() const override { return document_->file().path; }
-  void reload() override;  // the camera kept; throws Error, and stays as it was
+  void reload() override;  // keeps the camera; throws Error and changes nothing
   bool unsaved() const override { return !document_->saved(); }
   bool file_changed() const override;
   void save_scene(const std::string& path) override;
@@ -108,10 +107,10 @@ class Session : public Stage {
   Ray ray(Vec2d at) const { return ray_through(camera_->camera(), at, size().x, size().y); }
   void submit();
   void take_document(std::unique_ptr<Document> document);
-  Json shown_json() const;  // of the document, at the moment
+  Json shown_json() const;  // the document at the displayed moment
   void click(Vec2d at);
   void drag_handle(Vec2d to);
-  const Lamp* selected_mesh() const;  // null where no mesh that shines is selected
+  const Lamp* selected_mesh() const;  // null if no emitting mesh is selected
   void drag_corner(Vec2d to);
   bool put_corners(const Outline& outline, Vec3d taken);
 
@@ -124,19 +123,19 @@ class Session : public Stage {
   std::filesystem::file_time_type file_time_{};
 
   std::uint64_t wanted_ = 1, submitted_ = 0, request_ = 0;
-  std::uint64_t lost_at_ = 0;  // the request in which the device was lost: its later frames leave the message
-  // So that another document's revisions, and other moments, are other numbers.
+  std::uint64_t lost_at_ = 0;  // the request in which the device was lost; later frames keep the message
+  // Offsets that give the revisions of another document, and other moments, different numbers.
   std::uint64_t base_revision_ = 0, source_ = 0;
   std::vector<scene::GltfAnimation> animations_;
   std::size_t animation_ = 0;
   double time_ = 0;
   mutable std::optional<NodeTree> tree_;
-  mutable std::vector<Lamp> lamps_;  // of tree_
+  mutable std::vector<Lamp> lamps_;  // lamps of tree_
   mutable std::uint64_t tree_revision_ = 0;
   bool moving_ = false, submitted_moving_ = false, settled_ = false;
   RenderedFrame frame_;
 
-  // A drag, from its beginning.
+  // State of a drag since its beginning.
   std::optional<PointerButton> button_;
   bool shift_ = false, moved_ = false;
   Vec2d pressed_, last_;
@@ -145,10 +144,10 @@ class Session : public Stage {
   NodePose drag_pose_;
   Affine drag_parent_;
   std::optional<CornerPlace> corner_;
-  std::optional<CornerPlace> drags_corner_;  // of drag_outline_
+  std::optional<CornerPlace> drags_corner_;  // corner of drag_outline_
   Outline drag_outline_;
 
-  // Of what is selected, and of which revision and node.
+  // Outline and corners of the selected object, with the revision and node that they belong to.
   mutable std::optional<Outline> outline_;
   mutable std::vector<std::vector<Vec3d>> corners_;
   mutable std::pair<std::uint64_t, int> corners_of_{0, -1};

@@ -1,4 +1,4 @@
-// What a hand does to a scene in a session: by its effect on the scene and on the picture.
+// Edits of a scene in a session: their effect on the scene and on the picture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ TEST(ViewSession, PicksALampInThePictureAndDragsItByItsArrow) {
   s.wait_until_settled();
   const Lamp lamp = s.lamps().at(0);
   const Vec3d at = s.tree().world(lamp.node).t;
-  // A click on the middle of the light, seen from below it.
+  // A click on the middle of the light, viewed from below.
   s.camera().look_at(at);
   s.changed();
   s.wait_until_settled();
@@ -29,7 +29,7 @@ TEST(ViewSession, PicksALampInThePictureAndDragsItByItsArrow) {
   for (const int axis : {0, 1, 2}) {
     const Vec2d from = pixel_of(s, gizmo.origin + gizmo.axes[axis] * (0.8 * gizmo.size));
     const Vec2d to = pixel_of(s, gizmo.origin + gizmo.axes[axis] * (1.3 * gizmo.size));
-    if (length(to - from) < 5) continue;  // seen from its end
+    if (length(to - from) < 5) continue;  // viewed from its end
     drag(s, from, to);
     const Vec3d by = s.tree().world(lamp.node).t - at;
     EXPECT_NEAR(length(by - gizmo.axes[axis] * (0.5 * gizmo.size)), 0, 1e-9) << axis;
@@ -41,7 +41,7 @@ TEST(ViewSession, PicksALampInThePictureAndDragsItByItsArrow) {
 }
 
 TEST(ViewSession, TurnsAndScalesByItsHandles) {
-  RenderOptions large = small();  // handles must be further apart than a hand reaches
+  RenderOptions large = small();  // handles must be further apart than the pointer's reach
   large.width = 640;
   large.height = 360;
   Session s(room(), large);
@@ -49,12 +49,12 @@ TEST(ViewSession, TurnsAndScalesByItsHandles) {
   const int node = s.lamps().at(0).node;
   s.select({node, -1});
   s.camera().look_at(s.tree().world(node).t);
-  s.camera().orbit(0.1, 0);  // no handle behind another
+  s.camera().orbit(0.1, 0);  // no handle occludes another
   const Affine before = s.tree().world(node);
 
   s.gizmo_mode = GizmoMode::turn;
   const Gizmo ring = *s.gizmo();
-  // A ring that is seen well: about the axis nearest to the view.
+  // The ring about the axis nearest to the view is the most visible one.
   int axis = 0;
   for (const int i : {1, 2})
     if (std::fabs(dot(ring.axes[i], s.camera().camera().z)) > std::fabs(dot(ring.axes[axis], s.camera().camera().z))) axis = i;
@@ -84,7 +84,7 @@ TEST(ViewSession, TurnsAndScalesByItsHandles) {
   }
 }
 
-// The corner of a polygon seen in the picture is dragged over the polygon's plane, to where the pointer's ray meets it.
+// A visible corner of a polygon is dragged over the polygon's plane, to the point where the pointer's ray meets it.
 TEST(ViewSession, DragsTheCornersOfAPolygon) {
   Session s(room(), small());
   s.options().width = 640;
@@ -107,10 +107,10 @@ TEST(ViewSession, DragsTheCornersOfAPolygon) {
   EXPECT_EQ(before.radiance, (Vec3d{5, 5, 5}));
 
   s.camera().look_at(s.corners()[0][0]);
-  s.camera().orbit(0.1, -0.3);  // from below: the plane must not be seen from its edge
+  s.camera().orbit(0.1, -0.3);  // from below: the plane must not be viewed edge-on
   const std::vector<Vec3d> corners = s.corners()[0];
   std::size_t taken = 0;
-  for (std::size_t i = 0; i < 5; ++i)  // that nothing else stands before
+  for (std::size_t i = 0; i < 5; ++i)  // an unoccluded corner
     if (s.corner_under(pixel_of(s, corners[i])) == CornerPlace{0, i}) taken = i;
   const Vec3d middle = (corners[0] + corners[1] + corners[2] + corners[3] + corners[4]) / 5.0;
   const Vec3d wanted = corners[taken] + (corners[taken] - middle) * 0.5;
@@ -128,12 +128,12 @@ TEST(ViewSession, DragsTheCornersOfAPolygon) {
     if (i != taken) still = std::max(still, d);
   }
   EXPECT_LT(still, 1e-6);
-  // The pentagon's area grows by half a corner's triangle: by its base across the neighbours.
+  // The pentagon's area grows by a triangle over the base across the corner's neighbours.
   const Vec3d base = corners[(taken + 1) % 5] - corners[(taken + 4) % 5];
   const double grown = length(cross(base, wanted - corners[taken])) / 2;
   EXPECT_NEAR(light().power / 5, before.power / 5 + grown, 1e-5);
 
-  // Over the edge across it goes only as far as the outline is whole.
+  // Beyond the opposite edge the corner goes only as far as the outline stays valid.
   const std::vector<Vec3d> whole = s.corners()[0];
   drag(s, pixel_of(s, wanted), pixel_of(s, middle * 3.0 - wanted * 2.0));
   s.wait_until_settled();
@@ -169,7 +169,7 @@ TEST(ViewSession, AddsAndRemovesCorners) {
   EXPECT_TRUE(s.corners().empty()) << "and with it the lamp";
 }
 
-// Lobes stand in the place of the specular one, as extras.steradian has them; undone, the file is as it was.
+// Lobes replace the specular one, as in extras.steradian. After undo the file is as before.
 TEST(ViewSession, OverridesLobes) {
   ViewState state;
   open_stage(state, room(), small());

@@ -13,7 +13,7 @@
 namespace steradian::view::session_test {
 namespace {
 
-// The promise of the window: at rest it shows what `render` makes of what it saves.
+// The promise of the window: at rest it shows the same picture that `render` makes of the saved file.
 TEST(ViewSession, SavesASceneThatRendersToTheSameBits) {
   for (const char* name : {"diffuse_floor.glb", "gallery.glb"}) {
     Session s(test::kSourceDir + "/scenes/" + name, small());
@@ -30,7 +30,7 @@ TEST(ViewSession, SavesASceneThatRendersToTheSameBits) {
     const Picture again = render(load_scene(path).scene, small());
     ASSERT_EQ(again.width, s.frame().picture.width);
     EXPECT_EQ(again.pixels, s.frame().picture.pixels) << name;
-    // And it opens as it was left.
+    // The saved file opens in the same state.
     Session opened(path, small());
     opened.wait_until_settled();
     EXPECT_EQ(opened.frame().picture.pixels, again.pixels);
@@ -118,7 +118,7 @@ TEST(ViewSession, DoesNotLoseWhatIsUnsavedToAFileThatChanges) {
   EXPECT_THROW(set_value(state, "intensity", "much"), Error);
 }
 
-// Whatever a file says when it is read again, the window lives on and says what is wrong.
+// Whatever a file contains when it is read again, the window survives and shows the problem.
 TEST(ViewSession, SurvivesFilesThatBreakWhileTheyAreOpen) {
   const std::string path = scene::test_path("breaks.gltf");
   const scene::GltfFile good = scene::read_gltf_file(room());
@@ -159,7 +159,7 @@ TEST(ViewSession, SurvivesFilesThatBreakWhileTheyAreOpen) {
   EXPECT_GT(refused + said, 50);
 }
 
-// What is answered leaves nothing behind: by the memory of the process, in pages. STERADIAN_FRAMES asks for another number of them.
+// Finished requests leave no memory behind, measured by the process's memory in pages. STERADIAN_FRAMES sets another number of frames.
 TEST(ViewSession, ManyFramesLeaveMemoryWhereItWas) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer keeps what is freed";
@@ -186,11 +186,11 @@ TEST(ViewSession, ManyFramesLeaveMemoryWhereItWas) {
   const int count = asked != nullptr ? std::max(1, std::atoi(asked)) : 10000;
   frames(count);
   std::printf("%d frames: %.1f MB more\n", count, test::resident_mib() - before);
-  // A frame of this size, its scene and its request are some ten kilobytes: were one in fifty kept, 10,000 would show.
+  // A frame of this size, its scene and its request take some ten kilobytes. If one in fifty leaked, 10,000 frames would show it.
   EXPECT_LT(test::resident_mib(), before + 2);
 }
 
-// Of a scene that changes, pictures by what is kept are those of the same scene read and sorted anew, bit by bit.
+// For a changing scene, pictures from cached data equal those of the same scene read and sorted from scratch, bit by bit.
 TEST(ViewSession, KeepsWhatHasNotChangedAndLosesNothing) {
   const RenderOptions options = small();
   Session s(test::kSourceDir + "/scenes/room.glb", options);

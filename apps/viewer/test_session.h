@@ -1,4 +1,4 @@
-// What the tests of a session drive it with: a small room, a hand on the pointer.
+// Helpers for the tests of a session: a small room and simulated input.
 #pragma once
 
 #include <string>

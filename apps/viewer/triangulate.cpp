@@ -22,7 +22,7 @@ bool meet(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
 }
 
 struct Polygon {
-  std::vector<Vec2d> points;  // of all contours
+  std::vector<Vec2d> points;  // points of all contours
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
 };
 
@@ -36,7 +36,7 @@ Polygon joined(const Contours& contours) {
   return all;
 }
 
-// Whether edges meet elsewhere than neighbours in their common corner.
+// True if edges meet anywhere except neighbours in their common corner.
 bool crosses_itself(const Polygon& p) {
   for (std::size_t i = 0; i < p.edges.size(); ++i)
     for (std::size_t j = i + 1; j < p.edges.size(); ++j) {
@@ -53,7 +53,7 @@ bool crosses_itself(const Polygon& p) {
   return false;
 }
 
-// Doubled area.
+// Twice the area.
 double area_of(const std::vector<Vec2d>& contour) {
   double sum = 0;
   for (std::size_t i = 0; i < contour.size(); ++i) sum += cross(contour[i], contour[(i + 1) % contour.size()]);
@@ -74,7 +74,8 @@ bool bridge(const Polygon& p, std::vector<std::uint32_t>& outline, std::uint32_t
         const bool touches = edge.first == outline[o] || edge.second == outline[o] || edge.first == h || edge.second == h;
         return !touches && meet(a, b, p.points[edge.first], p.points[edge.second]);
       });
-      // Of the outline's corners where two bridges meet, the one on whose inner side the line is.
+      // Several corners of the outline share a place where two bridges meet. The right corner is the one that has the line on its inner
+      // side.
       const Vec2d before = p.points[outline[(o + outline.size() - 1) % outline.size()]],
                   after = p.points[outline[(o + 1) % outline.size()]];
       const bool convex = turn(before, a, after) >= 0;

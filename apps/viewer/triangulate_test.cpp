@@ -1,4 +1,4 @@
-// Triangles of outlines: as much area as the outline has, none of it twice.
+// Triangles of outlines: they cover the outline's area, and no part of it twice.
 #include "triangulate.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ double area(const Contours& contours) {
   return sum;
 }
 
-// The triangles' area; every one of them must run counter-clockwise, so that none covers what another covers if the sum is the outline's.
+// The triangles' area. Every triangle must run counter-clockwise, so that none overlaps another if the sum equals the outline's area.
 double covered(const Contours& contours) {
   std::vector<Vec2d> all;
   for (const auto& c : contours) all.insert(all.end(), c.begin(), c.end());

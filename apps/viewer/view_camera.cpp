@@ -14,7 +14,7 @@ scene::Affine pose_of(const Camera& camera) { return {camera.x, camera.y, camera
 }  // namespace
 
 void ViewCamera::turn(double yaw, double pitch) {
-  // As far as straight up and down, not over.
+  // The pitch is limited to straight up and down.
   const double now = std::asin(std::clamp(camera_.z.y, -1.0, 1.0)), most = std::numbers::pi / 2 - 1e-3;
   pitch = std::clamp(now + pitch, std::min(-most, now), std::max(most, now)) - now;
   for (Vec3d* axis : {&camera_.x, &camera_.y, &camera_.z}) *axis = rotated(*axis, {0, 1, 0}, yaw);
@@ -92,7 +92,7 @@ scene::GltfFile with_camera(scene::GltfFile file, const Camera& camera) {
   nodes[node]["matrix"] = matrix;
   json["cameras"].at(nodes[node]["camera"].get<std::size_t>())["perspective"]["yfov"] = camera.yfov;
 
-  // First among the scene's roots, and so the first camera.
+  // The camera is first among the scene's roots, and so the first camera.
   if (!json.contains("scenes") || json["scenes"].empty()) {
     std::vector<bool> is_child(nodes.size(), false);
     for (const Json& n : nodes)

@@ -1,4 +1,4 @@
-// The camera of a window: orbits, flies and pans; and the way between points of space and pixels.
+// The camera of a window: orbits, flies and pans; also converts between points in space and pixels.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,16 @@ struct Ray {
 
 class ViewCamera {
  public:
-  // Looks as `camera` does, at what is `distance` before it.
+  // Starts as `camera`, and orbits the point `distance` in front of it.
   ViewCamera(const Camera& camera, double distance) : camera_(camera), distance_(distance) {}
 
-  // Numbers of a drag are in shares of the picture's height, right and down positive.
-  void orbit(double right, double down);              // about what is looked at; up stays up
-  void pan(double right, double down);                // what is looked at follows the pointer
-  void dolly(double steps);                           // a step of a wheel: nearer by a tenth
-  void look(double right, double down);               // turns where it stands
-  void fly(double right, double up, double forward);  // in shares of the distance to what is looked at
-  void look_at(Vec3d target);                         // orbits about it from now on, from the same place
+  // Numbers of a drag are fractions of the picture's height, right and down positive.
+  void orbit(double right, double down);              // about the orbited point; up stays up
+  void pan(double right, double down);                // the orbited point follows the pointer
+  void dolly(double steps);                           // one step of a wheel: nearer by a tenth
+  void look(double right, double down);               // turns in place
+  void fly(double right, double up, double forward);  // in fractions of the distance to the orbited point
+  void look_at(Vec3d target);                         // orbits about the target from now on, without moving
 
   Vec3d target() const { return camera_.position - camera_.z * distance_; }
   double distance() const { return distance_; }
@@ -38,15 +38,15 @@ class ViewCamera {
   double distance_;
 };
 
-// Through a place of the picture, pixels from its upper left corner; a pixel's middle is at .5.
+// The ray through a place of the picture, in pixels from its upper left corner; a pixel's middle is at .5.
 Ray ray_through(const Camera& camera, Vec2d pixel, double width, double height);
-// Where a point is seen; nothing where it lies behind the camera.
+// The pixel at which a point appears; empty if it lies behind the camera.
 std::optional<Vec2d> project(const Camera& camera, Vec3d point, double width, double height);
 
-// The camera as the file's first, so that whoever renders the file sees the same picture. Throws a std::exception for a file that
+// Adds the camera as the file's first, so that every renderer of the file shows the same picture. Throws a std::exception for a file that
 // load_scene would refuse.
 scene::GltfFile with_camera(scene::GltfFile file, const Camera& camera);
-// What a file says of a camera whose axes are orthonormal only to rounding, so that both are the same bits.
+// The camera as it is read back from a file, if its axes are orthonormal only to rounding. It makes both cameras equal to the bit.
 Camera as_read(const Camera& camera);
 
 }  // namespace steradian::view

@@ -1,4 +1,4 @@
-// What the window, its panel and its keys share.
+// State shared by the window, its panel and its keys.
 #pragma once
 
 #include <deque>
@@ -14,28 +14,28 @@ namespace steradian::view {
 
 struct ViewState {
   std::unique_ptr<Stage> stage;
-  Session* session = nullptr;  // the stage where it is a scene in space
-  Drawing* drawing = nullptr;  // where it is one of the plane
+  Session* session = nullptr;  // the stage if it is a scene in space
+  Drawing* drawing = nullptr;  // the stage if it is a drawing of the plane
 
   float exposure = 0;
   ToneCurve tone = ToneCurve::neutral;
-  bool exposure_known = false;  // automatic until the first picture, then the same for all
+  bool exposure_known = false;  // automatic until the first picture, then fixed
   bool panel = true, help = false;
   bool playing = false;  // the animation runs
   bool split = false, error_map = false;
-  float split_at = 0.5f;    // share of the width
-  float error_most = 0.1f;  // of the map: white
+  float split_at = 0.5f;    // fraction of the width
+  float error_most = 0.1f;  // value of the error map shown as white
   std::string other_method = "reference";
   std::string scene_name, picture_name;       // to save as
-  std::deque<std::vector<PassTime>> history;  // of the last pictures
+  std::deque<std::vector<PassTime>> history;  // passes of the latest pictures
   bool quit = false;
 
-  // Of the picture that is shown; made again where the picture or one of these changed.
+  // The displayed picture; recomputed if the picture or one of these values changed.
   Display display;
   bool display_wanted = true;
 };
 
-// Runs what can fail for the file, the machine or the user's words: what is wrong is said in the window.
+// Runs work that can fail because of the file, the machine or the user's input. The window shows the error.
 template <class Work>
 void attempt(ViewState& state, Work work) {
   try {
@@ -45,13 +45,13 @@ void attempt(ViewState& state, Work work) {
   }
 }
 
-// The second method of a split screen or an error map, or none, as the state says.
+// Chooses the second method for a split screen or an error map, or none, according to the state.
 void choose_other(ViewState& state);
 
-// Draws with Dear ImGui, between its NewFrame and its Render.
+// Functions that draw with Dear ImGui, between its NewFrame and its Render.
 void draw_overlay(ViewState& state, double scale);  // handles and marks; scale: picture pixels over ImGui's
 void draw_panel(ViewState& state);
 void draw_help(ViewState& state);
-void draw_message(const ViewState& state);  // what is wrong, if something is
+void draw_message(const ViewState& state);  // shows the error, if there is one
 
 }  // namespace steradian::view

@@ -1,6 +1,6 @@
 #include "window.h"
 
-#include <backends/imgui_impl_opengl3_loader.h>  // OpenGL's functions; before GLFW, which would bring others
+#include <backends/imgui_impl_opengl3_loader.h>  // OpenGL's functions; before GLFW, which would include others
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The name of a key as keys.h has it; empty for those that have none.
+// The name of a key as in keys.h; empty for keys without a name.
 std::string name_of_key(int key, int mods) {
   static const std::map<int, const char*> kNamed = {
       {GLFW_KEY_TAB, "Tab"}, {GLFW_KEY_HOME, "Home"}, {GLFW_KEY_DELETE, "Delete"}, {GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_SPACE, "Space"}};
@@ -33,7 +33,7 @@ std::string name_of_key(int key, int mods) {
   if ((mods & GLFW_MOD_SHIFT) != 0) name += "Shift+";
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return name + "F" + std::to_string(key - GLFW_KEY_F1 + 1);
   if (const auto named = kNamed.find(key); named != kNamed.end()) return name + named->second;
-  // By the keyboard's own layout.
+  // Uses the keyboard's layout.
   const char* letter = glfwGetKeyName(key, 0);
   return letter != nullptr ? name + letter : std::string();
 }
@@ -52,7 +52,7 @@ PointerButton button_of(int glfw_button) {
 
 std::string last_glfw_error;
 
-// GLFW for as long as it lives.
+// Initialises GLFW for its lifetime.
 struct Library {
   Library() {
     glfwSetErrorCallback([](int, const char* text) { last_glfw_error = text; });
@@ -80,7 +80,7 @@ class Window {
       const Bytes text = read_file(options.script, options.script, budget);
       script_ = read_script({text.begin(), text.end()}, options.script);
     }
-    state_.stage->update();  // the worker begins while the window is made
+    state_.stage->update();  // the worker starts while the window is created
     open_window();
   }
   ~Window() {
@@ -115,14 +115,14 @@ class Window {
   void play();
   void play(const ScriptEvent& event);
   void fly();
-  void run_time();  // of an animation that is played
+  void run_time();  // advances an animation that plays
   void watch_file();
   bool playing() const { return next_event_ < script_.size(); }
   void record(const ScriptEvent& event) {
     if (!options_.record.empty()) recorded_ += script_line(event) + "\n";
   }
 
-  // What a hand does, whoever's it is.
+  // User input, from a person or a script.
   void on_pointer(PointerButton button, bool down, bool shift, Vec2d at);
   void on_move(Vec2d at);
   void on_key(const std::string& name, bool down);
@@ -147,7 +147,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   GLuint texture_ = 0;
   ViewState state_;
-  std::map<char, bool> held_;  // of the keys that fly
+  std::map<char, bool> held_;  // the held keys that fly
   bool flying_ = false;
   Clock::time_point last_fly_ = Clock::now(), last_look_ = Clock::now(), last_moment_ = Clock::now();
 
@@ -218,7 +218,7 @@ void Window::make_display() {
   const Picture& picture = state_.stage->picture();
   if (picture.width == 0) return;
   if (!state_.exposure_known) {
-    state_.exposure = state_.drawing != nullptr ? 0 : auto_exposure(picture);  // as render has it: light maps keep their scale
+    state_.exposure = state_.drawing != nullptr ? 0 : auto_exposure(picture);  // like `render`: light maps keep their scale
     state_.exposure_known = state_.display_wanted = true;
   }
   if (!state_.display_wanted) return;
@@ -257,7 +257,7 @@ void Window::draw() {
   if (state_.panel) draw_panel(state_);
   if (state_.help) draw_help(state_);
   draw_message(state_);
-  // What a widget changes while it is held is one step of undo, and hurried.
+  // Changes by a held widget are one step of undo, and are rendered fast.
   if (!flying_ && !state_.stage->dragging()) state_.stage->set_moving(ImGui::IsAnyItemActive() || state_.playing);
   ImGui::Render();
   glViewport(0, 0, width, height);
@@ -268,7 +268,7 @@ void Window::draw() {
   glfwSwapBuffers(window_);
 }
 
-// The window as it is drawn, into a file.
+// Writes the window as it is drawn into a file.
 void Window::shoot(const std::string& path) {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
@@ -320,7 +320,7 @@ void Window::fly() {
   const bool flies = right != 0 || up != 0 || forward != 0;
   if (flies != flying_) state_.stage->set_moving(flies);
   flying_ = flies;
-  constexpr double kSpeed = 0.7;  // of the distance to what is looked at, a second
+  constexpr double kSpeed = 0.7;  // fraction of the distance to the orbited point per second
   if (flies) state_.stage->fly(right * kSpeed * seconds, up * kSpeed * seconds, forward * kSpeed * seconds);
 }
 
@@ -330,7 +330,7 @@ void Window::run_time() {
   if (state_.playing) attempt(state_, [&] { state_.stage->set_time(state_.stage->time() + seconds); });
 }
 
-// The file may be written by another program: it is looked at twice a second.
+// Another program may write the file, so it is checked twice a second.
 void Window::watch_file() {
   const auto now = Clock::now();
   if (now - last_look_ < std::chrono::milliseconds(500)) return;

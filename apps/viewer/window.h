@@ -1,4 +1,4 @@
-// The window of `steradian view`: GLFW's, with Dear ImGui over a texture that holds the picture.
+// The window of `steradian view`: a GLFW window with Dear ImGui over a texture that holds the picture.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct WindowOptions {
   std::optional<float> exposure;  // none: automatic
   ToneCurve tone = ToneCurve::neutral;
   std::string script;  // a file of script.h to play; empty: none
-  std::string record;  // a file to write what is done to; empty: none
+  std::string record;  // a file to record the input in; empty: none
   bool panel = true;
 };
 
-// Until it is closed. Throws Error where there is no display, or the scene cannot be read.
+// Runs until the window is closed. Throws Error if there is no display, or the scene cannot be read.
 void run_window(const WindowOptions& options);
 
 }  // namespace steradian::view

@@ -21,14 +21,14 @@ RenderOptions reduced(RenderOptions options, int divisor) {
   return options;
 }
 
-// A reference gets better while it is looked at.
+// A reference improves while it is displayed.
 bool is_accumulated(const std::optional<RenderOptions>& other) { return other && other->method == "reference"; }
-constexpr int kFirstPairs = 4;  // of samples a light and pixel: noise, but at once
+constexpr int kFirstPairs = 4;  // pairs of samples per light and pixel: noisy, but immediate
 
 }  // namespace
 
 int divisor_within(double time_ms, const Cost& cost) {
-  // What does not shrink with the picture leaves less for the pixels, but never less than half.
+  // The fixed time leaves less time for the pixels, but never less than half.
   const double left = std::max(time_ms - cost.fixed_ms, time_ms / 2);
   int divisor = 1;
   while (divisor < 8 && cost.pixels_ms * cost.divisor * cost.divisor / (divisor * divisor) > left) divisor *= 2;
@@ -97,7 +97,7 @@ void Worker::run() {
 
 void Worker::publish(RenderedFrame frame) {
   const std::lock_guard lock(mutex_);
-  if (done_ && !done_->same) frame.same = false;  // that one was never seen
+  if (done_ && !done_->same) frame.same = false;  // the previous frame was never shown
   done_ = std::move(frame);
   changed_.notify_all();
 }
@@ -123,7 +123,7 @@ void Worker::answer(const Job& job) {
     frame.load_ms = ms_since(start);
   }
   if (request.camera) {
-    // The scene is shared with the window, which reads what is drawn of it, but not this.
+    // The window shares the scene. It reads the scene's displayed data, but not the cameras.
     scene_->scene.cameras.assign(1, *request.camera);
   }
   frame.scene = scene_;
@@ -139,7 +139,7 @@ void Worker::answer(const Job& job) {
     if (next_) return;
   }
   if (first > 1) {
-    // At rest: a picture of half the size on the way where the whole one takes long.
+    // At rest, if the whole picture takes long, a picture of half the size comes first.
     constexpr double kLong = 500;
     const double whole = cost_.pixels_ms * cost_.divisor * cost_.divisor;
     if (first > 2 && whole > kLong && !show(job, frame, 2, false)) return;
@@ -156,7 +156,7 @@ bool Worker::render_one(const RenderOptions& wanted, RenderedFrame& frame, Pictu
   try {
     picture = render_(scene_->scene, options, cache_, &stats, &state);
   } catch (const UsageError&) {
-    throw;  // what was asked for, not the device
+    throw;  // an error of the request, not of the device
   } catch (const Error& e) {
     if (options.backend == Backend::cpu) throw;
     device_lost_ = e.what();
@@ -171,7 +171,7 @@ bool Worker::add_pass(const Job& job, RenderedFrame& frame, int divisor, int pai
   RenderOptions options = reduced(*job.request.other, divisor);
   options.target_error = 0;
   options.spp = pairs;
-  options.seed += accumulation_.pairs();  // another for every pass
+  options.seed += accumulation_.pairs();  // a different seed for every pass
   Picture pass;
   if (!render_one(options, frame, pass, frame.other_stats)) return false;
   accumulation_.add(pass, pairs);
@@ -202,7 +202,7 @@ bool Worker::show(const Job& job, RenderedFrame& frame, int divisor, bool last) 
 
 void Worker::accumulate(const Job& job, RenderedFrame frame) {
   constexpr double kPassMs = 300;            // a pass that takes no longer is followed by one of twice as many samples
-  constexpr double kGoodEnough = 1.0 / 16;   // of the error that is asked for: what a screen of 8 bits shows no more
+  constexpr double kGoodEnough = 1.0 / 16;   // fraction of the requested error: beyond it a screen of 8 bits shows no difference
   constexpr std::uint64_t kMost = 1u << 20;  // pairs
   const double target = job.request.other->target_error;
   int pairs = kFirstPairs;

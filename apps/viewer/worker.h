@@ -1,9 +1,9 @@
-// Worker: renders what a window shows, in a thread of its own. The window asks and goes on; what is done it finds when it looks.
+// Worker: renders the pictures of a window in a separate thread. The window submits requests and continues; it polls for results.
 //
-// A request while things move is answered by a picture of a half, a quarter or less of the size, as small as a thirtieth of a second asks
-// for, and is let finish: else a drag would cancel every picture of itself. At rest pictures of rising size follow, the last of which is
-// the one that `render` makes; a new request cancels them. A reference beside it (method `reference`) then grows for as long as nothing is
-// asked for. What is sorted for one picture is kept for the next (LoadOptions::meshes, RenderCache).
+// While things move, the answer is a picture of a half, a quarter or less of the size, small enough for a thirtieth of a second. It is
+// allowed to finish, because otherwise every step of a drag would cancel the previous step's picture. At rest pictures of rising size
+// follow. The last of them equals that of `render`. A new request cancels them. A reference beside it (method `reference`) then improves as
+// long as there is no new request. Sorted data of one picture is cached for the next (LoadOptions::meshes, RenderCache).
 #pragma once
 
 #include <atomic>
@@ -24,37 +24,37 @@ namespace steradian::view {
 
 struct RenderRequest {
   scene::GltfFile file;
-  std::uint64_t revision = 0;          // of the file: another number, and it is read again
-  std::uint64_t source = 0;            // another number: its pictures are others, too
+  std::uint64_t revision = 0;          // the file's; a different number makes the worker read it again
+  std::uint64_t source = 0;            // a different number means that its pictures differ, too
   std::optional<Camera> camera;        // none: the file's
-  RenderOptions options;               // of the full picture
-  std::optional<RenderOptions> other;  // a second picture of the same, for a comparison
+  RenderOptions options;               // options of the full-size picture
+  std::optional<RenderOptions> other;  // a second picture of the same scene, for a comparison
   bool moving = false;
-  bool refine = false;  // the last request again, at rest: its small picture is there
+  bool refine = false;  // the last request again, at rest: its small picture exists
 };
 
 struct RenderedFrame {
-  std::uint64_t request = 0;                 // which submit it answers, from 1 on
-  std::shared_ptr<const LoadedScene> scene;  // its cameras may change: read them nowhere but in `camera`
+  std::uint64_t request = 0;                 // number of the submit that it answers, from 1 on
+  std::shared_ptr<const LoadedScene> scene;  // its cameras may change: read only `camera`
   Camera camera;
   Picture picture, other;
   RenderStats stats, other_stats;
   int divisor = 1;            // the full size over this picture's
-  bool last = false;          // nothing follows until the next request
-  double load_ms = 0;         // 0: the scene was there
-  bool same = false;          // but for `other` it is the frame before
-  std::uint64_t pairs = 0;    // of samples a light and pixel, of an accumulated `other`; 0: it is none
-  double standard_error = 0;  // of it, see Accumulation::relative_error
-  std::string device_lost;    // what was wrong with the device that the options name; the CPU has rendered this, and will what follows
-  std::string error;          // instead of all this
+  bool last = false;          // no frame follows until the next request
+  double load_ms = 0;         // 0: the scene was loaded already
+  bool same = false;          // equal to the frame before, except for `other`
+  std::uint64_t pairs = 0;    // pairs of samples per light and pixel of an accumulated `other`; 0: it is not accumulated
+  double standard_error = 0;  // error of `other`, see Accumulation::relative_error
+  std::string device_lost;    // error of the device that the options name; the CPU rendered this frame, and will render all that follow
+  std::string error;          // set instead of all other members
 };
 
-// What a picture of a divisor took: what depends on the scene alone, and the pixels.
+// The time of a picture with a divisor: a fixed part that depends on the scene alone, and the pixels.
 struct Cost {
   double fixed_ms = 0, pixels_ms = 0;
   int divisor = 0;  // 0: nothing was rendered yet
 };
-// The divisor of a picture that shall take no more than the time: 1, 2, 4 or 8.
+// The divisor of a picture that takes no more than the given time: 1, 2, 4 or 8.
 int divisor_within(double time_ms, const Cost& cost);
 
 class Worker {
@@ -67,7 +67,7 @@ class Worker {
 
   std::uint64_t submit(RenderRequest request);
   std::optional<RenderedFrame> take();  // the newest since the last call
-  void wait();                          // until there is one, or nothing to do
+  void wait();                          // until there is a frame, or no work
 
  private:
   struct Job {
@@ -80,7 +80,7 @@ class Worker {
   bool show(const Job& job, RenderedFrame& frame, int divisor, bool last);  // false: cancelled
   bool render_one(const RenderOptions& options, RenderedFrame& frame, Picture& picture, RenderStats& stats);
   bool add_pass(const Job& job, RenderedFrame& frame, int divisor, int pairs);  // to a reference beside the picture
-  void accumulate(const Job& job, RenderedFrame frame);                         // until something else is asked for, or it is good enough
+  void accumulate(const Job& job, RenderedFrame frame);                         // until a new request, or until it is good enough
   void publish(RenderedFrame frame);
 
   std::mutex mutex_;
@@ -91,7 +91,7 @@ class Worker {
   bool refining_ = false, busy_ = false, quit_ = false;
   std::uint64_t submitted_ = 0;
 
-  // Of the thread.
+  // Members of the thread.
   std::shared_ptr<LoadedScene> scene_;
   std::uint64_t revision_ = 0, source_ = 0;
   std::shared_ptr<DecodedPictures> pictures_;

@@ -1,4 +1,4 @@
-// What a window's pictures are made of: references that grow, and devices that fail.
+// The pictures of a window: references that improve, and devices that fail.
 #include "worker.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ RenderOptions small(const std::string& method = "auto") {
 
 std::string room() { return test::kSourceDir + "/scenes/diffuse_floor.glb"; }
 
-// Two passes of 1 and 3 pairs, by hand.
+// Two passes of 1 and 3 pairs, computed by hand.
 TEST(ViewAccumulation, IsTheMeanByPairs) {
   const auto pass = [](float value, float variance) {
     Picture p(1, 1);
@@ -43,10 +43,10 @@ TEST(ViewAccumulation, IsTheMeanByPairs) {
   EXPECT_NEAR(a.relative_error(), std::sqrt(2 * 2.75 / 16 / (16 + 64)), 1e-7);
 }
 
-// Against closed forms, to what its own variance says: of independent pixels' squared deviations in standard errors the mean is 1, with a
-// deviation of sqrt(2/n) where they are normal. 40 passes of four pairs, whose seeds differ as the window's do. Without shadows: their rays
-// start a little above the surface, in proportion to its coordinates, so that at the horizon, thousands of units away, they look from
-// another place than the closed form does; a few hundred pairs tell the two apart.
+// Compares with closed forms, up to the estimated variance. For independent pixels, the squared deviations in standard errors have the mean
+// 1, with a deviation of sqrt(2/n) if they are normal. 40 passes of four pairs use seeds that differ as the window's do. The test has no
+// shadows, because their rays start a little above the surface, in proportion to its coordinates. At the horizon, thousands of units away,
+// they start at another place than the closed form. A few hundred pairs show the difference.
 TEST(ViewAccumulation, GrowsTowardsTheExactPictureAsItsErrorSays) {
   const LoadedScene loaded = load_scene(room());
   RenderOptions closed = small(), options = small("reference");
@@ -71,21 +71,22 @@ TEST(ViewAccumulation, GrowsTowardsTheExactPictureAsItsErrorSays) {
   for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
     const double variance = static_cast<double>(mean.layers.at("variance")[i].y);
     const double value = static_cast<double>(exact.pixels[i].y), off = static_cast<double>(mean.pixels[i].y) - value;
-    if (variance <= 1e-8 * value * value) continue;  // nothing random: what stays is the float's rounding
+    if (variance <= 1e-8 * value * value) continue;  // nothing random: only the rounding of floats remains
     sum += off * off / variance;
     ++count;
   }
   std::printf("after %llu pairs: standard error %.4f, mean square of deviations %.3f over %d pixels\n",
               static_cast<unsigned long long>(a.pairs()), a.relative_error(), sum / count, count);
   ASSERT_GT(count, 200);
-  // Variances of 40 passes of four pairs have 40 x 3 degrees of freedom: Student's mean square. Four standard deviations of the mean.
+  // Variances of 40 passes of four pairs have 40 x 3 degrees of freedom: the mean square of Student's t. The bound is four standard
+  // deviations of the mean.
   EXPECT_NEAR(sum / count, 120.0 / 118, 4 * std::sqrt(2.0 / count));
 }
 
 TEST(ViewSession, AReferenceBesideThePictureGrowsWhileItRests) {
   Session s(room(), small());
   RenderOptions reference = small("reference");
-  reference.target_error = 0.005;  // less than the first pass has: it must be added to, also where the picture is there at once
+  reference.target_error = 0.005;  // less than the error of the first pass, so passes must be added, even if the picture exists at once
   s.other() = reference;
   s.changed();
   s.wait_until_settled();
@@ -103,14 +104,14 @@ TEST(ViewSession, AReferenceBesideThePictureGrowsWhileItRests) {
     off += dot(a - b, a - b);
   }
   EXPECT_LT(std::sqrt(off / square), 3 * s.frame().standard_error);
-  // What changes starts it anew.
+  // A change restarts the accumulation.
   s.camera().orbit(0.05, 0);
   s.changed();
   s.wait_until_settled();
   EXPECT_FALSE(s.frame().same && s.frame().pairs > (1u << 20));
 }
 
-// A device that is lost while it renders, as handles.h says it.
+// A device that is lost while it renders, with the error that handles.h throws.
 TEST(ViewSession, GoesOnWithTheCpuWhereADeviceIsLost) {
   int by_device = 0;
   RenderOptions options = small();

@@ -1,4 +1,4 @@
-// AreaLight: a light with an extent: a shape that shines with one radiance, or with a texture.
+// AreaLight: a light with an extent, a shape that shines with one radiance or with a texture.
 #pragma once
 
 #include <memory>
@@ -22,8 +22,8 @@ struct LightTexture {
   Vec3d factor{1, 1, 1};  // radiance = factor times the texel
 };
 
-// Light that leaves a flat light by a measured profile: every point of it has `intensity` times the profile's candela over the area, so
-// that from afar the light is the lamp that was measured, and near to it no point.
+// Light that leaves a flat light by a measured profile. Every point has `intensity` times the profile's candela over the area. From afar,
+// the light equals the measured lamp; from near, it is no point.
 struct LightEmission {
   std::shared_ptr<const LightProfile> profile;  // never null
   ProfileAxes axes;                             // aim: the light's normal
@@ -33,44 +33,43 @@ struct LightEmission {
 
 struct AreaLight {
   Shape shape;
-  Vec3d radiance{1, 1, 1};  // linear RGB, W/(m2 sr) or nits; of a line, radiance times width
-  bool two_sided = false;   // of flat shapes
+  Vec3d radiance{1, 1, 1};  // linear RGB, W/(m2 sr) or nits; for a line, radiance times width
+  bool two_sided = false;   // for flat shapes
   std::string name{};
-  std::optional<LightTexture> texture{};    // of polygons; radiance is then the mean
-  double power = 0;                         // luminance of the radiance times area: what max_lights ranks by
-  std::optional<LightEmission> emission{};  // of rects and disks; radiance is then the mean of all directions and both sides
+  std::optional<LightTexture> texture{};    // for polygons; radiance is then the mean
+  double power = 0;                         // luminance of the radiance times area, by which max_lights ranks
+  std::optional<LightEmission> emission{};  // for rects and disks; radiance is then the mean of all directions and both sides
 
   bool is_flat() const { return std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ellipse>(shape); }
 };
 
-// A polygon as a light of a scene.
+// Makes a light of a scene from a polygon.
 AreaLight area_light(PolygonLight polygon);
 
-// K-gon of the ellipse's area (all vertices pushed out by one factor), in stored order: counter-clockwise as
-// seen from the side to which x cross y points. vertices >= 3.
+// K-gon with the ellipse's area (all vertices pushed out by one factor), in stored order: counter-clockwise from the side to which x cross
+// y points. vertices >= 3.
 PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vertices = 64);
 
-// The outline of an ellipsoid as seen from a point outside of it: a
-// planar ellipse whose cone touches the ellipsoid; x cross y points to the point. None from inside and for an
-// ellipsoid without volume.
+// The outline of an ellipsoid from a point outside of it: a planar ellipse whose cone touches the ellipsoid; x cross y points to the point.
+// None from inside and for an ellipsoid without volume.
 std::optional<Ellipse> silhouette(const Ellipsoid& ellipsoid, Vec3d position);
 
-// The flat light that a point sees in place of `light`: a polygon itself, of other shapes a polygon of so many vertices that
-// has the outline's area. No vertices from inside, and for a line.
+// The flat light that replaces `light` for a point: a polygon itself; for other shapes, a polygon of so many vertices with the outline's
+// area. No vertices from inside, and for a line.
 PolygonLight polygon_seen_from(const AreaLight& light, Vec3d position, int vertices = 64);
 
-// The same of a flat light, whoever sees it. Throws Error for a shape that is not flat.
+// The same for a flat light, from any point. Throws Error for a shape that is not flat.
 PolygonLight flat_polygon(const AreaLight& light, int vertices = 64);
 
 // Radiance of a textured light at a point of its plane.
 Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& images, Vec3d p);
 
-// Has a rect (a polygon of four corners) or a disk shine by a profile. Sets its mean radiance, its power, and two_sided by whether the
+// Makes a rect (a polygon of four corners) or a disk shine by a profile. Sets its mean radiance and its power; two_sided is true if the
 // profile shines to the back. The profile's plane of angle 0 is nearest to towards_x. Throws Error for other shapes.
 void set_emission(AreaLight& light, std::shared_ptr<const LightProfile> profile, Vec3d towards_x, Vec3d intensity = {1, 1, 1});
 
-// Radiance that leaves the light in a unit direction: intensity over area, over the cosine from the normal. Without bound towards the
-// light's plane, where what it sends is not: a flat light whose profile is not dark there has no radiance.
+// Radiance that leaves the light in a unit direction: intensity over area, over the cosine from the normal. It is unbounded towards the
+// light's plane, although the emitted light is not. A flat light whose profile is not dark there has no radiance in that plane.
 Vec3d emitted_radiance(const LightEmission& emission, Vec3d direction);
 
 // Rec. 709 luminance of linear RGB.

@@ -1,4 +1,4 @@
-// Many points at once: the radiance that one light sends from each of them, on all cores, and on packs where a method has them.
+// Many points at once: the radiance that one light sends from each of them, on all cores, and on packs if a method supports them.
 //
 //   std::vector<Vec3f> position, normal;                       // as many of each
 //   std::vector<Vec3f> seen(position.size());
@@ -32,7 +32,7 @@ Rows<T> rows_of(const std::vector<Vector3<T>>& v) {
   return {v.empty() ? nullptr : &v.front().x};
 }
 
-// Normals and views need not be unit. A point whose normal or view is zero is no surface: it gets 0. One with a number that is
+// Normals and views need not be unit. A point whose normal or view is zero is no surface: its result is 0. A point with a number that is
 // not finite gets NaN.
 template <class T>
 struct PointRows {
@@ -40,7 +40,7 @@ struct PointRows {
   Rows<T> position, normal, view;
 };
 
-// Where results go: `count` rows without gaps.
+// Destination of results: `count` rows without gaps.
 template <class T>
 struct RadianceRows {
   T* radiance = nullptr;  // three numbers a point
@@ -48,13 +48,13 @@ struct RadianceRows {
 };
 
 struct BatchOptions {
-  RadianceOptions radiance{};  // its precision is that of T; `sampled` draws other numbers for every point
+  RadianceOptions radiance{};  // its precision is that of T; `sampled` uses other random numbers for every point
   int threads = 0;             // 0: all
 };
 
-// As radiance of radiance.h, point by point, within the rounding of its precision. On packs: in double, Lambert under polygons; in
-// single precision, Lambert under all lights, and under polygons GGX by closed-form, ltc, ltc-compact and half-vector, Phong, Beckmann,
-// Blinn-Phong and Charlie. Throws what that does. The same bytes at any number of threads.
+// The same as radiance of radiance.h, point by point, within the rounding of its precision. Packs serve Lambert under polygons in double.
+// In single precision they serve Lambert under all lights. Under polygons they also serve GGX by closed-form, ltc, ltc-compact and
+// half-vector, Phong, Beckmann, Blinn-Phong and Charlie. Throws the same errors. The bytes are the same at any number of threads.
 void radiance(const AreaLight& light, const PointRows<float>& points, const Material& lobe, const RadianceRows<float>& result,
               const BatchOptions& options = {});
 void radiance(const AreaLight& light, const PointRows<double>& points, const Material& lobe, const RadianceRows<double>& result,

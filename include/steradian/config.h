@@ -9,7 +9,7 @@
 #define STERADIAN_ISA isa_portable
 #endif
 
-// Inline from the first mention on: later ones (source/core/simd.h) only name it.
+// The namespace is inline from its first mention on: later ones (source/core/simd.h) only name it.
 namespace steradian {
 inline namespace STERADIAN_ISA {}
 }  // namespace steradian

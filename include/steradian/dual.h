@@ -5,8 +5,8 @@
 //   const Gradient g = gradient({0.3, 2.0}, [](const auto& x) { return x[0] * exp(x[1]); });
 //   g.value, g.derivative[0], g.derivative[1]
 //
-// Where a function has a kink (abs, min, max, select, a light's edge in the horizon), the derivative is that of the side
-// taken. The square root's derivative at 0 counts as 0: kernels reach it only where the root is multiplied by 0.
+// If a function has a kink (abs, min, max, select, a light's edge in the horizon), the derivative is that of the side taken. The square
+// root's derivative at 0 counts as 0: kernels reach it only where the root is multiplied by 0.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Dual {
 
   Dual() = default;
   Dual(double value) : v(value) {}
-  // Written out: for the implicit copy g++ 12 takes rep movsq, whose start alone costs more than the arithmetic.
+  // The copy is written out: for the implicit one g++ 12 uses rep movsq, whose start alone costs more than the arithmetic.
   Dual(const Dual& other) { *this = other; }
   Dual& operator=(const Dual& other) {
     v = other.v;
@@ -98,7 +98,7 @@ struct RealTraits<Dual<N>> {
 
 struct Gradient {
   double value = 0;
-  std::vector<double> derivative;  // by each of the arguments
+  std::vector<double> derivative;  // one for each argument
 };
 
 // Value and derivatives of `function` at `x`. The function takes a std::vector of Real<Dual<N>> and returns one, for any N.

@@ -1,5 +1,5 @@
-// Disks, ellipses, spheres and ellipsoids as lights: their irradiance without approximation, and polygons in their place
-// for all other lobes. docs/ggx.md, "Round lights".
+// Disks, ellipses, spheres and ellipsoids as lights: their irradiance without approximation, and polygons that replace them for all other
+// lobes. docs/ggx.md, "Round lights".
 #pragma once
 
 #include "steradian/area_light.h"  // Ellipse, silhouette
@@ -14,14 +14,14 @@ namespace steradian {
 double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal);
 float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d normal);
 
-// The same of an ellipsoid center + x u + y v + z w, |(u,v,w)| = 1; 0 from inside.
+// The same for an ellipsoid center + x u + y v + z w, |(u,v,w)| = 1; 0 from inside.
 double ellipsoid_irradiance(const Ellipsoid& ellipsoid, Vec3d position, Vec3d normal);
 
-// The polygon with that many vertices (even, 6 to 64) that stands in for an ellipse seen from a point, its corners
-// gathered where the lobe is sharp. 8 serve a Phong lobe to 0.75 % of it, 12 to 0.1 %.
+// The polygon with that many vertices (even, 6 to 64) that replaces an ellipse for a point; its corners are dense where the lobe is sharp.
+// 8 vertices serve a Phong lobe to 0.75 % of it, 12 to 0.1 %.
 PolygonLight polygon_for_lobe(const Ellipse& ellipse, Vec3d position, const LobeAxis& lobe, int vertices = 8);
 
-// The same with equal steps, for wide lobes: GGX and its kin, 12 vertices.
+// The same with equal steps, for wide lobes: GGX and similar ones, 12 vertices.
 PolygonLight polygon_of_equal_steps(const Ellipse& ellipse, Vec3d position, int vertices = 12);
 
 }  // namespace steradian

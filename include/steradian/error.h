@@ -1,4 +1,4 @@
-// Error: bad input or a missing device. Says where in the user's input, what is wrong, and what to do about it.
+// Error: bad input or a missing device. It states the place in the user's input, the problem, and what to do about it.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +9,7 @@ namespace steradian {
 class Error : public std::runtime_error {
  public:
   // place: file, place in the file, option or key ("scene.gltf: meshes[2].primitives[0]"); may be empty
-  // problem: what is wrong there; hint: what to do, may be empty
+  // problem: the problem there; hint: what to do, may be empty
   Error(std::string place, std::string problem, std::string hint = {})
       : std::runtime_error((place.empty() ? "" : place + ": ") + problem + (hint.empty() ? "" : " (" + hint + ")")),
         place_(std::move(place)),
@@ -24,7 +24,7 @@ class Error : public std::runtime_error {
   std::string place_, problem_, hint_;
 };
 
-// What was asked for cannot be: an option or a method that does not fit. The program exits with 2 instead of 1.
+// An impossible request: an option or a method that does not fit. The program exits with 2 instead of 1.
 class UsageError : public Error {
  public:
   using Error::Error;

@@ -23,7 +23,7 @@ struct HalfVectorOptions {
 // two-sided) and a light without area. Error: docs/accuracy.md, "half vector". Throws Error for other lobes and for arcs < 1.
 Vec3d half_vector_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                            const HalfVectorOptions& options = {});
-// In float, Blinn-Phong by the cosine series in place of quadrature.
+// In float, Blinn-Phong uses the cosine series instead of quadrature.
 Vec3d half_vector_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                                  const HalfVectorOptions& options = {});
 

@@ -1,5 +1,5 @@
-// One bounce of light beyond the direct light: virtual point lights, culled at random without bias, at both ends the
-// lobes of the surfaces. See docs/indirect.md.
+// One bounce of light beyond the direct light: virtual point lights, culled at random without bias. Both ends use the lobes of the
+// surfaces. See docs/indirect.md.
 #pragma once
 
 namespace steradian {
@@ -12,9 +12,9 @@ enum class IndirectMode { off, ltc, ggx, path };
 
 struct IndirectOptions {
   IndirectMode mode = IndirectMode::off;
-  int virtual_lights = 1 << 18;  // about: each light has a square grid of them, by its power
+  int virtual_lights = 1 << 18;  // approximate: each light has a square grid of them, by its power
   int shadow_rays = 0;           // of the bounce, a pixel: 0 off, else a ratio estimator with so many rays
-  double kept_pairs = 48;        // virtual lights that a pixel keeps of its share, on average; 0: no culling
+  double kept_pairs = 48;        // virtual lights that a pixel keeps of its fraction, on average; 0: no culling
   int interleave = 8;            // side of the pattern in which pixels share the virtual lights: 1, 2, 4 or 8
   bool filter = true;            // over the pattern, along surfaces
   bool quads = true;             // ltc: receivers with alpha < 0.1 see virtual lights as quads, not as points

@@ -5,8 +5,8 @@
 //   w = k.polygon_add_edge(w, a, b); ...
 //   double irradiance = k.polygon_irradiance(w).v;
 //
-// The kernels are the manual: each function's comment gives frame, units, preconditions, degenerate case, error and
-// source. The object has no state; making one costs nothing.
+// The kernels are the manual: each function's comment gives frame, units, preconditions, degenerate case, error and source. The object has
+// no state; constructing one costs nothing.
 #pragma once
 
 #include "steradian/real.h"
@@ -23,10 +23,10 @@ struct Kernels {
   using vec4 = Vec4<real>;
   using mat3 = Mat3<real>;
 
-  // 24 where float accuracy is all that S carries, 53 for double: kernels choose their polynomials by it.
+  // 24 if S carries only float accuracy, 53 for double: kernels choose their polynomials by it.
   static constexpr int real_digits() { return RealTraits<S>::kDigits; }
 
-// In the order of dependency (tests/dialect_lint.py holds the list to the folders).
+// The order is that of dependency (tests/dialect_lint.py compares the list with the folders).
 // clang-format off
 #include "math/constants.glsl"
 #include "math/complex.glsl"
@@ -72,7 +72,7 @@ struct Kernels {
 #include "indirect/indirect.glsl"
 // clang-format on
 
-// Kernels of your own, in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
+// Custom kernels in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.
 #ifdef STERADIAN_KERNEL_EXTENSION
 #include STERADIAN_KERNEL_EXTENSION
 #endif

@@ -1,11 +1,10 @@
-// What the numbers of other programs' lights mean here, and conversions between power, radiance and exposure. docs/lights.md is the
-// table with its sources.
+// Meaning of the numbers of other programs' lights, and conversions between power, radiance and exposure. docs/lights.md contains the table
+// with its sources.
 //
-//   double radiance = 100 * light_factor(LightSystem::blender, EmitterKind::area, 0.25);   // Blender: 100 W on half a metre by half a
-//   metre
+//   double radiance = 100 * light_factor(LightSystem::blender, EmitterKind::area, 0.25);   // Blender: 100 W on 0.5 m by 0.5 m
 //
-// Ours: radiance of lights with an extent [W/(m2 sr) or nits], intensity of points and spots [W/sr or candela], irradiance across the
-// direction of directional lights [W/m2 or lux]. Nothing here turns watts into lumens but lumens_from_watts.
+// The units here are: radiance of lights with an extent [W/(m2 sr) or nits]; intensity of points and spots [W/sr or candela]; irradiance
+// across the direction of directional lights [W/m2 or lux]. Only lumens_from_watts turns watts into lumens.
 #pragma once
 
 #include <cmath>
@@ -19,7 +18,7 @@ namespace steradian {
 
 enum class LightSystem { gltf, blender, usd, three, mitsuba, pbrt };
 
-// area: flat. sphere: of Blender, a point lamp with a radius.
+// area: flat. sphere: in Blender, a point lamp with a radius.
 enum class EmitterKind { area, sphere, point, spot, directional };
 
 inline std::optional<LightSystem> light_system_of(std::string_view name) {
@@ -35,14 +34,15 @@ inline std::optional<EmitterKind> emitter_kind_of(std::string_view name) {
   return {};
 }
 
-// Watts or candela, lumens or radiance: whether a system's numbers are photometric.
+// True if a system's numbers are photometric. Possible units are watts or candela, lumens or radiance.
 inline bool is_photometric(LightSystem system) {
   return system == LightSystem::gltf || system == LightSystem::usd || system == LightSystem::three;
 }
 
-// Our number for a number of 1 there, which is linear in it. area: of the light's surface [m2], 4 pi r^2 of a sphere; only Blender's
-// depends on it. Of USD: intensity times 2^exposure; with inputs:normalize on, divide by the area as well (a DistantLight's number is then
-// ours, for its default of off multiply by pi sin^2 of half its angle). Throws Error for a kind that the system has not.
+// The number here for a number of 1 there; it is linear in that number. area: of the light's surface [m2], 4 pi r^2 for a sphere; only
+// Blender's numbers depend on it. For USD, the number is intensity times 2^exposure; with inputs:normalize on, divide by the area as well.
+// A DistantLight's number is then the same as here; for its default of off multiply by pi sin^2 of half its angle. Throws Error for a kind
+// that the system lacks.
 inline double light_factor(LightSystem system, EmitterKind kind, double area = 1) {
   const bool point_like = kind == EmitterKind::point || kind == EmitterKind::spot;
   if (system == LightSystem::usd && point_like)
@@ -54,15 +54,16 @@ inline double light_factor(LightSystem system, EmitterKind kind, double area = 1
   return kind == EmitterKind::area ? 1 / (4 * area) : 1 / (std::numbers::pi * area);
 }
 
-// Of a light that sends the same radiance to all directions of one side, as all of ours do. power: all that it sends [W or lumens].
+// Radiance and power of a light that sends the same radiance to all directions of one side, as all lights here do. power: all that it sends
+// [W or lumens].
 inline double radiance_from_power(double power, double area) { return power / (std::numbers::pi * area); }
 inline double power_from_radiance(double radiance, double area) { return radiance * std::numbers::pi * area; }
 
-// Of a light that sends the same intensity to all directions.
+// Intensity and power of a light that sends the same intensity to all directions.
 inline double intensity_from_power(double power) { return power / (4 * std::numbers::pi); }
 inline double power_from_intensity(double intensity) { return intensity * 4 * std::numbers::pi; }
 
-// 683 lm/W is the definition of the lumen at 540 THz, and what exporters take for light of any colour; white light of a lamp has 200 to
+// 683 lm/W is the definition of the lumen at 540 THz, and exporters assume it for light of any colour. White light of a lamp has 200 to
 // 350.
 inline double lumens_from_watts(double watts, double efficacy = 683) { return watts * efficacy; }
 inline double watts_from_lumens(double lumens, double efficacy = 683) { return lumens / efficacy; }

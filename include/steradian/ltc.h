@@ -1,4 +1,4 @@
-// GGX under polygon lights by linearly transformed cosines: a table look-up and a closed form. Approximate, and fast.
+// GGX under polygon lights by linearly transformed cosines: a table look-up and a closed form. Approximate and fast.
 #pragma once
 
 #include "steradian/material.h"
@@ -14,14 +14,14 @@ namespace steradian {
 // representative_point   for comparison: Karis 2013, no table at all                               "representative-point"
 enum class LtcMethod { classic, fresnel, compact, clipless, representative_point };
 
-// Whether a method serves a material: isotropic GGX with shadowing.
+// True if a method serves a material: isotropic GGX with shadowing.
 bool serves(LtcMethod method, const Material& material);
 
-// Radiance towards the view from a light of its radiance, Fresnel by the split into n_A and f_A (not by fresnel).
-// 0 for a view below the surface, exactly 0 for a light wholly below the horizon (not by clipless), 0 from behind.
-// Precondition: serves(method, material). Error against GGX: docs/ltc.md.
+// Radiance towards the view from a light of its radiance, with Fresnel by the split into n_A and f_A (except fresnel). 0 for a view below
+// the surface, exactly 0 for a light entirely below the horizon (except clipless), 0 from behind. Precondition: serves(method, material).
+// Error against GGX: docs/ltc.md.
 Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
-// The arithmetic in float.
+// The same with arithmetic in float.
 Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
 
 // The GGX tables that the library ships: raw values, for textures and for shaders.
@@ -30,10 +30,10 @@ struct LtcTableView {
   const float* matrix;     // classic_size^2 RGBA: M^-1 over its middle element, as in docs/ltc.md
   const float* magnitude;  // classic_size^2 RGBA: n_A, f_A, 0, form factor of a clipped sphere
   int shape_size;
-  const float* shapes;  // shape_size^2 times 4: what ltc_from_compact takes
+  const float* shapes;  // shape_size^2 times 4: the arguments of ltc_from_compact
   int magnitude_size;
   const float* magnitudes;  // magnitude_size^2 times 2: n_A, f_A
-  // Of the lobe times (1 - v.h)^5, as the classic ones: what n_A is there, F90 - F0 multiplies.
+  // Textures of the lobe times (1 - v.h)^5, like the classic ones: their n_A is the factor of F90 - F0.
   const float* fresnel_matrix;
   const float* fresnel_magnitude;
 };

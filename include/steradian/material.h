@@ -11,10 +11,10 @@ namespace steradian {
 // charlie: the sheen of glTF. lobe_product: two Phong lobes, one about the mirrored view, the other about `axis`.
 enum class Brdf { lambert, phong, ggx, blinn_phong, beckmann, charlie, lobe_product };
 
-// Smallest width of a distribution of half vectors: below, float no longer tells it from a mirror.
+// Smallest width of a distribution of half vectors: below, float cannot distinguish it from a mirror.
 inline constexpr double kSmallestAlpha = 1e-4;
 
-// Of a perceptual roughness, whose square it is.
+// Width of a perceptual roughness: its square.
 constexpr double alpha_from_roughness(double roughness) { return std::max(roughness * roughness, kSmallestAlpha); }
 
 struct Material {
@@ -29,18 +29,18 @@ struct Material {
   Vec3d f90{1, 1, 1};
   bool shadowing = true;             // ggx: height-correlated Smith
   bool foreshortening = false;       // phong: times the cosine of the light
-  Vec3d axis{0, 0, 0};               // lobe_product: of its second lobe; zero: the normal
-  double axis_exponent = 1;          // lobe_product: of its second lobe, n >= 0
-  bool multiple_scattering = false;  // ggx: what is lost between the facets is given back, see albedo.h
+  Vec3d axis{0, 0, 0};               // lobe_product: axis of its second lobe; zero: the normal
+  double axis_exponent = 1;          // lobe_product: exponent of its second lobe, n >= 0
+  bool multiple_scattering = false;  // ggx: restores the light that is lost between the facets, see albedo.h
 };
 
 // The name in the command line, in JSON and in messages: "lambert", "blinn-phong", ...
 const char* name_of(Brdf brdf);
 
-// A lobe as far as a polygon in place of a round light needs to know it.
+// Properties of a lobe for the polygon that replaces a round light.
 struct LobeAxis {
   Vec3d axis;        // unit, from the shading point: the mirrored view
-  double width = 1;  // [rad]: 1/sqrt(n + 1) of Phong
+  double width = 1;  // [rad]: 1/sqrt(n + 1) for Phong
 };
 LobeAxis lobe_axis(const Material& material, const ShadingPoint& at);
 

@@ -1,5 +1,5 @@
-// How an integral is asked for: by which method, how well, in which arithmetic. `steradian eval --help` and docs/eval.md say
-// of each method which lobes it serves and what it is.
+// Selection of the method, quality and arithmetic of an integral. `steradian eval --help` and docs/eval.md describe each method and the
+// lobes that it serves.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace steradian {
 
-// `automatic` ("auto") is the most accurate method in real time that serves the lobe.
+// `automatic` ("auto") is the most accurate real-time method that serves the lobe.
 enum class Method {
   automatic,
   series,
@@ -15,7 +15,7 @@ enum class Method {
   arvo,
   lorentzian,
   pearson,
-  ellipsoid,  // Phong; exact: others, too
+  ellipsoid,  // Phong; exact: others as well
   closed_form,
   ltc,
   ltc_compact,
@@ -28,10 +28,10 @@ enum class Method {
   sampled  // every lobe
 };
 
-// How much work a method puts into what it approximates; methods without such a choice ignore it.
+// Amount of work that a method puts into its approximation; methods without such a choice ignore it.
 //
 // series, matched-lobe   draft, normal: three harmonics; high: five
-// closed-form  how the smooth factor, shadowing times Fresnel, is averaged over the light, the distribution's integral being
+// closed-form  averaging of the smooth factor, shadowing times Fresnel, over the light, the distribution's integral being
 //              exact at every quality. draft: at one direction; normal: up to 33 nodes on a quad; high: up to 49
 // half-vector  arcs of an edge: 3, 4, 8
 // auto         draft: the compact table for isotropic GGX

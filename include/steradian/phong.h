@@ -4,8 +4,8 @@
 //   Material material{.brdf = Brdf::phong, .exponent = 100};
 //   Vec3d radiance = phong_radiance(light, at, material, {.method = Method::series});
 //
-// Radiance = albedo (n + 1)/(2 pi) integral over the light of max(u.r, 0)^n, r the mirrored view; without foreshortening, unless
-// the material asks for it: then of max(u.r, 0)^n max(u.normal, 0), by exact, arvo and series.
+// Radiance = albedo (n + 1)/(2 pi) integral over the light of max(u.r, 0)^n, where r is the mirrored view. There is no foreshortening
+// unless the material asks for it. Then the integrand is max(u.r, 0)^n max(u.normal, 0), by exact, arvo and series.
 // Derivation, errors and speed of the methods: docs/moments.md.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace steradian {
 
 // The peak fits' f in their integrand (f - x^m)/(1 - x^2): docs/moments.md, "The published fits".
 enum class PeakForm {
-  best,       // the one that is closer, of each fit
+  best,       // the one that is closer, for each fit
   one,        // f = 1
   x,          // f = x
   by_parity,  // f = x for even n, 1 for all others: as published, and not continuous in n
@@ -31,12 +31,12 @@ enum class PeakForm {
 struct PhongOptions {
   Method method = Method::series;
   Quality quality = Quality::normal;
-  double relative_precision = 0;   // of arvo: an edge's sum stops when what is left is below; 0 sums everything
-  PeakForm form = PeakForm::best;  // of lorentzian, pearson and ellipsoid
+  double relative_precision = 0;   // for arvo: an edge's sum stops when the rest is below this; 0 sums everything
+  PeakForm form = PeakForm::best;  // for lorentzian, pearson and ellipsoid
 };
 
-// Radiance towards the view; 0 for a view below the surface, from behind a one-sided light, and in its plane.
-// Throws Error for a negative exponent, for a method of other lobes, and for arvo with one that is not an integer.
+// Radiance towards the view; 0 for a view below the surface, from behind a one-sided light, and in its plane. Throws Error for a negative
+// exponent, for a method of other lobes, and for arvo with an exponent that is not an integer.
 Vec3d phong_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material, const PhongOptions& options = {});
 
 // The same in single precision. exact is the fixed quadrature of kernels/integral/moment_quadrature.glsl, with 14 nodes.

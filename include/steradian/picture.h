@@ -14,9 +14,9 @@ struct Picture {
   int height = 0;
   std::vector<Vec3f> pixels;                         // radiance, linear RGB, unclamped; row 0 on top
   std::map<std::string, std::vector<Vec3f>> layers;  // e.g. "variance": stored as variance.R, .G, .B
-  // The layer "alpha" is coverage, by which the pixels are already multiplied: stored as A, in .png as its alpha channel.
+  // The layer "alpha" is coverage, by which the pixels are already multiplied. It is stored as A, in .png as its alpha channel.
   std::map<std::string, std::string> metadata;  // settings; EXR attributes, PNG text
-  std::vector<std::string> unread;              // channels of the file that was read that are no R, G, B, Y or A
+  std::vector<std::string> unread;              // channels of the file other than R, G, B, Y and A
 
   Picture() = default;
   Picture(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
@@ -33,8 +33,8 @@ struct Picture {
 // Source: Khronos, "PBR Neutral Tone Mapper", 2024: base colours up to 0.8 - 0.04 pass unchanged in hue and value.
 Vec3f tone_map(Vec3f radiance, float exposure_stops);
 
-// The exposure in stops that brings the geometric mean of a picture's luminance to 0.18, middle grey. What is below a
-// millionth of the largest luminance, a black background above all, is left out; 0 for a black picture; within +-30.
+// The exposure in stops that brings the geometric mean of a picture's luminance to 0.18, middle grey. Values below a millionth of the
+// largest luminance, above all a black background, are ignored. 0 for a black picture; within +-30.
 // Source: Reinhard et al., "Photographic tone reproduction for digital images", 2002, equations 1 and 2.
 float auto_exposure(const Picture& picture);
 
@@ -42,8 +42,8 @@ float auto_exposure(const Picture& picture);
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-// Writes `.exr` (linear, 32-bit float, ZIP) or `.png` (tone mapped, 8 bits) by the name's ending, beside and then
-// renamed. Throws Error for any other ending and when the file cannot be written.
+// Writes `.exr` (linear, 32-bit float, ZIP) or `.png` (tone mapped, 8 bits) by the name's ending. The file is written beside its target and
+// then renamed. Throws Error for any other ending and when the file cannot be written.
 void write_picture(const Picture& picture, const std::string& path, float exposure_stops = 0.0f);
 
 // Reads `.exr` (with layers and text attributes), `.hdr` (Radiance) or `.png`/`.jpg` (sRGB made linear).

@@ -1,9 +1,9 @@
 // SVG drawings that move: the scene of a file at a time, by its SMIL animations.
 //
 //   PlaneAnimation animation("level.svg");
-//   PlaneScene scene = animation.at(1.5).scene;     // as it is after a second and a half
+//   PlaneScene scene = animation.at(1.5).scene;     // after a second and a half
 //
-// docs/plane.md says which animations count; what does not is named in PlaneSvg::ignored.
+// docs/plane.md says which animations are supported; PlaneSvg::ignored names the others.
 #pragma once
 
 #include <string>
@@ -14,16 +14,16 @@ namespace steradian {
 
 class PlaneAnimation {
  public:
-  // Throws Error as load_plane_scene does.
+  // Throws Error like load_plane_scene.
   explicit PlaneAnimation(const std::string& path, const Limits& limits = {});
-  // From the SVG itself; `name` stands for the file in messages.
+  // Takes the SVG itself; `name` is the file's name in messages.
   PlaneAnimation(std::string svg, std::string name, const Limits& limits);
 
-  bool moves() const { return moves_; }  // is there an animation in it that counts?
+  bool moves() const { return moves_; }  // true if it has a supported animation
   PlaneSvg at(double seconds) const;     // from the beginning of the document
-  // When everything in it has happened once; what is repeated without end goes on after it.
+  // The time when all animations have run once; those that repeat without end continue after it.
   double duration() const;  // [s]
-  bool endless() const;     // something is repeated without end
+  bool endless() const;     // true if an animation repeats without end
 
  private:
   std::string svg_, name_;

@@ -1,12 +1,12 @@
-// Light that walls of the plane send on: interreflection between everything that blocks, by radiosity on elements of the outlines.
+// Interreflection between the walls of the plane, that is everything that blocks, by radiosity on elements of the outlines.
 //
 //   PlaneBounces bounces(world);                        // all of them
 //   Vec3d light = world.query(p).radiance + bounces.query(p).radiance;
 //   options.bounces = &bounces;                         // of PlaneFrameOptions: pictures with them
 //
-// A wall of albedo rho sends L = rho H / 2 to every side alike, H the integral of what arrives times the cosine. Radiance is linear along
-// each element; what the elements send to each other, and to a point, is integrated in closed form over what is visible, and elements
-// are halved until the part of the light that is linear on none of them is small. So the result is not exact: it says how far off it is.
+// A wall of albedo rho sends L = rho H / 2 to all sides alike, where H is the integral of the arriving light times the cosine. Radiance is
+// linear along each element. The light between elements, and to a point, is integrated in closed form over the visible part. Elements are
+// halved until the part of the light that is linear on none of them is small. So the result is not exact; it includes an error estimate.
 #pragma once
 
 #include <memory>
@@ -18,33 +18,33 @@ namespace steradian {
 inline constexpr int kAllBounces = -1;
 
 struct PlaneBounceOptions {
-  int bounces = kAllBounces;  // how often light is sent on, at most
-  double tolerance = 1e-3;    // elements are halved where they are further off than this share of the brightest wall, short ones where
-                              // they are further off by as much as they are shorter than a 32nd of the picture
+  int bounces = kAllBounces;  // maximum number of bounces
+  double tolerance = 1e-3;    // elements are halved if their error exceeds this fraction of the brightest wall; for short ones the bound
+                              // rises as much as they are shorter than a 32nd of the picture
   Limits limits;
 };
 
 struct PlaneBounceStats {
   std::size_t elements = 0;
-  int rounds = 0;    // of halving
-  int sweeps = 0;    // of the solution, in all rounds
-  double error = 0;  // estimated, root mean square over the walls, in shares of their mean radiance
+  int rounds = 0;    // number of rounds of halving
+  int sweeps = 0;    // sweeps of the solution, in all rounds
+  double error = 0;  // estimated, root mean square over the walls, as a fraction of their mean radiance
   double ms = 0;
 };
 
-// Bodies reflect by PlaneBody::albedo; occluders without one by their colour. Above 0.98 counts as 0.98 where all bounces are asked for.
-// Ellipses more than sixty times longer than wide reflect nothing. A point within a light sees that light alone.
+// Bodies reflect by PlaneBody::albedo; occluders without one by their colour. Above 0.98 counts as 0.98 if all bounces are requested.
+// Ellipses more than sixty times longer than wide reflect nothing. A point within a light sees only that light.
 class PlaneBounces {
  public:
-  // The world stays where it is. Throws Error where the scene asks for more than the limits.
+  // The world must outlive this at its place. Throws Error if the scene exceeds the limits.
   explicit PlaneBounces(const PlaneWorld& world, const PlaneBounceOptions& options = {});
   ~PlaneBounces();
   PlaneBounces(PlaneBounces&&) noexcept;
   PlaneBounces& operator=(PlaneBounces&&) noexcept;
 
-  // What arrives at a point after one bounce or more, to be added to PlaneWorld::query.
+  // Light that arrives at a point after one bounce or more, to be added to PlaneWorld::query.
   PlaneLight query(Vec2d position) const;
-  // The estimated error of its radiance.
+  // Estimated error of its radiance.
   Vec3d error(Vec2d position) const;
 
   const PlaneBounceStats& stats() const;

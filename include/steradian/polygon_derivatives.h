@@ -1,5 +1,5 @@
-// Derivatives of what a polygon light sends: by its vertices, by the point, by the surface's normal. For fitting lights
-// to pictures, for inverse lighting, for error control.
+// Derivatives of the light of a polygon light by its vertices, by the point, and by the surface's normal. They serve for fitting lights to
+// pictures, for inverse lighting, and for error control.
 #pragma once
 
 #include <array>
@@ -18,16 +18,16 @@ struct LightDerivatives {
   Vec3d normal;                 // by the normal, of the function of n/|n|: perpendicular to it
 };
 
-// Irradiance of radiance 1 (polygon_irradiance) and its derivatives. Zero where no light arrives. Vertices that a
-// prepared light drops (repeated ones) have derivative 0. Moving one vertex of more than three bends the light; the
-// boundary integral is differentiated as it stands, edge by edge.
+// Irradiance of radiance 1 (polygon_irradiance) and its derivatives. Zero if no light arrives. Vertices that a prepared light drops
+// (repeated ones) have derivative 0. Moving one vertex of more than three bends the light; the boundary integral is differentiated as it
+// stands, edge by edge.
 LightDerivatives polygon_irradiance_derivatives(const PolygonLight& light, Vec3d position, Vec3d normal);
 
 // Solid angle (polygon_solid_angle) and its derivatives; the normal does not matter.
 LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& light, Vec3d position);
 
-// One vector per channel. By the normal: of the function of n/|n|, view and tangent held, so perpendicular to it. The factor
-// of multiple scattering counts as a constant.
+// Radiance derivatives, one vector per channel. The normal's are those of the function of n/|n|, with view and tangent fixed, so
+// perpendicular to the normal. The factor of multiple scattering counts as a constant.
 struct RadianceDerivatives {
   std::vector<std::array<Vec3d, 3>> vertices;  // by each vertex as stored
   std::array<Vec3d, 3> normal;
@@ -36,28 +36,28 @@ struct RadianceDerivatives {
 };
 
 // Derivatives of a light's radiance by its vertices and the normal: of phong_radiance by `series` for Phong, of closed_form_radiance for
-// GGX, of the exact form for Lambert. Throws Error for other lobes. Zero for a view below the surface and from behind.
-// Error: of GGX 1e-8 of the derivative's size, where the last step of the poles' iteration was.
+// GGX, of the exact form for Lambert. Throws Error for other lobes. Zero for a view below the surface and from behind. Error: for GGX 1e-8
+// of the derivative's size, the size of the last step of the poles' iteration.
 RadianceDerivatives radiance_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& material,
                                          Quality quality = Quality::normal);
 
-// Of ltc_radiance by `classic` or `compact`. By the normal, the table's values change too: its interpolation is differentiated.
-// Throws Error for the other methods and for what ltc_radiance does not serve.
+// Derivatives of ltc_radiance by `classic` or `compact`. By the normal, the table's values change too: its interpolation is differentiated.
+// Throws Error for the other methods and for materials that ltc_radiance does not serve.
 RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& light, const ShadingPoint& at, const Material& material);
 
-// What derivatives of a part of a light need of its lobe, where the part's boundary moves (shadow/derivatives.h): what a steradian of
-// radiance 1 in a unit direction sends to the view, a number a channel; zero below the surface, and for a view that is.
+// Density of a lobe, for derivatives of a part of a light whose boundary moves (shadow/derivatives.h). It is the radiance to the view from
+// a steradian of radiance 1 in a unit direction, one number a channel. Zero below the surface, and for a view below it.
 using LobeDensity = std::function<Vec3d(Vec3d)>;
 
-// The lobes are those of radiance_derivatives and of ltc_radiance_derivatives, and so is what they throw.
+// The lobes and the errors thrown are those of radiance_derivatives and of ltc_radiance_derivatives.
 LobeDensity lobe_density(const ShadingPoint& at, const Material& material);
 LobeDensity ltc_lobe_density(LtcMethod method, const ShadingPoint& at, const Material& material);
 
-// Which stored vertex, outline first, each vertex of the prepared light is: contours lose repeated vertices and may be turned around.
+// Stored vertex, outline first, of each vertex of the prepared light: contours lose repeated vertices and may be reversed.
 std::vector<std::size_t> stored_vertices(const PolygonLight& light, const PreparedPolygon& prepared);
 
-// By the point, normal and view direction fixed: only what lies between light and point counts, so it is minus the sum over
-// the vertices.
+// Derivative by the point, with fixed normal and view direction: only the vector between light and point counts, so it is minus the sum
+// over the vertices.
 std::array<Vec3d, 3> by_position(const RadianceDerivatives& by_vertices);
 
 }  // namespace steradian

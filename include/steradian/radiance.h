@@ -1,4 +1,4 @@
-// The radiance that a light sends to the eye from a point with a lobe, by whatever method.
+// The radiance that a light sends to the eye from a point with a lobe, by any method.
 //
 //   PolygonLight panel;
 //   panel.vertices = {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};     // counter-clockwise from the lit side
@@ -8,7 +8,7 @@
 //   const RadianceResult r = radiance(panel, {{0, 0, 0}, {0, 1, 0}, {0.6, 0.8, 0}}, lobe);
 //   // r.radiance; name_of(r.method) is "closed-form"
 //
-// The same methods, by the same rule, as `steradian eval` (docs/eval.md). Whoever asks many times prepares the light once.
+// The methods and their selection are those of `steradian eval` (docs/eval.md). For many evaluations, prepare the light once.
 #pragma once
 
 #include <cstdint>
@@ -30,24 +30,24 @@ struct RadianceOptions {
   Method method = Method::automatic;
   Quality quality = Quality::normal;
   Precision precision = Precision::double_;     // of the arithmetic; reference and sampled have double only
-  int spp = 256;                                // of sampled: pairs of a light sample and a lobe sample
-  std::uint64_t seed = 1;                       // of sampled
-  std::shared_ptr<const ClassicTable> table{};  // of ltc: a fitted table in place of GGX's; null: that
+  int spp = 256;                                // for sampled: pairs of a light sample and a lobe sample
+  std::uint64_t seed = 1;                       // for sampled
+  std::shared_ptr<const ClassicTable> table{};  // for ltc: a fitted table instead of GGX's; null: GGX's
 };
 
 struct RadianceResult {
   Vec3d radiance;                        // towards the view [the light's radiance]
-  std::optional<double> bound;           // of reference: on the absolute error of the largest channel
-  std::optional<double> standard_error;  // of sampled: of the largest channel
+  std::optional<double> bound;           // for reference: bound on the absolute error of the largest channel
+  std::optional<double> standard_error;  // for sampled: that of the largest channel
   Method method = Method::automatic;     // the one that answered
 };
 
-// 0 for a view below the surface, from behind (unless two-sided) and for a light without area. Throws Error where the method
-// does not serve the lobe or the precision; it names those that do.
+// 0 for a view below the surface, from behind (unless two-sided) and for a light without area. Throws Error if the method does not serve
+// the lobe or the precision; the message names the methods that do.
 RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
-// Polygons, disks, spheres and capsules; of a textured light, under its mean radiance. Round lights are exact for Lambert by
-// `exact`; of other methods they are polygons, and the bound of reference holds the difference (docs/eval.md).
+// Radiance of polygons, disks, spheres and capsules; a textured light counts with its mean radiance. Round lights are exact for Lambert by
+// `exact`. For other methods they are polygons, and the bound of reference includes the difference (docs/eval.md).
 RadianceResult radiance(const AreaLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 
 }  // namespace steradian

@@ -13,7 +13,7 @@
 
 STERADIAN_BEGIN_ISA
 
-// What Real<S> needs to know of S. This general form serves the scalar types.
+// Properties of S that Real<S> needs. This general form serves the scalar types.
 template <class S>
 struct RealTraits {
   using Scalar = S;  // one lane
@@ -88,7 +88,7 @@ struct Real {
   STERADIAN_INLINE friend Real log(Real x) { return of(T::log(x.v)); }
 };
 
-// Between two literals.
+// Selects between two literals.
 template <class S>
 STERADIAN_INLINE Real<S> select(Mask<S> m, double a, double b) {
   return select(m, Real<S>(a), Real<S>(b));

@@ -11,7 +11,7 @@
 namespace steradian {
 
 struct ReferenceOptions {
-  double relative_error = 1e-10;  // stop when the bound is below this share of the value ...
+  double relative_error = 1e-10;  // stop when the bound is below this fraction of the value ...
   double absolute_error = 1e-13;  // ... or below this, for light of radiance 1
   int max_evaluations = 4'000'000;
 };
@@ -26,7 +26,7 @@ struct ReferenceResult {
 ReferenceResult reference_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                                    const ReferenceOptions& options = {});
 
-// What a light sends more or less of towards the point, by the unit direction to it: a factor on its radiance. Empty: 1.
+// Factor on a light's radiance, by the unit direction from the point to the light. Empty: 1.
 using EmissionFactor = std::function<double(Vec3d)>;
 
 struct SampledOptions {

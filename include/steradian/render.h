@@ -14,51 +14,51 @@
 
 namespace steradian {
 
-// Of direct light. on: exact from flat lights, from round ones by polygons of 24 corners, and by rays where a point sees more than
-// 512 edges before a light (RenderStats::shadow_fallback says how often). exact: never by rays.
+// Shadows of direct light. on: exact for flat lights, for round ones by polygons of 24 corners. Rays are used if a point sees more than 512
+// edges before a light (RenderStats::shadow_fallback says how often). exact: never by rays.
 enum class Shadows { off, on, exact };
 
-// Where curved surfaces turn away from a light. strict: as their triangles stand, facets included. smooth: as the surface that the
-// vertices' normals describe; points are lit from there, and no triangle hides what lies below its own horizon.
+// Horizon of curved surfaces that turn away from a light. strict: that of their triangles, facets included. smooth: that of the surface
+// that the vertices' normals describe. Points are lit from there, and no triangle occludes what lies below its own horizon.
 enum class Terminator { strict, smooth };
 
-// How area lights add up. all: each by itself at every pixel. tree: the diffuse light of those far from a group of neighbouring pixels
-// together, within a bound; see docs/manylights.md. automatic: tree from 64 lights on.
+// Summation of area lights. all: each separately at every pixel. tree: the diffuse light of lights far from a group of neighbouring pixels
+// is summed together, within a bound; see docs/manylights.md. automatic: tree from 64 lights on.
 enum class LightSum { automatic, all, tree };
 
-// vulkan: the same picture; direct light of metallic-roughness surfaces where nothing blocks it on a device, the rest on the host
-// (docs/vulkan.md). The bounce is a UsageError there, a device that is not there an Error.
+// vulkan: the same picture. The device computes direct light of metallic-roughness surfaces if nothing blocks it, the host the rest
+// (docs/vulkan.md). The bounce is a UsageError there, a missing device an Error.
 enum class Backend { cpu, vulkan };
 
 struct RenderOptions {
   int width = 1280;
   int height = 720;
   std::string camera;                 // name; empty: the first
-  std::string method = "auto";        // of the specular lobe: a name of `render --help`
-  std::string table;                  // of method ltc: a file of fit's in place of the shipped table of GGX; empty: the shipped one
+  std::string method = "auto";        // for the specular lobe: a name of `render --help`
+  std::string table;                  // for method ltc: a file of fit's instead of the shipped table of GGX; empty: the shipped one
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
   Terminator terminator = Terminator::strict;  // of shadows; without them it has no effect
   LightSum lights = LightSum::automatic;
-  double light_error = 1e-2;   // of tree: of each light, as a share of what it sends to a surface that faces it as nearly as possible
+  double light_error = 1e-2;   // for tree: for each light, as a fraction of its light on a surface that faces it as nearly as possible
   bool background = true;      // the camera sees the scene's environment; false: black
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
-  int spp = 16;                // of `sampled`: light and lobe sample pairs per light and primary sample
-  double target_error = 0.01;  // of `reference`: rms of the standard error over rms of the picture; 0: `spp` pairs in every pixel
+  int spp = 16;                // for `sampled`: light and lobe sample pairs per light and primary sample
+  double target_error = 0.01;  // for `reference`: rms of the standard error over rms of the picture; 0: `spp` pairs in every pixel
   IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   Backend backend = Backend::cpu;
-  std::string device;  // of vulkan: part of its name, or its number in `steradian info`; empty: the first
+  std::string device;  // for vulkan: part of its name, or its number in `steradian info`; empty: the first
   int threads = 0;     // 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // called from any thread
-  const std::atomic<bool>* stop = nullptr;                                // once true, render returns soon with what it has
+  const std::atomic<bool>* stop = nullptr;                                // once true, render soon returns its partial result
 };
 
-// What a render that was stopped has done, and where another goes on.
+// Result of a stopped render, from which another can continue.
 struct RenderState {
-  Picture picture;                 // of the tiles that are done, without the bounce; black elsewhere
+  Picture picture;                 // the finished tiles, without the bounce; black elsewhere
   std::vector<std::uint8_t> done;  // by tile of 32 pixels a side, row by row; empty: nothing is done
-  bool complete = false;           // what render returned is the whole picture
+  bool complete = false;           // true if render returned the whole picture
 };
 
 struct PassTime {
@@ -70,26 +70,26 @@ struct RenderStats {
   std::vector<PassTime> passes;
   double total_ms = 0;
   int threads = 0;
-  std::string method;  // what `auto` became
+  std::string method;  // the method that `auto` selected
   std::string device = "cpu";
   std::size_t lights = 0;
   std::size_t triangles = 0;
-  double environment_spots = 0;       // share of the environment's light that polygon lights carry
+  double environment_spots = 0;       // fraction of the environment's light that polygon lights carry
   double diffuse_residual = 0;        // bound of the rms error of the rest's irradiance over its mean
-  bool light_tree = false;            // many lights were added up together; the layer "light_bound" says how far each pixel may be off
+  bool light_tree = false;            // many lights were summed together; the layer "light_bound" gives each pixel's possible error
   double light_elements = 0;          // lights that were one or four elements at a point by themselves, on average over diffuse points
-  double light_outlines = 0;          // and that were walked around
+  double light_outlines = 0;          // and lights whose outline was walked
   double light_bound_max = 0;         // the layer's largest value ...
   double light_bound_mean = 0;        // ... and its mean, over pixels and channels
-  double shadow_fallback = 0;         // share of pairs of a surface and a light whose shadows rays have estimated
-  double shadow_on_host = 0;          // of a device's pairs that see a part of the light: share of which the host found that part
-  std::vector<std::string> warnings;  // what the method leaves out, a sentence each
+  double shadow_fallback = 0;         // fraction of pairs of a surface and a light whose shadows rays have estimated
+  double shadow_on_host = 0;          // fraction of a device's pairs that see a part of the light for which the host found that part
+  std::vector<std::string> warnings;  // omissions of the method, a sentence each
 };
 
-// Throws Error for a camera that is not there and for a method that does not serve a lobe of the scene.
-// The same scene, options and seed give the same bytes at any number of threads.
-// state: tiles that are done are taken from it, and what is done when options.stop becomes true is left there; gone on with later, the same
-// scene and options give the same bytes as in one go. Throws Error for a state of another size.
+// Renders a scene. Throws Error for a missing camera and for a method that does not serve a lobe of the scene. The same scene, options and
+// seed give the same bytes at any number of threads. state: finished tiles are taken from it. When options.stop becomes true, the finished
+// tiles are stored there. If the render is continued later, the same scene and options give the same bytes as in one go. Throws Error for a
+// state of another size.
 Picture render(const Scene& scene, const RenderOptions& options, RenderStats* stats = nullptr, RenderState* state = nullptr);
 
 }  // namespace steradian

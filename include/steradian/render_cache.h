@@ -1,11 +1,12 @@
-// RenderCache: what pictures of a scene are made with, kept from one to the next: of a scene that moves, only what moved is sorted again.
+// RenderCache: data from which pictures of a scene are rendered, cached from one to the next. For a moving scene, only what moved is sorted
+// again.
 //
 //   RenderCache cache;
-//   for (...) picture = render(scene_at(t), options, cache);      // the same bytes as without
+//   for (...) picture = render(scene_at(t), options, cache);      // the same bytes as without a cache
 //
-// What is the same is found by looking: meshes are compared with those of the picture before, by their triangles, images by a fingerprint
-// of their texels. A camera that moves costs nothing; a light that moves costs its own shape, a mesh its own triangles, and the order of
-// all edges that cast shadows.
+// Unchanged data is detected: meshes are compared with those of the previous picture by their triangles, images by a fingerprint of their
+// texels. A camera that moves costs nothing. A light that moves costs its own shape, a mesh its own triangles and the order of all edges
+// that cast shadows.
 #pragma once
 
 #include <memory>
@@ -28,8 +29,8 @@ class RenderCache {
   std::unique_ptr<Parts> parts_;
 };
 
-// As render. A Vulkan device the cache keeps, too, with its pipelines and buffers, which are as large as the largest picture so far needed.
-// For one picture at a time.
+// Renders like the function without a cache. The cache also stores a Vulkan device with its pipelines and buffers, whose size is that for
+// the largest picture so far. It serves one picture at a time.
 Picture render(const Scene& scene, const RenderOptions& options, RenderCache& cache, RenderStats* stats = nullptr,
                RenderState* state = nullptr);
 

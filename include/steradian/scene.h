@@ -1,7 +1,6 @@
-// Scene: everything a renderer needs of a 3D scene, flat and in world space. Read from glTF by load_scene.h.
+// Scene: everything that a renderer needs of a 3D scene, flat and in world space. Read from glTF by load_scene.h.
 //
-// Right-handed, y up, metres. Indices are valid, coordinates finite, normals unit: whoever fills a Scene
-// checks.
+// Right-handed, y up, metres. Indices are valid, coordinates finite, normals unit: the code that fills a Scene checks this.
 #pragma once
 
 #include <array>
@@ -22,8 +21,7 @@ namespace steradian {
 
 enum class AlphaMode { opaque, mask, blend };
 
-// A glTF metallic-roughness material. A factor times its texture (where there is one) is the value; colours
-// linear.
+// A glTF metallic-roughness material. A factor times its texture (if it has one) is the value; colours are linear.
 struct SurfaceMaterial {
   std::string name;
 
@@ -33,7 +31,7 @@ struct SurfaceMaterial {
   float roughness = 1;                    // perceptual: alpha is its square
   TextureUse metallic_roughness_texture;  // roughness in g, metallic in b
   TextureUse normal_texture;              // tangent space; its `scale` multiplies x and y
-  TextureUse occlusion_texture;           // r; read, but no part of direct light
+  TextureUse occlusion_texture;           // r; read, but not part of direct light
   Vec3f emissive{0, 0, 0};                // radiance, emissive strength included
   TextureUse emissive_texture;            // sRGB
 
@@ -43,7 +41,7 @@ struct SurfaceMaterial {
   TextureUse clearcoat_roughness_texture;  // g
   TextureUse clearcoat_normal_texture;
 
-  Vec3f sheen_color{0, 0, 0};      // of Charlie's lobe over all but the coat; black: none
+  Vec3f sheen_color{0, 0, 0};      // for Charlie's lobe over all but the coat; black: none
   TextureUse sheen_color_texture;  // sRGB
   float sheen_roughness = 0;
   TextureUse sheen_roughness_texture;  // a
@@ -58,16 +56,15 @@ struct SurfaceMaterial {
   float anisotropy_rotation = 0;  // radians, counter-clockwise from the tangent
   TextureUse anisotropy_texture;  // direction in rg (2x - 1), strength in b
 
-  float transmission = 0;           // share of the diffuse lobe that passes a thin wall instead, in the base colour
+  float transmission = 0;           // fraction of the diffuse lobe that passes a thin wall instead, in the base colour
   TextureUse transmission_texture;  // r
 
-  AlphaMode alpha_mode = AlphaMode::opaque;  // blend: covers by base_color's alpha what lies behind
-  float alpha_cutoff = 0.5f;                 // of AlphaMode::mask
+  AlphaMode alpha_mode = AlphaMode::opaque;  // blend: covers the background by base_color's alpha
+  float alpha_cutoff = 0.5f;                 // for AlphaMode::mask
   bool double_sided = false;
   bool unlit = false;  // shows base_color, takes no light
 
-  // extras.steradian: these lobes replace the specular lobe; empty where the file says nothing. The diffuse
-  // lobe stays.
+  // extras.steradian: these lobes replace the specular lobe; empty if the file has none. The diffuse lobe stays.
   std::vector<Material> specular_override;
 
   bool emits() const { return emissive.x > 0 || emissive.y > 0 || emissive.z > 0; }
@@ -75,10 +72,9 @@ struct SurfaceMaterial {
 
 // Triangles of one material, in world space, counter-clockwise as seen from their front.
 //
-// A mesh whose material emits is seen by the camera with `emissive` as its radiance. Its light is already in
-// Scene::area_lights: `triangle_lights` says which light a triangle became, so that nobody counts it twice.
-// The rect, disk and sphere lights of a file come as such meshes too (`is_light_shape`, black apart from the
-// emission).
+// A mesh whose material emits is visible to the camera with `emissive` as its radiance. Its light is already in Scene::area_lights:
+// `triangle_lights` gives the light of each triangle, so that none is counted twice. The rect, disk and sphere lights of a file become such
+// meshes too (`is_light_shape`, black apart from the emission).
 struct Mesh {
   std::string name;
   int material = 0;  // into Scene::materials; always valid
@@ -90,7 +86,7 @@ struct Mesh {
   std::vector<std::uint32_t> indices;         // three a triangle
   std::vector<std::int32_t> triangle_lights;  // emitters: into Scene::area_lights, -1 dropped; others: none
   bool is_light_shape = false;
-  bool casts_shadow = true;  // false: rays between a point and a light pass it, as they do is_light_shape
+  bool casts_shadow = true;  // false: rays between a point and a light pass through it, as through is_light_shape
 
   std::size_t triangle_count() const { return indices.size() / 3; }
   bool is_emitter() const { return !triangle_lights.empty(); }
@@ -107,11 +103,11 @@ struct PunctualLight {
   double range = std::numeric_limits<double>::infinity();
   double cos_inner = 1;  // spot: full inside, none outside, glTF's square falloff between
   double cos_outer = 0.70710678118654752;
-  std::shared_ptr<const LightProfile> profile{};  // of a point: candela by direction, which `intensity` multiplies; null: 1 everywhere
+  std::shared_ptr<const LightProfile> profile{};  // for a point: candela by direction, which `intensity` multiplies; null: 1 everywhere
   ProfileAxes profile_axes{};
 };
 
-// A perspective camera. x right, y up, z against the view: orthonormal.
+// A perspective camera. x points right, y up, z against the view; they are orthonormal.
 struct Camera {
   std::string name;
   Vec3d position;
@@ -122,13 +118,13 @@ struct Camera {
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<SurfaceMaterial> materials;
-  std::vector<Image> images;  // what TextureUse::image points into
+  std::vector<Image> images;  // targets of TextureUse::image
   std::vector<AreaLight> area_lights;
   std::vector<PunctualLight> punctual_lights;
   std::vector<Camera> cameras;                     // at least one after load_scene; the first is the default
   Vec3d bounds_min, bounds_max;                    // of all meshes; both zero without meshes
-  std::shared_ptr<const Environment> environment;  // null: nothing around
-  bool multiple_scattering = false;                // of the GGX lobes of metallic-roughness surfaces, see albedo.h
+  std::shared_ptr<const Environment> environment;  // null: no environment
+  bool multiple_scattering = false;                // for the GGX lobes of metallic-roughness surfaces, see albedo.h
 
   std::size_t triangle_count() const {
     std::size_t n = 0;

@@ -1,11 +1,11 @@
-// ShadingPoint: where light is asked for.
+// ShadingPoint: a point on a surface at which light is computed.
 #pragma once
 
 #include "steradian/vector.h"
 
 namespace steradian {
 
-// Unit vectors, away from the surface.
+// The vectors are unit and point away from the surface.
 struct ShadingPoint {
   Vec3d position;
   Vec3d normal;

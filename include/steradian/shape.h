@@ -1,4 +1,4 @@
-// Shape: what a light with an extent looks like. Each shape's outline, as a point sees it, is in source/shapes/.
+// Shape: the form of a light with an extent. Each shape's outline from a point is in source/shapes/.
 #pragma once
 
 #include <variant>
@@ -8,18 +8,18 @@
 
 namespace steradian {
 
-// Flat. Lit side: the one from which the outline runs counter-clockwise. Holes run the other way; either order is taken.
+// A flat polygon. The lit side is the one from which the outline runs counter-clockwise. Holes run in reverse; either order is accepted.
 struct Polygon {
   std::vector<Vec3d> vertices;
   std::vector<std::vector<Vec3d>> holes;
 };
 
-// Flat: points center + x u + y v, |(u, v)| <= 1. Lit side: that of x cross y.
+// A flat ellipse: points center + x u + y v, |(u, v)| <= 1. Lit side: that of x cross y.
 struct Ellipse {
   Vec3d center, x, y;
 };
 
-// Points center + x u + y v + z w, |(u, v, w)| <= 1.
+// An ellipsoid: points center + x u + y v + z w, |(u, v, w)| <= 1.
 struct Ellipsoid {
   Vec3d center, x, y, z;
 };

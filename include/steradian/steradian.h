@@ -1,4 +1,4 @@
-// Everything public. See the single headers: each is the manual of its topic.
+// All public headers. Each single header is the manual of its topic.
 #pragma once
 
 #include "steradian/albedo.h"

@@ -54,7 +54,7 @@ struct Vec4 {
   }
 };
 
-// Three columns. Built from them: mat3(c0, c1, c2). transform(m, v) = c0 v.x + c1 v.y + c2 v.z.
+// A matrix of three columns, built by mat3(c0, c1, c2). transform(m, v) = c0 v.x + c1 v.y + c2 v.z.
 template <class R>
 struct Mat3 {
   Vec3<R> c0, c1, c2;
@@ -67,8 +67,8 @@ STERADIAN_INLINE Vec3<R> transform(Mat3<R> m, Vec3<R> v) {
   return m.c0 * v.x + m.c1 * v.y + m.c2 * v.z;
 }
 
-// The product with the transpose: the dot products of the columns with v. For a frame (three orthonormal columns)
-// it takes a world vector into the frame.
+// The product with the transpose: the dot products of the columns with v. For a frame (three orthonormal columns) it transforms a world
+// vector into the frame.
 template <class R>
 STERADIAN_INLINE Vec3<R> transform_transposed(Mat3<R> m, Vec3<R> v) {
   return {dot(m.c0, v), dot(m.c1, v), dot(m.c2, v)};

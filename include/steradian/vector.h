@@ -58,14 +58,14 @@ bool is_finite(Vector3<T> a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-// Columns of an orthonormal right-handed frame with z along the unit vector n.
-// Source: Duff et al., "Building an orthonormal basis, revisited", 2017.
 // Rodrigues' rotation of a vector about a unit axis.
 inline Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
 }
 
+// Columns of an orthonormal right-handed frame with z along the unit vector n.
+// Source: Duff et al., "Building an orthonormal basis, revisited", 2017.
 struct Frame {
   Vec3d x, y, z;
 
@@ -76,10 +76,10 @@ struct Frame {
     const double b = n.x * n.y * a;
     return {{1.0 + s * n.x * n.x * a, s * b, -s * n.x}, {b, s + n.y * n.y * a, -n.y}, n};
   }
-  // x along t as far as t is perpendicular to n; any frame about n where it is not.
+  // Frame with x along the part of t that is perpendicular to n; any frame about n if t has none.
   static Frame from_normal_and_tangent(Vec3d n, Vec3d t) {
     Vec3d x = normalized(t - n * dot(n, t));
-    if (const double along = dot(x, n); !(std::fabs(along) < 1e-9)) {  // t is along n, to the rounding of what is left
+    if (const double along = dot(x, n); !(std::fabs(along) < 1e-9)) {  // t is along n, to the rounding of the rest
       x = x - n * along;
       if (length(x) < 0.5) return from_normal(n);
       x = normalized(x);
@@ -91,7 +91,7 @@ struct Frame {
   Vec3d to_world(Vec3d l) const { return x * l.x + y * l.y + z * l.z; }
 };
 
-// True where a channel of a weight is positive.
+// True if a channel of a weight is positive.
 constexpr bool weighs(Vec3f v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 
 }  // namespace steradian

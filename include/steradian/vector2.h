@@ -19,9 +19,9 @@ struct Vec2d {
 };
 
 constexpr double dot(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
-// Positive where b is counter-clockwise from a (x to the right, y up; in SVG's y-down it looks clockwise).
+// Positive if b is counter-clockwise from a (x to the right, y up; in SVG's y-down it looks clockwise).
 constexpr double cross(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
-// For coordinates up to 1e150: the squares must not leave the range.
+// Valid for coordinates up to 1e150: the squares must not leave the range.
 inline double length(Vec2d a) { return std::sqrt(dot(a, a)); }
 inline double angle_of(Vec2d a) { return std::atan2(a.y, a.x); }
 inline Vec2d direction_at(double angle) { return {std::cos(angle), std::sin(angle)}; }

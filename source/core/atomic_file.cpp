@@ -41,8 +41,8 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-// Calls make with names beside the target until one is free; make returns -1 and sets errno. The name that was taken, or
-// none.
+// Calls make with names beside the target until one is free; make returns -1 and sets errno. Returns the name that was taken, or an empty
+// one.
 template <class Make>
 std::string take_free_name(const std::string& target, Make make) {
   std::random_device random;
@@ -76,11 +76,11 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolved(
     return;
   }
   open_temporary(0666);
-  // A new file has what the process's umask leaves; one that is replaced keeps its permissions.
+  // A new file has the permissions that the process's umask allows; a replaced one keeps its permissions.
   if (exists) fchmod(descriptor_, existing.st_mode & 0777);
 }
 
-// Without a name where the file system can; else under a name of its own.
+// Opens a file without a name where the file system supports it, else under a temporary name.
 void AtomicFile::open_temporary(unsigned mode) {
   descriptor_ = open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
   if (descriptor_ >= 0 || errno == EACCES || errno == EROFS) {
@@ -92,7 +92,7 @@ void AtomicFile::open_temporary(unsigned mode) {
   if (descriptor_ < 0) fail("cannot create", errno);
 }
 
-// A link cannot replace a file: where there is one, the new file gets a name beside it and is renamed.
+// A link cannot replace a file: if one exists, the new file gets a name beside it and is renamed.
 int AtomicFile::name_it() {
   if (temporary_.empty()) {
     const std::string unnamed = "/proc/self/fd/" + std::to_string(descriptor_);
@@ -114,7 +114,7 @@ AtomicFile::~AtomicFile() { discard(); }
 void AtomicFile::write(std::string_view bytes) { write_all(descriptor_, bytes, path_); }
 
 void AtomicFile::commit() {
-  // Some file systems say only at a close that the disk is full; naming needs the descriptor after that.
+  // Some file systems report a full disk only at a close; naming needs the descriptor after that.
   const int written = close(dup(descriptor_)) == 0 ? 0 : errno;
   const int named = written != 0 || direct_ ? 0 : name_it();
   discard();

@@ -1,5 +1,5 @@
-// AtomicFile: an output file that is complete or not there. Written without a name, in the folder of its name, and named
-// when it is done: a program that is killed leaves nothing behind.
+// AtomicFile: an output file that is either complete or absent. It is written without a name in the target's folder and gets its name on
+// commit. A program that is killed leaves nothing behind.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace steradian {
 
-// A name that is a device or a pipe (/dev/null, /dev/stdout) is written straight; a symbolic link is followed.
-// Every failure throws Error with the path and what to do; the file of that name, if there was one, stays as it was.
+// A name that is a device or a pipe (/dev/null, /dev/stdout) is written directly; a symbolic link is followed. Every failure throws Error
+// with the path and what to do. An existing file of that name stays unchanged then.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
-  ~AtomicFile();  // removes what was not committed
+  ~AtomicFile();  // removes an uncommitted file
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -24,7 +24,7 @@ class AtomicFile {
  private:
   [[noreturn]] void fail(const char* doing, int error) const;
   void open_temporary(unsigned mode);
-  int name_it();  // 0 or the error
+  int name_it();  // returns 0 or the error
   void discard() noexcept;
 
   std::string path_, target_, temporary_;  // the last is empty while the file has no name
@@ -32,7 +32,7 @@ class AtomicFile {
   bool direct_ = false;
 };
 
-// A whole file at once.
+// Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes);
 
 // Writes all bytes to a descriptor, however many calls it takes; `name` is for the Error.

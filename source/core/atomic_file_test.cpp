@@ -72,7 +72,7 @@ TEST_F(AtomicFiles, FollowASymbolicLink) {
   EXPECT_EQ(contents(folder / "real.txt"), "new");
 }
 
-// New files have what the umask leaves, replaced ones keep what they had; the process's umask is not touched.
+// New files get the permissions that the umask allows; replaced files keep theirs. The process's umask is not changed.
 TEST_F(AtomicFiles, HaveTheUsualPermissions) {
   const auto written = [&](const fs::path& path) {
     AtomicFile file(path.string());
@@ -88,7 +88,7 @@ TEST_F(AtomicFiles, HaveTheUsualPermissions) {
   EXPECT_EQ(count(), 1u);
 }
 
-// Two that write to one name at once: one of them wins, whole.
+// Two files are written to one name at once: one of them wins, whole.
 TEST_F(AtomicFiles, MayBeTwoOfOneName) {
   const fs::path path = folder / "out.txt";
   AtomicFile a(path.string()), b(path.string());
@@ -101,7 +101,7 @@ TEST_F(AtomicFiles, MayBeTwoOfOneName) {
   EXPECT_EQ(count(), 1u);
 }
 
-// Until it is committed the folder shows nothing, so that a killed program leaves nothing.
+// The folder shows nothing until the commit, so a killed program leaves nothing behind.
 TEST_F(AtomicFiles, HaveNoNameUntilTheyAreWhole) {
   AtomicFile file((folder / "out.txt").string());
   file.write("half");

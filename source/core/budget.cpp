@@ -6,7 +6,7 @@
 namespace steradian {
 namespace {
 
-// Three digits and a unit that grows by 1000.
+// Formats a number with three digits and a unit that grows by 1000.
 std::string readable(std::uint64_t number, const char* const (&units)[5]) {
   double x = static_cast<double>(number);
   std::size_t unit = 0;

@@ -1,4 +1,4 @@
-// Fingerprint: a number by which bytes are known again without a copy of them.
+// Fingerprint: a number that identifies bytes without a copy of them.
 #pragma once
 
 #include <bit>
@@ -11,11 +11,12 @@ namespace steradian {
 
 using Fingerprint = std::uint64_t;
 
-// Of bytes, 0 of none. Others have the same by an accident of one in 2^64, which makes it a way to find what has changed from picture to
-// picture, and no defence against who means harm. Four lanes, since a multiplication takes longer than the next one has to wait.
+// Fingerprint of the bytes; 0 for none. Other bytes have the same one by an accident of one in 2^64. It finds what has changed from picture
+// to picture; it is no defence against an attacker. There are four lanes, since a multiplication takes longer than the next one has to
+// wait.
 //
-// The constants are pi's and e's fractions in 64 bits, made odd: any odd numbers without a pattern do. A word is mixed before it meets the
-// others, so that no two small changes cancel each other.
+// The constants are pi's and e's fractions in 64 bits, made odd: any odd numbers without a pattern serve. A word is mixed before it meets
+// the others, so that no two small changes cancel each other.
 inline Fingerprint fingerprint(const void* data, std::size_t bytes) {
   constexpr std::uint64_t kPi = 0x243f6a8885a308d3, kE = 0xb7e151628aed2a6b;
   const auto mixed = [](std::uint64_t word) {

@@ -24,7 +24,7 @@ TEST(Fingerprint, TellsEveryBitAndEveryLength) {
   for (std::size_t length = 0; length <= zeros.size(); ++length) EXPECT_TRUE(lengths.insert(fingerprint(zeros.data(), length)).second);
 }
 
-// Numbers that trade places, and pairs of changed bits wherever they are.
+// Swapped numbers, and pairs of changed bits at all positions.
 TEST(Fingerprint, TellsTwoChangesThatMightCancel) {
   constexpr std::size_t kWords = 16;
   std::vector<std::uint64_t> words(kWords);

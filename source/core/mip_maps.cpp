@@ -21,7 +21,7 @@ Vec4f texel_of(const LinearImage& image, int x, int y) {
   return {c[0], c[1], c[2], c[3]};
 }
 
-// Half of a length, and what each of its places takes of the whole one: the first place, and the share of up to four.
+// Half of a length, and what each of its places averages: the first place of the full length, and the weights of up to four.
 struct Halving {
   int length;
   explicit Halving(int whole) : length(std::max(1, whole / 2)), step_(static_cast<double>(whole) / length) {}
@@ -41,7 +41,7 @@ struct Halving {
   double step_;
 };
 
-// texel(x, y): of the picture that is to be halved.
+// texel(x, y): texel of the picture that is to be halved.
 template <class Texel>
 LinearImage halved(int width, int height, Texel texel) {
   const Halving across(width), down(height);
@@ -151,7 +151,7 @@ TextureTaps texture_taps(const TextureUse& use, const Image& image, const Textur
   const auto turned = [&](Vec2f d) { return Vec2f{use.uv[0] * d.x + use.uv[1] * d.y, use.uv[3] * d.x + use.uv[4] * d.y}; };
   const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
   const Vec2f right = turned(footprint.right), down = turned(footprint.down);
-  // In texels: a circle of diameter 1 becomes an ellipse, whose axes are those of J transpose(J).
+  // In texels, a circle of diameter 1 becomes an ellipse, whose axes are those of J transpose(J).
   const Vec2f a{right.x * width, right.y * height}, b{down.x * width, down.y * height};
   const float xx = a.x * a.x + b.x * b.x, xy = a.x * a.y + b.x * b.y, yy = a.y * a.y + b.y * b.y;
   const float half = 0.5f * (xx - yy), longer2 = 0.5f * (xx + yy) + std::sqrt(half * half + xy * xy);
@@ -159,7 +159,7 @@ TextureTaps texture_taps(const TextureUse& use, const Image& image, const Textur
   if (!(longer2 > 1)) return taps;
   taps.covers = true;
   const auto last = static_cast<float>(level_count(image) - 1);
-  if (!(longer2 < 1e12f)) {  // a million texels: nothing but the mean of all
+  if (!(longer2 < 1e12f)) {  // a million texels: only the mean of all
     taps.level = last;
     return taps;
   }

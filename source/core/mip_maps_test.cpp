@@ -35,7 +35,7 @@ float any(Random& random, double from, double to) { return static_cast<float>(ra
 
 }  // namespace
 
-// Scenes one after another: what has the same texels keeps its pyramid, and no other one.
+// Scenes in succession: images with the same texels keep their pyramid, and only those do.
 TEST(MipMaps, TheSameTexelsKeepTheirPyramid) {
   const auto noise = [](int seed) {
     Random random(static_cast<std::uint64_t>(seed));
@@ -66,10 +66,11 @@ TEST(MipMaps, TheSameTexelsKeepTheirPyramid) {
   std::vector<Image> turned = {noise(2)};
   std::swap(turned[0].width, turned[0].height);
   EXPECT_NE(MipMaps(turned, kept).pyramid(of(0, ColorSpace::srgb)), pyramid);
-  EXPECT_EQ(kept.size(), 2u);  // of the last scene alone
+  EXPECT_EQ(kept.size(), 2u);  // only those of the last scene
 }
 
-// Every texel of every level is the mean of what it stands for, by area, in linear light; stored in 8 bits, so half a code off.
+// Every texel of every level is the area mean of the texels that it replaces, in linear light. It is stored in 8 bits, so it is off by at
+// most half a code.
 TEST(MipMaps, LevelsAreMeansByArea) {
   Random random(3);
   for (const auto& [width, height] : {std::pair{64, 32}, {37, 5}, {1, 19}, {3, 3}, {255, 130}}) {
@@ -98,8 +99,8 @@ TEST(MipMaps, LevelsAreMeansByArea) {
   }
 }
 
-// A texture that is linear in place has the mean of its middle, over any footprint that stays within: all that is off is the
-// rounding of its levels to 8 bits.
+// A texture that is locally linear has the mean of the footprint's middle, for any footprint that stays within it. The only error is the
+// rounding of the levels to 8 bits.
 TEST(MipMaps, RampsKeepTheirMiddle) {
   const auto images = picture(256, 256, [](int x, int y, int c) { return c == 0 ? x : c == 1 ? y : 255; });
   const MipMaps maps(images);
@@ -133,7 +134,7 @@ TEST(MipMaps, TapsLieAlongTheLongerAxis) {
   EXPECT_FALSE(texture_taps(use, images[0], {{0.4f * texel, 0}, {0, 0.4f * texel}}).covers);
 }
 
-// Footprints without measure and beyond it.
+// Footprints that are not finite or exceed all bounds.
 TEST(MipMaps, AnyFootprintGivesAColour) {
   Random random(9);
   const auto images = picture(20, 30, [&](int, int, int) { return random.uniform(0, 255.99); });

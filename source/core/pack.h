@@ -1,7 +1,7 @@
 // Packs: the kernels' numbers made of SIMD registers. Pack::Real is 4, 8 or 16 floats, by the unit's instruction set.
 //
-// Only files named *_pack.cpp include this header, since each instruction set has a unit of its own. The accuracy of
-// the functions is xsimd's (a few ulp for exp and log); the arithmetic is the machine's.
+// Only files named *_pack.cpp include this header, since each instruction set has a unit of its own. The accuracy of exp and log is xsimd's
+// (a few ulp); that of the arithmetic is the machine's.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The lanes of a pack's mask, one by one.
+// Access to the lanes of a pack's mask, one by one.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 STERADIAN_BEGIN_ISA
 
-// As the lowest bits of a number.
+// The mask's lanes as the lowest bits of a number.
 STERADIAN_INLINE std::uint32_t bits_of(const PackKernels::mask& m) {
 #if defined(__AVX512F__)
   return static_cast<std::uint32_t>(static_cast<__mmask16>(m.m.data));
@@ -33,7 +33,7 @@ STERADIAN_INLINE PackKernels::mask mask_of(std::uint32_t bits) {
 #endif
 }
 
-// Whole numbers beside a pack's.
+// Integers with as many lanes as a pack.
 using PackInt = xsimd::batch<std::int32_t, PackArch>;
 
 STERADIAN_INLINE PackInt::batch_bool_type int_mask(const PackKernels::mask& m) {
@@ -55,7 +55,7 @@ STERADIAN_INLINE std::uint32_t bits_of(const PackInt::batch_bool_type& m) {
 #endif
 }
 
-// xsimd 8.1's own does not compile for AVX-512.
+// xsimd 8.1's own select does not compile for AVX-512.
 STERADIAN_INLINE PackInt select(const PackInt::batch_bool_type& m, const PackInt& a, const PackInt& b) {
 #if defined(__AVX512F__)
   return PackInt(_mm512_mask_blend_epi32(m.data, b, a));
@@ -67,7 +67,7 @@ STERADIAN_INLINE PackInt select(const PackInt::batch_bool_type& m, const PackInt
 }
 STERADIAN_INLINE PackInt select(const PackKernels::mask& m, const PackInt& a, const PackInt& b) { return select(int_mask(m), a, b); }
 
-// use(lane), ascending.
+// Calls use(lane) for each set bit, in ascending order.
 template <class Use>
 STERADIAN_INLINE void for_each_bit(std::uint32_t bits, Use use) {
   for (; bits != 0; bits &= bits - 1) use(static_cast<std::size_t>(__builtin_ctz(bits)));

@@ -1,4 +1,4 @@
-// Packs of doubles: half as many lanes as pack.h's. For *_pack.cpp alone, likewise.
+// Packs of doubles, with half as many lanes as pack.h's. As there, only *_pack.cpp files include this header.
 #pragma once
 
 #include "core/pack.h"

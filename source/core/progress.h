@@ -1,4 +1,4 @@
-// Progress: a counter that long work advances and a person at a terminal sees.
+// Progress: a counter that long work advances and that is displayed on a terminal.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace steradian {
 
-// Where progress goes; the default is standard error, and only if that is a terminal.
+// Destination of progress. The default is standard error, and only if that is a terminal.
 struct ProgressOutput {
   bool enabled = false;
   std::function<void(std::string_view)> write;
@@ -18,11 +18,11 @@ struct ProgressOutput {
 };
 ProgressOutput progress_on_terminal();
 
-// Shows nothing in the first second, then at most ten lines a second, each over the last; the line is wiped at the
-// end. May be advanced from any number of threads.
+// Shows nothing in the first second, then at most ten lines a second, each over the last. The line is erased at the end. Any number of
+// threads may advance it.
 class Progress {
  public:
-  // total 0: not known; the line then counts without a share.
+  // total 0: unknown; the line then counts without a fraction.
   Progress(std::string label, std::uint64_t total, ProgressOutput output = progress_on_terminal());
   ~Progress();
   Progress(const Progress&) = delete;
@@ -39,7 +39,7 @@ class Progress {
   const ProgressOutput output_;
   const double start_;
   std::atomic<std::uint64_t> count_{0};
-  std::atomic<double> next_;  // when to show again
+  std::atomic<double> next_;  // time of the next display
   std::mutex mutex_;
   bool shown_ = false;
 };

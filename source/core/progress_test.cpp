@@ -40,7 +40,7 @@ TEST(Progress, ShowsTenLinesASecondAtMostAndWipesTheLast) {
       progress.add();
     }
   }
-  // Two of three seconds are shown.
+  // Progress is visible for two of three seconds.
   EXPECT_GE(r.lines.size(), 18u);
   EXPECT_LE(r.lines.size(), 22u);
   EXPECT_NE(r.lines[0].find("25.0 %"), std::string::npos) << r.lines[0];

@@ -1,4 +1,4 @@
-// Random: uniform numbers that are the same on every platform. The standard library's distributions are not.
+// Random: uniform numbers that are the same on every platform, unlike the standard library's distributions.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class Random {
     return (shifted >> turn) | (shifted << ((32 - turn) & 31));
   }
 
-  // In [0, 1), a multiple of 2^-53.
+  // Uniform number in [0, 1), a multiple of 2^-53.
   double uniform() {
     const std::uint64_t high = bits() >> 5, low = bits() >> 6;
     return static_cast<double>((high << 26) | low) * 0x1p-53;
@@ -32,8 +32,8 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
  private:
-  // Neighbouring seeds become far apart states. Source: Steele, Lea, Flood, "Fast splittable pseudorandom number
-  // generators", 2014 (the finaliser of SplitMix64).
+  // Maps neighbouring seeds to states that are far apart. Source: Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
+  // 2014 (the finaliser of SplitMix64).
   static std::uint64_t mixed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;

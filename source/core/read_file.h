@@ -1,4 +1,4 @@
-// A whole file in memory, its size known and allowed before memory is taken.
+// Reading of a whole file: its size is known and checked against the budget before memory is allocated.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace steradian {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// place: who names the file, for the Error. Only regular files: a device has no size and may never end.
+// place: the source that names the file, for the Error. Only regular files are read: a device has no size and may never end.
 Bytes read_file(const std::string& path, const std::string& place, Budget& budget);
 
 }  // namespace steradian

@@ -13,7 +13,7 @@ enum class Simd { sse2, avx2, avx512 };
 const char* name_of(Simd simd);
 int lanes_of(Simd simd);
 
-// Whether this build holds packs for it (STERADIAN_INSTRUCTION_SETS of cmake/instruction_sets.cmake).
+// True if this build contains packs for the set (STERADIAN_INSTRUCTION_SETS of cmake/instruction_sets.cmake).
 constexpr bool is_built(Simd simd) {
   switch (simd) {
     case Simd::sse2: return STERADIAN_HAS_SSE2 != 0;
@@ -26,11 +26,11 @@ constexpr bool is_built(Simd simd) {
 // Throws Error that names the set.
 [[noreturn]] void throw_not_built(Simd simd);
 
-// What this build holds and this processor can run, narrowest first. Throws Error where there is none.
+// Instruction sets that this build contains and this processor can run, narrowest first. Throws Error if there is none.
 std::vector<Simd> available_simd();
 
-// The widest available, or what the environment variable STERADIAN_SIMD (sse2, avx2, avx512) forces.
-// Throws Error when the variable names something else or something this processor cannot run.
+// The widest available set, or the one that the environment variable STERADIAN_SIMD (sse2, avx2, avx512) forces. Throws Error when the
+// variable names another set or one that this processor cannot run.
 Simd active_simd();
 
 // Declares the function table of a *_pack.cpp file in every instruction set's namespace, and its choice:

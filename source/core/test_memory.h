@@ -1,4 +1,4 @@
-// What tests ask of this process's memory.
+// Memory use of the test process.
 #pragma once
 
 #include <unistd.h>
@@ -7,7 +7,7 @@
 
 namespace steradian::test {
 
-// What of the process's memory is in the machine's, in MiB.
+// Resident memory of this process [MiB].
 inline double resident_mib() {
   std::ifstream file("/proc/self/statm");
   double all = 0, resident = 0;

@@ -8,7 +8,7 @@ namespace steradian {
 // Texel (x, y), rgb linear.
 Vec4f texel_of(const Image& image, int x, int y, ColorSpace space);
 
-// At coordinates (0 to 1 over the picture) that are finite, wrapped as the use says, whatever its filter; rgb linear.
+// Blend of four texels at finite coordinates (0 to 1 over the picture), wrapped as the use says, whatever its filter; rgb linear.
 Vec4f bilinear(const Image& image, const TextureUse& use, Vec2f uv);
 
 }  // namespace steradian

@@ -6,7 +6,7 @@
 
 namespace steradian::vector_test {
 
-// Of a tangent along an oblique normal only rounding is left: a frame must not be made of that.
+// A tangent along an oblique normal leaves only rounding; a frame must not be built from that.
 TEST(Vector, FramesAreOrthonormalForEveryTangent) {
   reference::Random random(3);
   for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,4 @@
-// Form factor of a sphere cut by the horizon, over that of the whole sphere: what `ltc-clipless` looks up.
+// Form factor of a sphere cut by the horizon, over that of the whole sphere: the value that `ltc-clipless` looks up.
 #pragma once
 
 namespace steradian::fit {

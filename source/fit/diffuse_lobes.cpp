@@ -14,7 +14,7 @@ Lobe charlie_lobe(double alpha, Vec3d v) {
   Lobe lobe;
   lobe.view = v;
   lobe.evaluate = [=](Vec3d l) { return lobes::charlie_lobe(alpha, v, l); };
-  // Even over the hemisphere: the lobe is strongest along the horizon, where a cosine has no samples.
+  // Uniform over the hemisphere: the lobe is strongest along the horizon, where a cosine density has no samples.
   lobe.sample = [](double a, double b) { return lobes::direction_at(1 - a, std::sqrt(std::max(1 - (1 - a) * (1 - a), 0.0)), b); };
   lobe.pdf = [](Vec3d l) { return l.z >= 0 ? 0.5 / std::numbers::pi : 0.0; };
   return lobe;

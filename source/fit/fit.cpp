@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::uint64_t kLightSeed = 1;
 
-// Fixed directions with the lobe's values: structure of arrays, so that the objective's loop becomes vectors.
+// Fixed directions with the lobe's values as a structure of arrays, so that the objective's loop is vectorized.
 struct Nodes {
   std::vector<double> x, y2, z, weight, value;
 };
 
-// Midpoints of the lobe's own coordinates, azimuth in the half y > 0, and a third as many by the cosine, since a
-// lobe's coordinates need not reach where the fit puts its tails. The weights are those of the mixture of both.
+// Places midpoints of the lobe's own coordinates, azimuth in the half y > 0. It adds a third as many by the cosine, since a lobe's
+// coordinates need not reach the tails of the fit. The weights are those of the mixture of both.
 Nodes place_nodes(const Lobe& lobe, int n) {
   Nodes nodes;
   const int m = std::max(n / 3, 1);  // rings by the cosine
@@ -50,7 +50,7 @@ struct Magnitudes {
   double albedo = 0, grazing = 0;
 };
 
-// By a Fibonacci lattice: the horizon cuts rings of a product rule all at once, but a lattice evenly.
+// Integrates by a Fibonacci lattice: the horizon cuts rings of a product rule all at once, but a lattice gradually.
 Magnitudes integrate_magnitudes(const Lobe& lobe, int directions) {
   Magnitudes sum;
   for (int i = 0; i < directions; ++i) {
@@ -84,7 +84,7 @@ struct Objective {
     return {std::exp(p[0]) + scale() * p[2] * e20, std::exp(p[1]), p[2], e20};
   }
   std::vector<double> variables(const LtcShape& s) const {
-    // A start from the neighbouring view need not be a map that preserves orientation.
+    // A start from the neighbouring view may be a map that does not preserve orientation.
     return {std::log(std::max(s.e00 - scale() * s.e02 * s.e20, 1e-3)), std::log(s.e11), s.e02, s.e20 * view.z};
   }
   double scale() const { return frame == LobeFrame::mirror ? alpha : 1.0; }
@@ -110,7 +110,7 @@ struct Objective {
   }
   LtcInverse inverse(const double* p) const { return ltc_inverse(shape(p), frame, alpha, view); }
 
-  // Root mean square over the lights, relative to their radiance.
+  // Root mean square of the error over the lights, relative to their radiance.
   double shading_error(const LtcInverse& m) const {
     const double magnitude = albedo / ltc_above_horizon(m);
     double error = 0, signal = 0;
@@ -126,8 +126,8 @@ struct Objective {
 // An L1 distance from the lobe that no table of GGX reaches; 2 is no overlap.
 constexpr double kAstray = 0.75;
 
-// Of a lobe that reflects next to nothing (a smooth sheen away from the horizon, the grazing share of a polished surface):
-// there is no shape to fit.
+// Albedo of a lobe that reflects next to nothing (a smooth sheen away from the horizon, the grazing part of a polished surface). There is
+// no shape to fit.
 constexpr double kDarkest = 1e-5;
 LtcCell dark_cell(const LtcShape& shape, LobeFrame frame, double alpha, Vec3d view) {
   LtcCell cell;
@@ -165,7 +165,7 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
     opt.set_min_objective(
         [](unsigned, const double* v, double*, void* data) {
           const double value = (*static_cast<decltype(function)*>(data))(v);
-          return std::isfinite(value) ? value : 1e30;  // a map without inverse: as bad as can be, but a number
+          return std::isfinite(value) ? value : 1e30;  // a map without inverse: a huge number instead of infinity
         },
         &function);
     opt.set_initial_step(step);
@@ -201,7 +201,7 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
   cell.grazing = magnitudes.grazing;
   cell.above_horizon = ltc_above_horizon(cell.inverse);
   cell.error = objective.distance(cell.inverse, FitNorm::l1) / magnitudes.albedo;
-  // A lobe that is hardly like its neighbour's may have led the continuation astray: try again without it.
+  // A lobe that hardly resembles its neighbour's may have misled the continuation: try again without it.
   if (cell.error > kAstray && !(start == LtcShape{})) {
     const LtcCell fresh = fit_cell(family, roughness, cos_theta, {}, options);
     if (fresh.error < cell.error) return fresh;

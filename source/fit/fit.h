@@ -1,4 +1,4 @@
-// The fitter: the linearly transformed cosine nearest to a lobe, for one view and for a table of roughness and view.
+// The fitter: finds the linearly transformed cosine nearest to a lobe, for one view and for a table of roughness and view.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,15 @@ struct LtcCell {
   LtcInverse inverse;
   double albedo = 0;         // integral of the lobe over the hemisphere: F = 1
   double grazing = 0;        // of the lobe times (1 - v.h)^5
-  double above_horizon = 1;  // share of the fitted lobe above the real horizon
+  double above_horizon = 1;  // fraction of the fitted lobe above the real horizon
   double error = 0;          // integral of |lobe - fit| over the hemisphere, over albedo
 
-  // What tables hold: the fit's part above the horizon then carries the lobe's energy.
+  // Magnitudes that tables store: the fit's part above the horizon then carries the lobe's energy.
   double n_a() const { return albedo / above_horizon; }
   double f_a() const { return grazing / above_horizon; }
 };
 
-// Which distance the optimiser minimises; |difference| to the power 1, 2 or 3. docs/ltc.md compares them.
+// Distance that the optimiser minimises: |difference| to the power 1, 2 or 3. docs/ltc.md compares them.
 enum class FitNorm { l1 = 1, l2 = 2, l3 = 3 };
 
 struct FitOptions {
@@ -37,8 +37,8 @@ struct FitOptions {
   std::function<void()> cell_done;     // called after every cell, from any thread
 };
 
-// Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit: the last node stands
-// at the smallest, about where it makes interpolation of 1 / cosine best in the last row of 64.
+// Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit, so the last node is at the smallest cosine.
+// That is about where interpolation of 1 / cosine is best in the last row of 64.
 inline constexpr double kSmallestCosine = 0.01;
 inline double ltc_roughness_at(int i, int n) { return static_cast<double>(i) / (n - 1); }
 double ltc_cosine_at(int j, int n);
@@ -55,13 +55,13 @@ struct LtcTable {
   const LtcCell& at(int i, int j) const { return cells[static_cast<std::size_t>(j * size + i)]; }
 };
 
-// The first `views` cells of the column of one roughness of a table of options.size.
+// The first `views` cells of the column of one roughness in a table of options.size.
 std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, const FitOptions& options);
 
 LtcTable fit_table(const LobeFamily& family, const FitOptions& options = {});
 
-// The same, and every cell once more from the shape of its rougher neighbour, keeping the nearer lobe: where a column's continuation is
-// caught in another valley than its neighbour's, as that of the lobe times (1 - v.h)^5 is below roughness 0.4 at grazing views.
+// The same, but fits every cell once more from the shape of its rougher neighbour and takes the nearer lobe. This helps where a column's
+// continuation is in another valley than its neighbour's. The lobe times (1 - v.h)^5 is such a case below roughness 0.4 at grazing views.
 LtcTable fit_table_from_both_sides(const LobeFamily& family, const FitOptions& options = {});
 
 }  // namespace steradian::fit

@@ -1,4 +1,4 @@
-// How far a table is from its lobe: on lights, between its nodes, and below the horizon.
+// Errors of a table against its lobe: on lights, between its nodes, and below the horizon.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct CellError {
   double rmse = 0;     // of the radiance over the rectangles
   double signal = 0;   // root mean square of the true radiance
   double lobe_l1 = 0;  // integral of |lobe - table| over its albedo; 2 is no overlap
-  double below = 0;    // share of the fitted lobe below the horizon
+  double below = 0;    // fraction of the fitted lobe below the horizon
 };
 
 struct ReportOptions {
@@ -33,9 +33,9 @@ struct ReportOptions {
   int directions = 1 << 17;  // quasi-random directions for the truth; its error is about 1e-4
   std::uint64_t seed = 5;
 };
-// 13 roughness x 10 views, between the nodes of every table.
+// Grid of 13 roughness x 10 views, between the nodes of every table.
 ReportOptions whole_grid();
-// 8 roughness x 5 views on nodes of the 64 x 64 table.
+// Grid of 8 roughness x 5 views on nodes of the 64 x 64 table.
 ReportOptions node_grid();
 
 struct Report {
@@ -49,7 +49,7 @@ struct BetweenNodes {
   double roughness = 0;  // half way between two columns
   double at_nodes = 0;
   double between = 0;
-  // Of the views up to 81 degrees: beyond, lobes change faster from node to node than any interpolation follows.
+  // L1 of the views up to 81 degrees: beyond, lobes change faster from node to node than any interpolation can follow.
   double steep_at_nodes = 0;
   double steep_between = 0;
 };
@@ -63,7 +63,7 @@ Picture draw(const Report& report, const ReportOptions& options);
 
 Report measure(const LobeFamily& family, const LookUp& table, const ReportOptions& options);
 
-// The error relative to the signal, both root mean squares over the grid, with Schlick's Fresnel of F90 = 1.
+// Error relative to the signal, both as root mean squares over the grid, with Schlick's Fresnel of F90 = 1.
 struct FresnelError {
   double split = 0;  // by n_A and f_A under one matrix
   double lobe = 0;   // by the table of the lobe times (1 - v.h)^5 beside it

@@ -1,4 +1,4 @@
-// The lobes that the fitter knows. What a lobe is: steradian/fit.h.
+// The lobes that the fitter knows. steradian/fit.h defines lobes.
 #pragma once
 
 #include <string>
@@ -20,15 +20,15 @@ Lobe charlie_lobe(double alpha, Vec3d view);             // sheen of glTF: Estev
 Lobe disney_diffuse_lobe(double roughness, Vec3d view);  // Burley 2012, albedo 1
 Lobe oren_nayar_lobe(double sigma, Vec3d view);          // full model of 1994 with one bounce, albedo 1; sigma [rad]
 
-// The same lobe times (1 - v.h)^5: what F90 - F0 multiplies in Schlick's Fresnel.
+// The same lobe times (1 - v.h)^5: the factor of F90 - F0 in Schlick's Fresnel.
 Lobe with_grazing_fresnel(const Lobe& lobe);
 
 // ggx, beckmann, charlie, disney-diffuse, oren-nayar. Oren-Nayar's sigma is roughness times pi/2.
 const std::vector<LobeFamily>& lobe_families();
-// Throws Error with the known names.
+// Finds a family by name. Throws Error with the known names.
 const LobeFamily& lobe_family(const std::string& name);
 
-// The lobe with the samples that it does not bring.
+// Returns the lobe, with default samples if it has none.
 Lobe with_samples(Lobe lobe);
 
 }  // namespace steradian::fit

@@ -1,4 +1,4 @@
-// Lobes of the caller's own, fitted and written in one call.
+// Custom lobes of the caller, fitted and written in one call.
 #include <algorithm>
 
 #include "fit/fit.h"
@@ -12,7 +12,7 @@ namespace steradian {
 
 LobeFit fit_lobe_table(const LobeFamily& family, const std::string& path, const LobeFitOptions& options) {
   if (options.size < 2 || options.size > 1024) throw Error("size", "must be from 2 to 1024, here is " + std::to_string(options.size));
-  // A wrong ending is found before the work, not after it.
+  // A wrong ending is detected before the work, not after it.
   fit::classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4), ClassicNormalisation::middle},
                      family.name, path);
   fit::FitOptions fit;

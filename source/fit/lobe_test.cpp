@@ -46,7 +46,7 @@ TEST(Lobes, SamplesHaveTheirDensity) {
   }
 }
 
-// Of the microfacet lobes only: the authors of the others let them exceed 1 at grazing views.
+// Tests the microfacet lobes only: the authors of the others let them exceed 1 at grazing views.
 TEST(Lobes, OfMicrofacetsReflectNoMoreThanArrives) {
   for (const LobeFamily& family : lobe_families()) {
     if (family.frame == LobeFrame::normal) continue;
@@ -63,7 +63,7 @@ TEST(Lobes, AreReciprocal) {
   for (const LobeFamily& family : lobe_families()) {
     const double c1 = 0.8, c2 = 0.35, roughness = 0.6;
     const Lobe first = family.at(roughness, c1), second = family.at(roughness, c2);
-    // Light and view change places: the azimuth between them stays.
+    // Light and view are exchanged: the azimuth between them stays.
     const double phi = 0.7, s1 = std::sqrt(1 - c1 * c1), s2 = std::sqrt(1 - c2 * c2);
     const double there = first.evaluate({s2 * std::cos(phi), s2 * std::sin(phi), c2}) / c2;
     const double back = second.evaluate({s1 * std::cos(phi), s1 * std::sin(phi), c1}) / c1;

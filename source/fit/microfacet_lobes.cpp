@@ -1,4 +1,4 @@
-// GGX and Beckmann: half vectors drawn from the distribution, the view mirrored about them.
+// GGX and Beckmann: half vectors are drawn from the distribution, and the view is mirrored about them.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

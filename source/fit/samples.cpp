@@ -23,17 +23,17 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// f, three channels.
+// Measured values of f, three channels.
 class Measured {
  public:
   virtual ~Measured() = default;
   virtual Vec3d value(Vec3d view, Vec3d light) const = 0;
 };
 
-// Where a value lies between the middles of two cells.
+// The middles of the two cells between which a value lies.
 struct Between {
   std::size_t low, high;
-  double share;  // of high
+  double share;  // weight of high
 };
 Between between_cells(double at, std::size_t cells) {
   const double x = std::clamp(at - 0.5, 0.0, static_cast<double>(cells - 1));
@@ -45,7 +45,7 @@ class Merl : public Measured {
  public:
   Merl(std::array<std::size_t, 3> sizes, std::vector<double> values) : sizes_(sizes), values_(std::move(values)) {}
 
-  // Rusinkiewicz's angles of half vector and difference: the cells' edges are even in the square root of the first.
+  // Rusinkiewicz's angles of half vector and difference: the cells' edges are uniform in the square root of the first.
   Vec3d value(Vec3d view, Vec3d light) const override {
     const Vec3d h = normalized(view + light);
     const double theta_h = std::acos(std::clamp(h.z, -1.0, 1.0));
@@ -55,10 +55,10 @@ class Merl : public Measured {
     const Vec3d x = along * h.z - Vec3d{0, 0, sine}, y = cross(h, x);
     const double theta_d = std::acos(std::clamp(dot(light, h), -1.0, 1.0));
     double phi_d = std::atan2(dot(light, y), dot(light, x));
-    if (phi_d < 0) phi_d += std::numbers::pi;  // reciprocity: light and view change places
+    if (phi_d < 0) phi_d += std::numbers::pi;  // reciprocity: light and view are exchanged
     const auto of = [&](double share, std::size_t axis) { return between_cells(share * static_cast<double>(sizes_[axis]), sizes_[axis]); };
     const Between a = of(std::sqrt(theta_h / (0.5 * std::numbers::pi)), 0), b = of(theta_d / (0.5 * std::numbers::pi), 1);
-    // The azimuth goes round.
+    // The azimuth is periodic.
     const double at = phi_d / std::numbers::pi * static_cast<double>(sizes_[2]) - 0.5, floor = std::floor(at);
     const auto round = [&](double i) {
       const auto n = static_cast<double>(sizes_[2]);
@@ -107,7 +107,7 @@ class Table : public Measured {
       }
       return sum;
     };
-    // A lobe is symmetric about the plane of the view: of a whole turn, the mean of both sides.
+    // A lobe is symmetric about the plane of the view: for a whole turn, use the mean of both sides.
     return angles_[2].back() > 180 ? (at(phi) + at(360 - phi)) * 0.5 : at(phi);
   }
 
@@ -204,7 +204,7 @@ std::unique_ptr<Measured> read_table(const Bytes& bytes, const std::string& path
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
-  // More combinations than lines: some are missing, and no room is made for them.
+  // More combinations than lines: some are missing, and no memory is allocated for them.
   const double combinations =
       static_cast<double>(angles[0].size()) * static_cast<double>(angles[1].size()) * static_cast<double>(angles[2].size());
   if (combinations != static_cast<double>(rows.size()))
@@ -228,8 +228,8 @@ std::unique_ptr<Measured> read_table(const Bytes& bytes, const std::string& path
 
 // ---- The lobe --------------------------------------------------------------------------------------------------
 
-// How wide a distribution of half vectors falls to half of its peak as the samples do, the view along the normal: that of GGX does at
-// tan^2 = (sqrt 2 - 1) alpha^2.
+// Width of a distribution of half vectors that falls to half of its peak as the samples do, with the view along the normal. The
+// distribution of GGX does so at tan^2 = (sqrt 2 - 1) alpha^2.
 double width_of(const Measured& measured) {
   const Vec3d view{0, 0, 1};
   const auto at = [&](double theta_h) { return luminance(measured.value(view, {std::sin(2 * theta_h), 0, std::cos(2 * theta_h)})); };
@@ -245,7 +245,7 @@ Lobe lobe_of(const std::shared_ptr<const Measured>& measured, double alpha, Vec3
   Lobe lobe;
   lobe.view = view;
   lobe.evaluate = [=](Vec3d l) { return l.z > 0 ? luminance(measured->value(view, l)) * l.z : 0.0; };
-  // Half of the square by the cosine, half by a glossy lobe as wide as this one.
+  // Half of the square samples the cosine, half a glossy lobe as wide as this one.
   lobe.sample = [=](double a, double b) { return a < 0.5 ? lobes::sample_cosine_hemisphere(b, 2 * a) : glossy.sample(2 * a - 1, b); };
   lobe.pdf = [=](Vec3d l) { return 0.5 * (lobes::pdf_cosine_hemisphere(l) + glossy.pdf(l)); };
   return lobe;
@@ -277,7 +277,7 @@ LobeSamples read_lobe_samples(const std::string& path, const Limits& limits) {
   const double alpha = fit::width_of(*measured);
   LobeSamples samples;
   samples.family.name = "samples";
-  // About the mirror direction only where there is a peak to follow it.
+  // The frame is about the mirror direction only if there is a peak to follow it.
   samples.family.frame = alpha < 0.7 ? LobeFrame::mirror : LobeFrame::normal;
   samples.family.fixed_roughness = std::sqrt(alpha);
   samples.family.at = [measured, alpha](double, double cosine) { return fit::lobe_of(measured, alpha, view_from_cosine(cosine)); };

@@ -1,4 +1,4 @@
-// Measured reflection: what is read from files that a lobe was written to, and its fit.
+// Measured reflection: lobes are written to files, read again and fitted.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,8 +25,8 @@ struct File {
   ~File() { std::filesystem::remove(path); }
 };
 
-// What MERL's layout holds of an isotropic BRDF, from its definition: cells of the half vector's angle, whose edges are even in its square
-// root, of the difference vector's angle and of its azimuth, the last fastest.
+// A file of MERL's layout for an isotropic BRDF, from its definition. Its cells are those of three angles, the last fastest. The first is
+// the half vector's angle, with edges uniform in its square root. The others are the difference vector's angle and its azimuth.
 std::string merl(int half, int angles, int azimuths, const std::function<double(Vec3d view, Vec3d light)>& brdf) {
   std::string bytes;
   const auto append = [&](auto x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
@@ -48,7 +48,7 @@ std::string merl(int half, int angles, int azimuths, const std::function<double(
 }
 
 double ggx(double alpha, Vec3d view, Vec3d light) {
-  // About the view's azimuth, as lobes are.
+  // Azimuths are relative to the view's, as for lobes.
   const double across = std::hypot(view.x, view.y);
   const Vec3d x = across > 0 ? Vec3d{view.x / across, view.y / across, 0} : Vec3d{1, 0, 0}, y{-x.y, x.x, 0};
   return ggx_lobe(alpha, {across, 0, view.z}).evaluate({dot(light, x), dot(light, y), light.z}) / light.z;
@@ -83,8 +83,8 @@ TEST(Samples, MerlsBinaryIsReadAsItsDefinitionSays) {
     const Vec3d view = view_from_cosine(cosine);
     const Lobe read = samples.family.at(0.123, cosine), own = ggx_lobe(alpha, view);
     const double peak = own.evaluate({-view.x, 0, view.z});
-    // Linear between cells of 2 degrees of difference, and of the half vector's angle at most 1 degree near the peak of a lobe 17
-    // degrees wide: (1/17)^2 / 8 of its curvature, 2, and as much from the other angles.
+    // The values are linear between cells of 2 degrees of difference. The half vector's cells are at most 1 degree near the peak of a lobe
+    // 17 degrees wide. The error is (1/17)^2 / 8 of its curvature, 2, and as much from the other angles.
     for (const Vec3d l : {Vec3d{-view.x, 0, view.z}, direction(20, 150), direction(50, 100), direction(35, -120)})
       EXPECT_NEAR(read.evaluate(l), own.evaluate(l), 0.01 * peak) << cosine;
     EXPECT_EQ(read.evaluate({0.6, 0, -0.8}), 0);
@@ -111,7 +111,7 @@ TEST(Samples, AFitOfSamplesIsThatOfTheLobe) {
   for (int j = 0; j < 3; ++j) {
     const LtcCell lobe = fit_cell(lobe_family("ggx"), roughness, ltc_cosine_at(j, 3), {}, options);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(table.at(i, j).albedo, table.at(0, j).albedo) << "the same for every roughness";
-    if (j == 2) continue;  // half a degree from grazing, of which cells of 2 degrees say little
+    if (j == 2) continue;  // half a degree from grazing, where cells of 2 degrees resolve little
     EXPECT_NEAR(table.at(0, j).albedo, lobe.albedo, 0.02 * lobe.albedo) << j;
     EXPECT_LT(table.at(0, j).error, lobe.error + 0.03) << j;
   }
@@ -130,7 +130,7 @@ TEST(Samples, TablesAreLinearBetweenTheirAngles) {
   const Lobe grazing = samples.family.at(0.5, std::cos(89 * std::numbers::pi / 180));
   EXPECT_NEAR(grazing.evaluate({0, 0, 1}), f(85, 0, 0), 1e-6) << "constant beyond the last";
 
-  // Of a whole turn, the mean of both sides.
+  // A table of a whole turn gives the mean of both sides.
   const File whole(table({0, 90}, {0, 90, 180, 270, 360}, [](double, double, double a) { return a == 90 ? 0.3 : a == 270 ? 0.1 : 0.2; }));
   const Lobe lobe = read_lobe_samples(whole.path).family.at(0.5, 0.5);
   EXPECT_NEAR(lobe.evaluate(direction(60, 90)), 0.2 * 0.5, 1e-6);

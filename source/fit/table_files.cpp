@@ -32,7 +32,7 @@ std::string numbered(const std::string& path, const char* number) {
   return path.substr(0, dot) + number + path.substr(dot);
 }
 
-// disney-diffuse becomes disney_diffuse: a name in C and GLSL.
+// Turns disney-diffuse into disney_diffuse, a name in C and GLSL.
 std::string identifier(std::string lobe) {
   std::replace(lobe.begin(), lobe.end(), '-', '_');
   return lobe;
@@ -67,7 +67,7 @@ std::string exr(const Texels& texels, int size) {
   const char* const names[4] = {"R", "G", "B", "A"};
   for (std::size_t c = 0; c < 4; ++c) {
     header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
-    const float* base = texels.data()->data() + c;  // OpenEXR wants a non-const pointer also where it only reads
+    const float* base = texels.data()->data() + c;  // OpenEXR wants a non-const pointer even for reading
     frame.insert(names[c], Imf::Slice(Imf::FLOAT, const_cast<char*>(reinterpret_cast<const char*>(base)), sizeof(texels[0]),
                                       sizeof(texels[0]) * static_cast<std::size_t>(size)));
   }
@@ -80,7 +80,7 @@ std::string exr(const Texels& texels, int size) {
   return stream.str();
 }
 
-// The shortest decimal that reads back as the same float.
+// The shortest decimal that parses to the same float.
 std::string decimal(float x) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
@@ -99,7 +99,7 @@ std::string hexadecimal(std::uint32_t x, int digits) {
   return s;
 }
 
-// Joins with commas, in lines of at most 118 characters.
+// Joins the items with commas, in lines of at most 118 characters.
 std::string lines(const std::vector<std::string>& items, const std::string& indent) {
   std::string text, line = indent;
   for (std::size_t i = 0; i < items.size(); ++i) {

@@ -1,4 +1,4 @@
-// Tables as files: DDS, EXR, C header, GLSL header, JSON, by the name's ending.
+// Tables as files: DDS, EXR, C header, GLSL header, JSON, chosen by the name's ending.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace steradian::fit {
 
-// The bytes of each file to write. Classic tables as .dds (half floats) or .exr are two files: NAME_1 holds the
-// matrix, NAME_2 the magnitudes; all else is one. Throws Error for an ending that the layout has no form for.
+// The bytes of each file to write. Classic tables as .dds (half floats) or .exr are two files: NAME_1 contains the matrix, NAME_2 the
+// magnitudes. All others are one file. Throws Error for an ending that the layout does not support.
 struct TableFile {
   std::string path;
   std::string bytes;
@@ -17,7 +17,7 @@ struct TableFile {
 std::vector<TableFile> classic_files(const ClassicTable& table, const std::string& lobe, const std::string& path);
 std::vector<TableFile> compact_files(const CompactTable& table, const std::string& lobe, const std::string& path);
 
-// Beside and then renamed.
+// Writes each file beside its target and then renames it.
 void write_files(const std::vector<TableFile>& files);
 
 }  // namespace steradian::fit

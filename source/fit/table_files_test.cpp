@@ -51,7 +51,7 @@ TEST(LtcFiles, DdsHoldsThePairInHalfFloats) {
 }
 
 TEST(LtcFiles, ShippedHeadersAreWhatTheWriterWrites) {
-  // From tables that were read from the headers, the same text again: nothing is lost on the way.
+  // Tables that are read from the headers give the same text again: nothing is lost.
   const auto again = classic_files(ggx_classic_table(), "ggx", "x.h");
   const auto fresnel = classic_files(ggx_fresnel_table(), "ggx-fresnel", "x.h");
   const auto compact = compact_files(ggx_compact_table(), "ggx", "x.h");
@@ -81,7 +81,7 @@ TEST(LtcFiles, JsonAndExrHoldTheTable) {
   EXPECT_EQ(word(exr[0].bytes, 0), 20000630u);  // EXR's magic number
 }
 
-// Both normalisations hold the same matrices up to a factor, and say which they are.
+// Both normalisations contain the same matrices up to a factor, and name themselves.
 TEST(LtcFiles, EveryNormalisationIsTheSameLobes) {
   FitOptions options;
   options.size = 4;

@@ -17,7 +17,7 @@ namespace {
 
 struct CellCheck {
   double lobe_l1 = 0;
-  double energy = 0;  // the fit's above the horizon over the lobe's
+  double energy = 0;  // energy of the fit above the horizon over the lobe's
 };
 
 LtcValue shipped_at(int i, int j) {
@@ -29,7 +29,7 @@ LtcValue shipped_at(int i, int j) {
 
 Lobe lobe_at(int i, int j) { return lobe_family("ggx").at(ltc_roughness_at(i, 64), ltc_cosine_at(j, 64)); }
 
-// The cell's texels taken for the lobe of roughness i and view j.
+// Compares the cell's texels with the lobe of roughness i and view j.
 CellCheck check(int texel_i, int texel_j, int i, int j, int n) {
   const LtcValue value = shipped_at(texel_i, texel_j);
   const Lobe lobe = lobe_at(i, j);
@@ -42,7 +42,8 @@ CellCheck check(int texel_i, int texel_j, int i, int j, int n) {
   return {lobe_l1(lobe, value, n), value.n_a * ltc_above_horizon(value.inverse) / albedo};
 }
 
-// Columns of the table fitted again, one of each range of roughness; every view of each, the grazing ones with the worst fits included.
+// Columns of the table that are fitted again, one of each range of roughness. Every view of each is fitted, including the grazing ones with
+// the worst fits.
 constexpr int kColumns[] = {0, 6, 14, 22, 30, 40, 52, 63};
 const std::vector<LtcCell>& refitted(int i) {
   static std::map<int, std::vector<LtcCell>> columns;
@@ -53,8 +54,8 @@ const std::vector<LtcCell>& refitted(int i) {
 
 LtcValue value_of(const LtcCell& cell) { return {cell.inverse, cell.n_a(), cell.f_a()}; }
 
-// The largest L1 of a good fit at a node: between two columns it exceeds the larger of theirs by an eighth at most (measured over
-// the table), of which this allows twice as much, and 24 x 24 nodes on half a lobe are good to 0.002.
+// The largest L1 of a good fit at a node. Between two columns it exceeds the larger of theirs by an eighth at most (measured over the
+// table). This allows twice as much; 24 x 24 nodes on half a lobe have an error of 0.002.
 double largest_l1(int i, int j) {
   std::size_t k = 0;
   while (k + 2 < std::size(kColumns) && kColumns[k + 1] <= i) ++k;
@@ -62,7 +63,7 @@ double largest_l1(int i, int j) {
   return 1.25 * std::max(l1(kColumns[k]), l1(kColumns[k + 1])) + 0.002;
 }
 
-// What the fitter's second pass minimises: the relative error on its rectangles and a tenth of the L1.
+// Objective of the fitter's second pass: the relative error on its rectangles and a tenth of the L1.
 double objective(const Lobe& lobe, const LtcValue& value) {
   const FitOptions options;
   const std::vector<TestRectangle> lights = test_rectangles_near(lobe, options.lights, 1);
@@ -76,7 +77,7 @@ double objective(const Lobe& lobe, const LtcValue& value) {
   return std::sqrt(error / signal) + options.lobe_share * lobe_l1(lobe, value, options.nodes);
 }
 
-// A lattice of 576 points that the horizon cuts is off by about 576^(-3/4).
+// A lattice of 576 points that the horizon cuts has an error of about 576^(-3/4).
 constexpr double kEnergyTolerance = 0.01;
 
 // Shading error on few rectangles, for comparisons rather than for figures.
@@ -115,9 +116,9 @@ TEST(LtcTable, SwappedAxesWouldFail) {
   EXPECT_GT(failures, cells * 9 / 10) << failures << " of " << cells;
 }
 
-// Continuation makes a cell depend on those before it in its column: whole columns are fitted again. Another compiler may lead the
-// optimiser to another place of a flat valley, so that not entries are compared but what it minimises, and what is no choice of its
-// at all: the energies.
+// Continuation makes a cell depend on those before it in its column, so whole columns are fitted again. Another compiler may lead the
+// optimiser to another point of a flat valley. The test therefore compares the objective, not the entries, and the energies, which are
+// unique.
 TEST(LtcTable, IsTheFittersOwn) {
   double worst = 0, worst_energy = 0;
   for (int i : kColumns)
@@ -125,13 +126,13 @@ TEST(LtcTable, IsTheFittersOwn) {
       const LtcCell& cell = refitted(i)[static_cast<std::size_t>(j)];
       const LtcValue shipped = shipped_at(i, j);
       const double above = ltc_above_horizon(shipped.inverse);
-      // The table's floats, of the magnitude and of the four entries that the share above the horizon is made of.
+      // The errors of the table's floats: of the magnitude and of the four entries that give the fraction above the horizon.
       EXPECT_NEAR(shipped.n_a * above, cell.albedo, 6 * 6e-8 * cell.albedo) << i << " " << j;
       EXPECT_NEAR(shipped.f_a * above, cell.grazing, 6 * 6e-8) << i << " " << j;
       worst_energy = std::max(worst_energy, std::fabs(shipped.n_a * above / cell.albedo - 1));
       const Lobe lobe = lobe_at(i, j);
       const double ours = objective(lobe, shipped), again = objective(lobe, value_of(cell));
-      // The last two views of the roughest lobe have two valleys, and builds end in either.
+      // The last two views of the roughest lobe have two valleys, and builds may end in either.
       const double bound = (i == 63 && j >= 62 ? 0.15 : 0.02) * again + 1e-4;
       EXPECT_NEAR(ours, again, bound) << i << " " << j;
       worst = std::max(worst, std::fabs(ours - again) / bound);
@@ -185,8 +186,8 @@ TEST(LtcTable, KeepsTheErrorThatIsClaimed) {
               classic_smooth, compact_smooth);
 }
 
-// What docs/ltc.md states of dielectrics: by n_A and f_A, and by the table of Fresnel's lobe. 2^12 directions instead of 2^17 are good to
-// 2^(-9) of the signal, whose square adds to the error's.
+// Errors of dielectrics that docs/ltc.md states: by n_A and f_A, and by the table of Fresnel's lobe. 2^12 directions instead of 2^17 have
+// an error of 2^(-9) of the signal, whose square adds to the error's.
 TEST(LtcTable, OfFresnelsLobeKeepsTheErrorThatIsClaimed) {
   const auto classic = [](double r, double c) { return ggx_classic_table().look_up(r, c); };
   const auto fresnel = [](double r, double c) { return ggx_fresnel_table().look_up(r, c); };
@@ -204,7 +205,7 @@ TEST(LtcTable, OfFresnelsLobeKeepsTheErrorThatIsClaimed) {
 TEST(LtcTable, CompactStaysWithinFourKilobytesAndHoldsNarrowLobesTogether) {
   const CompactTable& compact = ggx_compact_table();
   EXPECT_LE(compact.bytes(), 4096u);
-  // Half way between the nodes of a 64 x 64 table: where the classic layout's lobes break.
+  // Half way between the nodes of a 64 x 64 table, where the classic layout's lobes degenerate.
   for (double row : {0.5, 1.5, 4.5}) {
     const double roughness = row / 63;
     for (double t : {0.2, 0.5, 0.8}) {

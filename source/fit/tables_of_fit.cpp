@@ -10,8 +10,8 @@
 namespace steradian::fit {
 namespace {
 
-// Values on a coarse grid whose bilinear interpolation is nearest to the fine values, in the sense of weighted least
-// squares: normal equations by Cholesky's decomposition.
+// Values on a coarse grid whose bilinear interpolation is nearest to the fine values, by weighted least squares: normal equations with
+// Cholesky's decomposition.
 std::vector<double> fit_coarse(const std::vector<double>& fine, const std::vector<double>& importance, int n, int coarse) {
   const auto count = static_cast<std::size_t>(coarse * coarse);
   std::vector<double> matrix(count * count), x(count);
@@ -75,14 +75,14 @@ CompactTable compact_table(const LtcTable& fit, CompactSizes sizes) {
       for (int i = 0; i < fit.size; ++i) {
         const double scale = fit.family.frame == LobeFrame::mirror ? alpha_from_roughness(ltc_roughness_at(i, fit.size)) : 1;
         fine.push_back(value(fit.at(i, j)));
-        // The shape of a lobe that reflects next to nothing says little.
+        // The shape of a lobe that reflects next to nothing has little weight.
         weights.push_back(importance(fit.at(i, j), scale) * std::clamp(10 * fit.at(i, j).albedo, 1e-6, 1.0));
       }
     const std::vector<double> result = fit.size == coarse ? fine : fit_coarse(fine, weights, fit.size, coarse);
     for (std::size_t k = 0; k < result.size(); ++k) put(k) = round_to_half(static_cast<float>(std::max(result[k], least)));
   };
   const auto even = [](const LtcCell&, double) { return 1.0; };
-  // What a change of an entry does to the lobe, in units of the lobe's own width.
+  // Effect of a change of an entry on the lobe, in units of the lobe's own width.
   const auto width_x = [](const LtcCell& c, double) { return 1 / (c.shape.e00 * c.shape.e00); };
   const auto width_y = [](const LtcCell& c, double) { return 1 / (c.shape.e11 * c.shape.e11); };
   const auto shear = [](const LtcCell&, double alpha) { return std::max(alpha * alpha, 1e-4); };

@@ -1,4 +1,4 @@
-// The two layouts of a table, made from a fit.
+// The two layouts of a table, built from a fit.
 #pragma once
 
 #include "fit/fit.h"
@@ -13,7 +13,7 @@ struct CompactSizes {
   int magnitude = 22;  // together 3984 bytes
 };
 
-// The coarse values are those whose interpolation is nearest to the fine ones, in the sense of least squares.
+// The coarse values are those whose interpolation is nearest to the fine ones in least squares.
 CompactTable compact_table(const LtcTable& fit, CompactSizes sizes = {});
 
 // The fit itself at its nodes, and interpolated in the shapes between them.

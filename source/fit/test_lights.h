@@ -1,4 +1,4 @@
-// Random rectangles, which errors are measured over and which the fitter looks at.
+// Random rectangles, over which errors are measured and which the fitter uses.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace steradian::fit {
 
-// A light of radiance 1 seen from the origin; corners counter-clockwise as the origin sees them.
+// A light of radiance 1 viewed from the origin; corners are counter-clockwise as seen from there.
 using TestRectangle = std::array<Vec3d, 4>;
 
-// Centres evenly over the directions above -6 degrees, at distance 1, half sides of 0.2 to 1, tilted up to 60
-// degrees away from the origin. The error figures of docs/ltc.md are over these.
+// Centres uniform over the directions above -6 degrees, at distance 1, half sides of 0.2 to 1, tilted up to 60 degrees away from the
+// origin. The error figures of docs/ltc.md use these.
 std::vector<TestRectangle> test_rectangles(int count, std::uint64_t seed);
 
-// The same, every other centre in a direction that the lobe sends light to: with a narrow lobe most others miss it.
+// The same, but every other centre is in a direction to which the lobe sends light: a narrow lobe misses most others.
 std::vector<TestRectangle> test_rectangles_near(const Lobe& lobe, int count, std::uint64_t seed);
 
 // Radiance from every rectangle by quasi-Monte Carlo in the lobe's coordinates, mirrored in y: 2 * directions points.

@@ -30,8 +30,8 @@ NamedImage made(const std::string& name, const std::function<double(double u, do
   return result;
 }
 
-// Waves of random direction and phase, as many and of as much power in every octave: the density of power over the plane of
-// frequencies falls as 1/f^2.
+// Waves of random direction and phase, with equal number and power in every octave: the density of power over the plane of frequencies
+// falls as 1/f^2.
 double waves(double u, double v) {
   Random random(kSeed);
   double sum = 0.5;
@@ -70,8 +70,8 @@ Setup random_setup(Random& random, double distance) {
   return s;
 }
 
-// Integrals of the lobe over the light, plain and times each texture: a grid on the light and one on the lobe's own
-// square, weighted by the balance heuristic.
+// Integrals of the lobe over the light, plain and times each texture: a grid on the light and one on the lobe's own square, weighted by the
+// balance heuristic.
 std::vector<double> integrate(const Setup& s, const Material& material, const std::vector<std::vector<Image>>& images, int n) {
   const lobes::Lobe lobe(material, s.at.view);
   const LightTexture& t = *s.light.texture;

@@ -1,4 +1,4 @@
-// How far the look-up of a textured light is from the integral of texture times lobe: the table of docs/ltc.md.
+// Error of the look-up of a textured light against the integral of texture times lobe: the table of docs/ltc.md.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ struct TexturedErrorRow {
   double roughness = 0;       // of GGX with F = 1; 0: a diffuse surface
   double distance = 0;        // of the light's centre, in its sides
   std::vector<double> error;  // relative L2 of the radiance over all setups, by texture
-  std::vector<double> mean;   // of the light's mean radiance in place of the look-up
-  std::vector<double> bias;   // sum over sum, less 1
+  std::vector<double> mean;   // error of the light's mean radiance instead of the look-up
+  std::vector<double> bias;   // ratio of the sums, minus 1
 };
 
 struct TexturedErrorOptions {
@@ -31,7 +31,7 @@ struct TexturedErrorOptions {
 
 std::vector<TexturedErrorRow> measure_textured_error(const TexturedErrorOptions& options);
 
-// Markdown.
+// Formats the rows as Markdown.
 std::string textured_error_text(const std::vector<TexturedErrorRow>& rows);
 
 }  // namespace steradian::fit

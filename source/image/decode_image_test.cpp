@@ -1,4 +1,4 @@
-// Whole pictures of every kind, and damaged ones: refused with a sentence, without reading beyond them.
+// Whole pictures of every kind, and damaged ones: these are refused with a message, without reads beyond their end.
 #include "image/decode_image.h"
 
 #include <gtest/gtest.h>
@@ -87,7 +87,7 @@ std::string png(int width, int height) {
   return encode_png(picture, 0);
 }
 
-// Any kind of PNG, by libpng itself.
+// Encodes any kind of PNG with libpng itself.
 std::string png_of(int color, int depth, int interlace, const std::vector<std::uint8_t>& pixels, unsigned width, unsigned height) {
   png_structp out = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(out);
@@ -105,7 +105,7 @@ std::string png_of(int color, int depth, int interlace, const std::vector<std::u
     png_set_PLTE(out, info, palette, 2);
     png_set_tRNS(out, info, alpha, 2, nullptr);
   }
-  png_set_gAMA(out, info, 1.0);  // which must change nothing
+  png_set_gAMA(out, info, 1.0);  // must change nothing
   png_write_info(out, info);
   const std::size_t stride = png_get_rowbytes(out, info);
   std::vector<png_bytep> rows;
@@ -157,7 +157,7 @@ TEST(DecodeImage, RefusesEveryBeginningOfAPicture) {
   }
 }
 
-// Bytes changed at random: a picture of the header's size, or a refusal; the sanitizers watch for what is read beyond.
+// Random changes of bytes give a picture of the header's size, or a refusal; the sanitizers detect reads out of bounds.
 TEST(DecodeImage, SurvivesDamage) {
   std::mt19937 random(7);
   for (const std::string& whole : {jpeg(40, 30, Scans::one), jpeg(40, 30, Scans::progressive), jpeg(17, 5, Scans::one, 4), png(20, 10)})
@@ -174,7 +174,7 @@ TEST(DecodeImage, SurvivesDamage) {
     }
 }
 
-// Each Huffman table of the file in turn filled with the same byte, of every value.
+// Each Huffman table of the file in turn is filled with the same byte, for every value.
 TEST(DecodeImage, SurvivesBrokenHuffmanTables) {
   const std::string whole = jpeg(40, 30, Scans::one);
   std::size_t tables = 0;
@@ -200,7 +200,7 @@ TEST(DecodeImage, RefusesASizeBeforeItTakesMemory) {
   EXPECT_NE(refusal(huge), "") << "65535 x 65535 is more than the format's library takes";
   for (std::size_t i = 5; i < 9; i += 2) huge.replace(frame + i, 2, "\xFF\xDC");
   EXPECT_NE(refusal(huge).find("claims 65500 x 65500 texels, more than may be read (16777216)"), std::string::npos) << refusal(huge);
-  // Allowed by its size, refused by the memory: the progressive form keeps all coefficients.
+  // The size is allowed, but the memory is refused: the progressive form stores all coefficients.
   EXPECT_NE(refusal(huge, std::size_t{1} << 40).find("would take 17.2 GB of memory for the picture's texels"), std::string::npos)
       << refusal(huge, std::size_t{1} << 40);
   const std::string progressive = jpeg(600, 400, Scans::progressive);
@@ -225,7 +225,7 @@ TEST(DecodeImage, RefusesAJpegOfTooManyScans) {
 }
 
 TEST(DecodeImage, OpensNoOtherFormat) {
-  // Softimage, Radiance, GIF, BMP, TGA, PNM and PSD begin so.
+  // First bytes of Softimage, Radiance, GIF, BMP, TGA, PNM and PSD.
   for (const std::string& other : {std::string("\x53\x80\xF6\x34") + std::string(100, '\0'),
                                    std::string("#?RADIANCE\n\n-Y 1 +X 1\n\1\1\1\1"), std::string("GIF89a") + std::string(64, '\1'),
                                    std::string("BM") + std::string(64, '\1'), std::string(2, '\0') + "\2" + std::string(64, '\1'),
@@ -235,7 +235,7 @@ TEST(DecodeImage, OpensNoOtherFormat) {
   }
 }
 
-// An EXR's header is judged before its blocks are made.
+// An EXR's header is checked before memory for its blocks is allocated.
 TEST(DecodeExr, SurvivesDamageAndRefusesSizes) {
   Picture picture(9, 7);
   picture.layers["variance"].resize(63);
@@ -267,10 +267,10 @@ TEST(DecodeExr, SurvivesDamageAndRefusesSizes) {
   EXPECT_NE(read(huge, 1'000'000'000).find("of memory for the picture's pixels"), std::string::npos) << read(huge, 1'000'000'000);
 }
 
-// A list of texts claims 1.9 GB inside an attribute of four bytes; OpenEXR would make room for it. Nobody asked for the list.
+// A list of texts claims 1.9 GB inside an attribute of four bytes, and OpenEXR would allocate them. Nobody asked for the list.
 TEST(DecodeExr, LooksIntoNoAttributeThatAPictureDoesNotNeed) {
   const std::string whole = encode_exr(Picture(9, 7)), attribute = std::string("odd\0stringvector\0\4\0\0\0", 21) + "\xFF\xFF\xFF\x6F";
-  // The last attribute: name, type "float", size, value, and the zero that ends the header. Then the place of the one block of lines.
+  // The last attribute: name, type "float", size, value, and the zero that ends the header. Then the position of the one block of lines.
   const std::size_t place = whole.find("screenWindowWidth") + 18 + 6 + 4 + 4 + 1;
   std::string file = whole;
   const std::size_t moved = static_cast<unsigned char>(file[place]) + 256u * static_cast<unsigned char>(file[place + 1]) + attribute.size();

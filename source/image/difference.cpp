@@ -14,7 +14,7 @@ void check_finite(const Picture& picture, const char* which) {
       if (!is_finite(picture.at(x, y))) throw Error(which, "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is not finite");
 }
 
-// 0/0 is no difference at all; x/0 is one beyond measure.
+// Ratio of two numbers: 0/0 is no difference, x/0 an infinite one.
 double ratio(double a, double b, double both_zero) {
   if (b != 0) return a / b;
   return a == 0 ? both_zero : std::numeric_limits<double>::infinity();

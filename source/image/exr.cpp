@@ -27,7 +27,7 @@ const char* const kSuffix[3] = {"R", "G", "B"};
 
 std::string channel_name(const std::string& layer, int c) { return layer.empty() ? kSuffix[c] : layer + "." + kSuffix[c]; }
 
-// A slice of an interleaved layer. OpenEXR wants a non-const pointer also where it only reads.
+// A slice of an interleaved layer. OpenEXR wants a non-const pointer even for reading.
 Imf::Slice slice(const std::vector<Vec3f>& pixels, int c, int width) {
   const float* base = &pixels.data()->x + c;
   return Imf::Slice(Imf::FLOAT, const_cast<char*>(reinterpret_cast<const char*>(base)), sizeof(Vec3f),
@@ -38,7 +38,7 @@ void add_layer(Imf::FrameBuffer& frame, const std::string& layer, const std::vec
   for (int c = 0; c < 3; ++c) frame.insert(channel_name(layer, c), slice(pixels, c, width));
 }
 
-// Bytes as OpenEXR reads them: the header's from a copy.
+// Bytes as OpenEXR reads them; the header's bytes come from a copy.
 class MemoryStream : public Imf::IStream {
  public:
   MemoryStream(std::span<const std::uint8_t> header, std::span<const std::uint8_t> bytes, const std::string& name)
@@ -59,14 +59,14 @@ class MemoryStream : public Imf::IStream {
   }
 
  private:
-  std::span<const std::uint8_t> header_, bytes_;  // the first bytes of the one stand for those of the other
+  std::span<const std::uint8_t> header_, bytes_;  // the first bytes of header_ replace those of bytes_
   std::size_t at_ = 0;
 };
 
 constexpr std::int64_t kLargestSide = 65536;
-constexpr std::uint64_t kLinesInBlock = 256;  // of scan lines, that the coarsest compression (DWAB) unpacks at once
+constexpr std::uint64_t kLinesInBlock = 256;  // scan lines that the coarsest compression (DWAB) unpacks at once
 
-// A channel's name in two: the layer, and R, G or B; the index of no suffix is 3.
+// Splits a channel's name into the layer and R, G or B; the index is 3 without such a suffix.
 std::pair<std::string, int> layer_and_suffix(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   const std::string suffix = dot == std::string::npos ? name : name.substr(dot + 1);
@@ -74,16 +74,16 @@ std::pair<std::string, int> layer_and_suffix(const std::string& name) {
   return {dot == std::string::npos ? "" : name.substr(0, dot), c};
 }
 
-// Types of attributes whose readers make no more room than the attribute's own size: all that a picture needs.
+// Types of attributes whose readers allocate no more than the attribute's own size: all that a picture needs.
 bool is_plain_type(std::string_view type) {
   constexpr std::string_view kPlain[] = {"box2i", "chlist",    "compression", "double",   "float",
                                          "int",   "lineOrder", "string",      "tiledesc", "v2f"};
   return std::find(std::begin(kPlain), std::end(kPlain), type) != std::end(kPlain);
 }
 
-// The header's bytes, as OpenEXR may read them. Every attribute's claimed size is covered by the bytes that follow, since OpenEXR makes
-// room for it before it reads them; and an attribute of another type, in whose value more sizes may stand (lists of texts claim up to 2 GB
-// each), gets a type that OpenEXR does not know: it then keeps the value's bytes and looks no further.
+// The header's bytes, as OpenEXR may read them. Every attribute's claimed size is covered by the bytes that follow, since OpenEXR allocates
+// it before it reads them. The value of an attribute of another type may hold more sizes (lists of texts claim up to 2 GB each). Such an
+// attribute gets a type that OpenEXR does not know: OpenEXR then stores the value's bytes and looks no further.
 // Attributes: name and type, each ended by 0, four bytes of size, the value; an empty name ends them.
 std::vector<std::uint8_t> checked_attributes(std::span<const std::uint8_t> bytes, const std::string& place) {
   if (bytes.size() < 8 || std::memcmp(bytes.data(), "\x76\x2F\x31\x01", 4) != 0)
@@ -95,7 +95,7 @@ std::vector<std::uint8_t> checked_attributes(std::span<const std::uint8_t> bytes
     return at++ - begin;
   };
   const auto damaged = [&] { throw Error(place, "the EXR picture's header is cut off or damaged", "save it again"); };
-  std::vector<std::pair<std::size_t, std::size_t>> unread;  // where types begin, and their lengths
+  std::vector<std::pair<std::size_t, std::size_t>> unread;  // positions and lengths of the types
   while (skip_text() > 0) {
     const std::size_t type = at, length = skip_text();
     if (type + length < bytes.size() && !is_plain_type({reinterpret_cast<const char*>(bytes.data()) + type, length}))
@@ -113,7 +113,7 @@ std::vector<std::uint8_t> checked_attributes(std::span<const std::uint8_t> bytes
   return header;
 }
 
-// The header alone, before OpenEXR makes room for what it claims.
+// Reads the header alone, before OpenEXR allocates what it claims.
 Imf::Header checked_header(MemoryStream& stream, const std::string& place, Budget& budget) {
   int magic = 0, version = 0;
   Imf::Xdr::read<Imf::StreamIO>(stream, magic);

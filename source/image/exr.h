@@ -1,4 +1,4 @@
-// EXR in memory: the file's bytes, so that reading and writing disks happens in one place.
+// EXR in memory: functions on the file's bytes, so that all disk access happens in one place.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace steradian::image {
 
 std::string encode_exr(const Picture& picture);
 
-// Throws Error(place, ...) for bytes that are no whole picture; memory is taken after the header has been judged.
+// Throws Error(place, ...) for bytes that are not a whole picture. Memory is allocated after the header has been checked.
 Picture decode_exr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget);
 
 }  // namespace steradian::image

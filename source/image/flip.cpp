@@ -9,14 +9,14 @@
 namespace steradian::image {
 namespace {
 
-// Linear sRGB to XYZ, and the white of the primaries: the sums of the rows.
+// Conversion from linear sRGB to XYZ, and the white of the primaries: the sums of the rows.
 constexpr double kToXyz[3][3] = {
     {0.41238656, 0.35759149, 0.18045049}, {0.21263682, 0.71518298, 0.0721802}, {0.01933062, 0.11919716, 0.95037259}};
 constexpr double kWhite[3] = {0.95042854, 1.0, 1.08890037};
 
 using Planes = std::vector<Vec3d>;
 
-// Relative to the white.
+// XYZ relative to the white.
 Vec3d xyz_of(Vec3d rgb) {
   const auto row = [&](int i) { return (kToXyz[i][0] * rgb.x + kToXyz[i][1] * rgb.y + kToXyz[i][2] * rgb.z) / kWhite[i]; };
   return {row(0), row(1), row(2)};
@@ -38,7 +38,7 @@ Vec3d rgb_of_xyz(Vec3d n) {
           0.05563942 * x - 0.20401120 * y + 1.05714897 * z};
 }
 
-// CIELAB, its colours fading with the luminance as Hunt's effect has it. Section 3.3.
+// CIELAB whose colours fade with the luminance (Hunt's effect). Section 3.3.
 Vec3d hunt_lab_of(Vec3d rgb) {
   const auto f = [](double t) {
     constexpr double delta = 6.0 / 29;
@@ -51,12 +51,12 @@ Vec3d hunt_lab_of(Vec3d rgb) {
 
 double hyab(Vec3d a, Vec3d b) { return std::fabs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
-// A kernel that is a product of one along rows and one along columns.
+// A kernel that is the product of one kernel along rows and one along columns.
 struct Separable {
   std::vector<double> along_x, along_y;  // of odd length
 };
 
-// Values beyond the border are those at the border.
+// Values beyond the border equal those at the border.
 std::vector<double> convolved(const std::vector<double>& plane, int width, int height, const Separable& kernel) {
   std::vector<double> rows(plane.size()), result(plane.size());
   const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x); };
@@ -90,7 +90,7 @@ void scale_to_sum_1(std::vector<double>& values) {
   for (double& v : values) v /= sum;
 }
 
-// What the eye's contrast sensitivity leaves of a plane: table 1, a sum of two Gaussians of weight a and width b each.
+// Contrast sensitivity of the eye to a plane (table 1): a sum of two Gaussians of weight a and width b each.
 struct Sensitivity {
   double a1, b1, a2, b2;
 };
@@ -147,7 +147,7 @@ struct Features {
   std::vector<double> edges, points;
 };
 
-// Positive weights sum to 1, negative ones to -1.
+// Scales the values so that positive ones sum to 1 and negative ones to -1.
 void scale_to_sides(std::vector<double>& values) {
   double positive = 0, negative = 0;
   for (const double v : values) (v > 0 ? positive : negative) += v;

@@ -13,8 +13,8 @@ struct Flip {
   double mean = 0;
 };
 
-// Of what both pictures show at that exposure (tone_map), on a screen with so many pixels a degree: 67 is one of 3840 pixels
-// and 0.7 m, seen from 0.7 m. Throws Error when the sizes differ.
+// Error between the two pictures at that exposure (tone_map), on a screen with so many pixels a degree. 67 is a screen of 3840 pixels and
+// 0.7 m, viewed from 0.7 m. Throws Error when the sizes differ.
 Flip flip(const Picture& picture, const Picture& reference, float exposure_stops, double pixels_per_degree = 67.02);
 
 }  // namespace steradian::image

@@ -26,8 +26,8 @@ TEST(Flip, EqualPicturesDoNotDiffer) {
   for (const float e : f.error) EXPECT_LE(e, 1e-6f);
 }
 
-// Flat pictures have no features and nothing to filter: the error is section 3.4's of the two colours. Of black and white the
-// lightness differs by 100, and green and blue, the largest difference of the primaries after Hunt's adjustment, by 203.
+// Flat pictures have no features and nothing to filter: the error is section 3.4's of the two colours. Black and white differ in lightness
+// by 100. Green and blue, the largest difference of the primaries after Hunt's adjustment, differ by 203.
 TEST(Flip, BlackAndWhiteAreFarApart) {
   const Flip f = flip(filled(20, 20, {0, 0, 0}), filled(20, 20, {1e6f, 1e6f, 1e6f}), 0);
   EXPECT_NEAR(f.mean, 0.967, 0.003);
@@ -45,7 +45,7 @@ TEST(Flip, GrowsWithTheDifferenceAndDoesNotMindWhichIsWhich) {
   }
 }
 
-// One lost pixel is a feature: it is seen, if it is large enough for the eye, and only there.
+// One lost pixel is a feature: it is visible, if it is large enough for the eye, and only there.
 TEST(Flip, SeesAPointWhereItIs) {
   const Picture flat = filled(41, 41, {0.2f, 0.2f, 0.2f});
   Picture point = flat;

@@ -12,7 +12,7 @@
 namespace steradian::image {
 namespace {
 
-// As many as the largest picture that render makes, 16384 x 16384.
+// Pixels of the largest picture that render creates, 16384 x 16384.
 constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 constexpr std::size_t kLargestHdrSide = 65536;
 constexpr std::size_t kLongestLine = 4096;
@@ -52,7 +52,7 @@ class Reader {
 
 struct Header {
   std::size_t width = 0, height = 0;
-  double exposure = 1;  // what the pixels have been multiplied by
+  double exposure = 1;  // factor by which the pixels have been multiplied
 };
 
 Header read_header(Reader& in, const std::string& place) {
@@ -87,12 +87,12 @@ bool in_runs(const Reader& in, std::size_t width) {
   return width >= kShortestRuns && width <= kLongestRuns && in.peek(0) == 2 && in.peek(1) == 2 && (in.peek(2) & 0x80) == 0;
 }
 
-// The fewest bytes that a row can take: four for its start, and two for every 127 values of a channel.
+// The fewest bytes that a row can occupy: four for its start, and two for every 127 values of a channel.
 std::size_t fewest_bytes_of_row(const Reader& in, std::size_t width) {
   return in_runs(in, width) ? 4 + 4 * 2 * ((width + 126) / 127) : 4 * width;
 }
 
-// One channel after the other; a count above 128 repeats the next byte.
+// Reads one channel after the other; a count above 128 repeats the next byte.
 void read_runs(Reader& in, std::vector<Rgbe>& row) {
   if ((std::size_t{in.peek(2)} << 8 | in.peek(3)) != row.size()) in.damaged("has a row of another width");
   in.skip(4);

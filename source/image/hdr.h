@@ -10,9 +10,9 @@
 
 namespace steradian::image {
 
-// Rows from the top, columns from the left, flat or in the run lengths of today's files. A file's EXPOSURE lines are divided out: what
-// comes back is radiance. Throws Error(place, ...) for bytes that are no whole picture; memory is taken after the header has been
-// judged against the bytes that follow.
+// Reads rows from the top and columns from the left, flat or in the run lengths of today's files. A file's EXPOSURE lines are divided out:
+// the result is radiance. Throws Error(place, ...) for bytes that are not a whole picture. Memory is allocated after the header has been
+// checked against the bytes that follow.
 // Source: Ward, "Real pixels", Graphics Gems II, 1991; the Radiance file formats, "Picture file format".
 Picture decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget);
 

@@ -1,4 +1,4 @@
-// Radiance pictures, whole and damaged.
+// Tests of Radiance pictures, whole and damaged.
 #include "image/hdr.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ std::string header(int width, int height, const std::string& more = "") {
 
 const std::string kHalf("\x80\x40\x20\x80", 4);  // 0.5, 0.25, 0.125
 
-// Sixteen columns, two rows: every channel one run of 16.
+// Sixteen columns, two rows: every channel is one run of 16.
 std::string in_runs() {
   const std::string row = std::string("\x02\x02\x00\x10", 4) + "\x90\x80" + "\x90\x40" + "\x90\x20" + "\x90\x80";
   return header(16, 2) + row + row;

@@ -13,14 +13,14 @@
 namespace steradian::image {
 namespace {
 
-// A progressive picture may hold any number of scans, each of which costs a pass over all its coefficients although it
-// takes two bytes of the file. Encoders write about ten.
+// A progressive picture may hold any number of scans. Each costs a pass over all coefficients although it takes two bytes of the file.
+// Encoders write about ten.
 constexpr int kMostScans = 100;
-// Rows and columns that fill the last blocks of 64 x 64 (the largest sampling), of a side of at most 65535.
+// Padding of rows and columns to whole blocks of 64 x 64 (the largest sampling), for a side of at most 65535.
 constexpr std::size_t kRoundedUp = 2 * 64 * 65536;
 constexpr std::size_t kWorkingBytes = 32 << 20;  // the codec's rows and tables
 
-// What libjpeg knows of us; its errors jump out of its calls, so nothing here may need a destructor.
+// State that libjpeg refers to. libjpeg's errors jump out of its calls, so nothing here may need a destructor.
 struct JpegReader {
   jpeg_decompress_struct codec;
   jpeg_error_mgr errors;
@@ -37,7 +37,7 @@ JpegReader& reader_of(j_common_ptr codec) { return *static_cast<JpegReader*>(cod
   std::longjmp(reader.failed, 1);
 }
 
-// libjpeg paints over damage and warns. Only what leaves the picture whole passes.
+// libjpeg conceals damage and warns. Only messages that leave the picture whole pass.
 void judge_message(j_common_ptr codec, int level) {
   if (level >= 0) return;  // a trace
   const int code = codec->err->msg_code;
@@ -51,7 +51,7 @@ void count_scans(j_common_ptr codec) {
   std::longjmp(reader.failed, 1);
 }
 
-// The header's size; false, with a message, where it is broken.
+// Reads the header's size; returns false, with a message, if the header is broken.
 bool read_header(JpegReader& reader, std::span<const std::uint8_t> bytes) {
   reader.codec.err = jpeg_std_error(&reader.errors);
   reader.errors.error_exit = fail;
@@ -80,7 +80,7 @@ bool read_pixels(JpegReader& reader, std::uint8_t* rgba, std::size_t memory) {
   return true;
 }
 
-// Owns the codec's memory. Constructed before the first jump, so that a jump passes over no destructor.
+// Owns the codec's memory. It is constructed before the first jump, so that a jump passes over no destructor.
 struct OpenJpeg {
   JpegReader reader{};
   ~OpenJpeg() { jpeg_destroy_decompress(&reader.codec); }
@@ -94,7 +94,7 @@ Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& place,
   if (!read_header(open.reader, bytes)) refuse();
   jpeg_decompress_struct& codec = open.reader.codec;
   const std::size_t texels = checked_texels(codec.image_width, codec.image_height, place, max_texels);
-  // A picture of several scans keeps its coefficients, 16 bits each, until the last; blocks are whole.
+  // A picture of several scans stores its coefficients, 16 bits each, until the last scan; blocks are padded to whole ones.
   const auto components = static_cast<std::size_t>(codec.num_components);
   const std::size_t coefficients = jpeg_has_multiple_scans(&codec) ? 2 * components * (texels + kRoundedUp) : 0;
   budget.take_memory(place, "the picture's texels", 4 * texels + coefficients);

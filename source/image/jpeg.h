@@ -1,4 +1,4 @@
-// JPEG in: libjpeg-turbo, held to what a picture needs.
+// JPEG reader: libjpeg-turbo, restricted to the features of a picture.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace steradian::image {
 
-// Throws Error(place, ...) for bytes that are no whole picture, and for more than max_texels before any memory is taken.
+// Throws Error(place, ...) for bytes that are not a whole picture, and for more than max_texels, before any memory is allocated.
 Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget);
 
 }  // namespace steradian::image

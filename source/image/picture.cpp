@@ -1,4 +1,4 @@
-// Which file format, by the name's ending.
+// Selection of the file format by the name's ending.
 #include "steradian/picture.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::string ending(const std::string& path) {
   return e;
 }
 
-// As many as the largest picture that render makes, 16384 x 16384.
+// Pixels of the largest picture that render creates, 16384 x 16384.
 constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 
 Picture linear_picture(const Image& image, const std::string& place, Budget& budget) {
@@ -62,7 +62,7 @@ Picture read_picture(const std::string& path, const Limits& limits) {
     const Bytes bytes = read_file(path, path, budget);
     if (e == ".exr") return image::decode_exr(bytes, path, budget);
     if (e == ".hdr") return image::decode_hdr(bytes, path, budget);
-    // The ending says what was asked for; the bytes must be just that.
+    // The ending says which format was requested; the bytes must be in that format.
     if (image::format_of(bytes) != (png ? image::ImageFormat::png : image::ImageFormat::jpeg))
       throw Error(path, std::string("is not a ") + (png ? "PNG" : "JPEG") + " picture: its first bytes are another format's",
                   "name the file by its format, or save it again");

@@ -67,7 +67,7 @@ TEST(Picture, PngIsToneMappedAndCarriesText) {
   a.metadata["steradian.method"] = "exact";
   write_picture(a, path);
   const Picture b = read_picture(path);
-  // Neutral grey passes through the curve less its 0.04 offset; 8 bits of sRGB resolve 0.004 here.
+  // Neutral grey passes through the curve minus its 0.04 offset; 8 bits of sRGB resolve 0.004 here.
   EXPECT_NEAR(b.at(0, 0).x, 0.14f, 0.004f);
   EXPECT_EQ(b.at(1, 0).y, 0.0f);
   std::ifstream file(path, std::ios::binary);
@@ -104,7 +104,7 @@ TEST(Picture, BadFilesAreRefusedWithTheirName) {
   std::filesystem::remove(path);
 }
 
-// The bytes must be what the name's ending says.
+// The bytes must be of the format that the name's ending says.
 TEST(Picture, IsOpenedByItsEndingAndNothingElse) {
   const std::string png = temporary(".png"), named_jpeg = temporary(".jpg"), softimage = temporary("_softimage.png");
   write_picture(test_picture(), png);

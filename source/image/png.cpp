@@ -15,13 +15,13 @@
 namespace steradian::image {
 namespace {
 
-// What libpng knows of us; its errors jump out of its calls, so nothing here may need a destructor.
+// State that libpng refers to. libpng's errors jump out of its calls, so nothing here may need a destructor.
 struct Codec {
   png_structp png = nullptr;
   png_infop info = nullptr;
   std::jmp_buf failed;
   char message[160] = "out of memory";
-  const std::uint8_t* at = nullptr;  // reading: what is left
+  const std::uint8_t* at = nullptr;  // reading: the rest of the file
   std::size_t left = 0;
   std::string* file = nullptr;  // writing
 };
@@ -72,7 +72,7 @@ bool read_header(Codec& codec, png_uint_32& width, png_uint_32& height) {
   if (codec.info == nullptr) return false;
   // Only what the pixels need is read: texts and profiles may be compressed bombs.
   png_set_keep_unknown_chunks(codec.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-  png_set_user_limits(codec.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the caller judges the size, in its own words
+  png_set_user_limits(codec.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // the caller checks the size, with its own message
   png_set_read_fn(codec.png, &codec, take_bytes);
   png_read_info(codec.png, codec.info);
   width = png_get_image_width(codec.png, codec.info);

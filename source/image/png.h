@@ -1,4 +1,4 @@
-// PNG in and out: libpng, held to what a picture needs.
+// PNG reader and writer: libpng, restricted to what a picture needs.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace steradian::image {
 
-// 8 bits a channel of tone_map(pixel); metadata as tEXt chunks.
+// Encodes 8 bits a channel of tone_map(pixel); metadata becomes tEXt chunks.
 std::string encode_png(const Picture& picture, float exposure_stops, ToneCurve curve = ToneCurve::neutral);
 
-// The bytes of row y, three a pixel. Must not throw.
+// Fills the bytes of row y, three a pixel. Must not throw.
 using RowOfBytes = std::function<void(int y, std::uint8_t* row)>;
 std::string encode_png_bytes(int width, int height, const RowOfBytes& fill);
 
-// Every kind of PNG as RGBA, 8 bits a channel; what the file says about colour spaces is left aside, as glTF asks.
-// Throws Error(place, ...) for bytes that are no whole picture, and for more than max_texels before any memory is taken.
+// Reads every kind of PNG as RGBA, 8 bits a channel. The file's statements about colour spaces are ignored, as glTF asks. Throws
+// Error(place, ...) for bytes that are not a whole picture, and for more than max_texels, before any memory is allocated.
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget);
 
 }  // namespace steradian::image

@@ -1,4 +1,4 @@
-// read_picture (steradian/picture.h) within limits of the caller's.
+// read_picture (steradian/picture.h) within limits that the caller sets.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace steradian {
 
-// The bytes must be of the format that the name's ending says. Throws Error with the path for what is damaged or would take
-// more than the limits.
+// The bytes must be of the format that the name's ending says. Throws Error with the path for damaged files and for files that would exceed
+// the limits.
 Picture read_picture(const std::string& path, const Limits& limits);
 
 }  // namespace steradian

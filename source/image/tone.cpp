@@ -14,7 +14,7 @@
 namespace steradian {
 namespace {
 
-// Khronos PBR Neutral: what is below start_compression keeps its value, highlights are compressed and desaturated.
+// Khronos PBR Neutral: values below start_compression stay, highlights are compressed and desaturated.
 Vec3f pbr_neutral(Vec3f c) {
   const float start_compression = 0.8f - 0.04f;
   const float desaturation = 0.15f;
@@ -117,7 +117,7 @@ std::uint8_t encoded_byte(float linear) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(srgb_encode(linear), 0.0f, 1.0f) * 255.0f));
 }
 
-// Where each code begins, and the code at the beginning of each of a float's 2^16 leading halves.
+// The value at which each code begins, and the code at the beginning of each of a float's 2^16 leading halves.
 struct CodeTable {
   std::array<float, 257> begins;
   std::array<std::uint8_t, (0x3F80u) + 1> first;  // of bits up to those of 1
@@ -126,7 +126,8 @@ struct CodeTable {
     begins[0] = 0;
     begins[256] = 2;
     for (unsigned code = 1; code < 256; ++code) {
-      std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);  // low is below, high is not: positive floats run as their bits do
+      std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);  // low is below, high is not: positive floats have the order of
+                                                                         // their bits
       while (high - low > 1) {
         const std::uint32_t middle = low + (high - low) / 2;
         (encoded_byte(std::bit_cast<float>(middle)) < code ? low : high) = middle;
@@ -136,7 +137,8 @@ struct CodeTable {
     for (std::uint32_t half = 0; half < first.size(); ++half) first[half] = encoded_byte(std::bit_cast<float>(half << 16));
   }
 
-  // Of a value in [0, 1]. Between two leading halves, at most 1/128 of their value apart, at most one code begins: the next is 1/107 away.
+  // Code of a value in [0, 1]. Leading halves are at most 1/128 of their value apart, so at most one code begins between two: the next is
+  // 1/107 away.
   std::uint8_t code(float linear) const {
     const std::uint8_t low = first[std::bit_cast<std::uint32_t>(linear) >> 16];
     return static_cast<std::uint8_t>(low + (linear >= begins[low + 1u] ? 1 : 0));
@@ -159,7 +161,7 @@ std::uint8_t srgb_byte(float linear) {
 
 namespace {
 
-using Row = xsimd::batch<float, xsimd::sse2>;  // what every x86-64 has; the order of operations is tone_curve's
+using Row = xsimd::batch<float, xsimd::sse2>;  // on every x86-64; the order of operations is tone_curve's
 constexpr std::size_t kRow = Row::size;
 
 struct RowColor {

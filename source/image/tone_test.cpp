@@ -1,4 +1,4 @@
-// The tone curve in halves: what whole pictures are mapped by is tone_map.
+// The two halves of the tone curve: mapping whole pictures equals tone_map.
 #include "image/tone.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 std::uint8_t byte_of(float encoded) { return static_cast<std::uint8_t>(std::lround(encoded * 255.0f)); }
 
-// Every 97th float of [0, 1], and both sides of every place where the code changes.
+// Every 97th float of [0, 1], and both sides of every value at which the code changes.
 TEST(Tone, BytesByTableAreThoseOfTheTransferFunction) {
   const auto expected = [](float x) { return byte_of(std::clamp(srgb_encode(x), 0.0f, 1.0f)); };
   int wrong = 0;
@@ -47,12 +47,12 @@ TEST(Tone, HalvesMakeTheWhole) {
   }
 }
 
-// Numbers by hand, from the papers' formulas.
+// Numbers computed by hand from the papers' formulas.
 TEST(Tone, CurvesAreThoseOfTheirPapers) {
   const Vec3f grey{0.5f, 0.5f, 0.5f}, bright{4, 1, 0};
   EXPECT_EQ(tone_curve(bright, 0.5f, ToneCurve::clip), (Vec3f{1, 0.5f, 0}));
   EXPECT_NEAR(tone_curve(grey, 1, ToneCurve::reinhard).x, 1.0 / 3, 1e-6);
-  // Of luminance 0.2126 x 4 + 0.7152 = 1.5656: each channel through 2.5656.
+  // The luminance is 0.2126 x 4 + 0.7152 = 1.5656, so each channel is divided by 2.5656.
   const Vec3f r = tone_curve(bright, 1, ToneCurve::reinhard);
   EXPECT_NEAR(r.x, 1, 1e-6) << "4 / 2.5656 is more than a screen has";
   EXPECT_NEAR(r.y, 0.389772, 1e-5);

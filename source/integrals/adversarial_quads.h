@@ -1,4 +1,4 @@
-// Test support: quads of the size of the lobe and near its axis, where every method has its largest errors.
+// Test support: quads of the lobe's size and near its axis, where every method has its largest errors.
 #pragma once
 
 #include <cmath>

@@ -8,8 +8,8 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// Two walks: the clipped outline is kept, with the sum that says where the light is. One object serves a thread for all its
-// lights. x: of colour 1.
+// It takes two walks: the first stores the clipped outline and the sum that gives the light's direction. One object serves a thread for all
+// its lights. x: radiance of colour 1.
 template <class S>
 class Charlie {
  public:
@@ -26,7 +26,7 @@ class Charlie {
     sum_ = vec3(0.0, 0.0, 0.0);
     return lit_;
   }
-  // Lanes without light walk edges of no length, so that they never keep the others waiting.
+  // Lanes without light walk edges of no length, so that the others never wait for them.
   STERADIAN_INLINE vec3 end(const vec3& u) const { return select(lit_, u, vec3(0.0, 0.0, 0.0)); }
   STERADIAN_INLINE void add(const vec3& a, const vec3& b) {
     edges_.push_back({a, b});
@@ -38,10 +38,10 @@ class Charlie {
     return {K().charlie_cubature_finish(c), Real<S>(0.0)};
   }
 
-  // The roundings are fewer than along arcs: about its dark middle the lobe may have a bend.
+  // There are fewer roundings than along arcs: the lobe may have a bend about its dark middle.
   STERADIAN_INLINE double least_distance2() const { return kTransformed.least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
-    const Real<S> deviation = sqrt(alpha);  // of a power 1 / alpha of a sine
+    const Real<S> deviation = sqrt(alpha);  // deviation of a power 1 / alpha of a sine
     return {K().light_elements_half_vector_sharpness(deviation, lobe_.view.z), kTransformed.roundings};
   }
   Part<S> at(const vec3& u) const { return {K().charlie_lobe(lobe_, u), Real<S>(0.0)}; }

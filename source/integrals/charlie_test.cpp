@@ -25,7 +25,7 @@ Material charlie(double roughness) {
   return m;
 }
 
-// By cubature, in double and in float.
+// Radiance by cubature, in double and in float.
 Vec3d sheen_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& m) {
   return radiance(light, at, m, {Method::cubature}).radiance;
 }
@@ -35,7 +35,7 @@ Vec3d sheen_radiance_float(const PreparedPolygon& light, const ShadingPoint& at,
 
 }  // namespace
 
-// Unit vectors are unit up to rounding: a cosine one ulp above 1 must not be a number that is none.
+// Unit vectors are unit up to rounding: a cosine one ulp above 1 must not give NaN.
 TEST(Sheen, IsANumberWhereTheViewIsTheNormal) {
   const double above = std::nextafter(1.0, 2.0);
   for (double alpha : {0.01, 0.3, 1.0}) {
@@ -68,7 +68,7 @@ TEST(Sheen, KernelAndReferenceHaveTheSameLobe) {
   }
 }
 
-// Lights of all sizes, roughness and views: what docs/accuracy.md, "Sheen", says for each of them.
+// Lights of all sizes, roughness and views, within the error that docs/accuracy.md, "Sheen", states for each.
 TEST(Sheen, IsWithinThreePercentRms) {
   for (double side : {0.05, 0.5, 2.0, 5.0}) {
     reference::RelativeRms all;
@@ -123,7 +123,7 @@ TEST(SheenPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
     const double values[10] = {random.uniform(-2, 2), random.uniform(-2, 2), 0, n.x, n.y, n.z, v.x, v.y, v.z, random.uniform(0.01, 1)};
     for (std::size_t k = 0; k < 10; ++k) a[k].push_back(static_cast<float>(values[k]));
   }
-  PolygonLight panel;  // dips below the floor
+  PolygonLight panel;  // reaches below the floor
   panel.vertices = {{-0.6, 0.5, -0.4}, {-0.6, 1.1, 1.2}, {1.2, 1.1, 1.2}, {1.2, 0.5, -0.4}};
   panel.two_sided = true;
   const PreparedPolygon light = prepare_polygon(panel);

@@ -1,4 +1,4 @@
-// GGX in closed form against the reference, float against double, packs against both, and everything against nonsense.
+// GGX in closed form against the reference, float against double, packs against both, and all of them on degenerate input.
 #include "steradian/closed_form.h"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(GgxClosedForm, WithoutShadowingIsExactInDouble) {
     const PreparedPolygon light = prepare_polygon(c.light);
     const auto truth = reference_radiance(light, c.at, m, {1e-13, 1e-14, 400'000});
     const double value = exact_ggx_radiance(light, c.at, m).x, error = std::fabs(value - truth.radiance.x);
-    // The reference's own bound is what cannot be told from an error.
+    // Differences within the reference's own bound cannot be told from an error.
     EXPECT_LE(error, truth.bound + 1e-12 * std::max(1.0, value)) << i << ": " << describe(c, m) << ", value " << value;
     if (truth.bound < 1e-13) worst = std::max(worst, error / std::max(1.0, value));
     lit += value > 1e-6;
@@ -141,7 +141,7 @@ TEST(GgxClosedForm, AnisotropicAndNonConvexLightsKeepTheErrorOfRectangles) {
     error += e * e;
     signal += truth * truth;
   }
-  // Twice the bound of rectangles: corners turned inwards give fans of both signs.
+  // Twice the bound of rectangles: inward corners give fans of both signs.
   EXPECT_LE(std::sqrt(error / signal), 0.006);
   std::printf("relative RMSE %.5f\n", std::sqrt(error / signal));
 }
@@ -155,7 +155,7 @@ TEST(GgxClosedForm, TwoSidedLightIsTheSameFromBehind) {
     const double front = closed_form_radiance(prepare_polygon(s.light), s.at, s.material).x;
     EXPECT_EQ(closed_form_radiance(prepare_polygon(turned), s.at, s.material).x, 0.0);
     turned.two_sided = true;
-    // The second walk's centre, nodes and weights are those of the first, walked backwards.
+    // The second walk's centre, nodes and weights are those of the first in reverse.
     EXPECT_NEAR(closed_form_radiance(prepare_polygon(turned), s.at, s.material).x, front, 1e-9);
   }
 }
@@ -175,7 +175,7 @@ TEST(GgxClosedForm, RefusesOtherLobesAndWhatIsNotExact) {
 
 namespace {
 
-// Lights that break things: corners on the horizon, in the point, along the view; slivers, repeats, opposite corners.
+// Degenerate lights: corners on the horizon, in the point, along the view; slivers, repeated and opposite corners.
 PolygonLight random_nonsense(Random& random, const ShadingPoint& at) {
   PolygonLight light;
   light.two_sided = true;
@@ -219,7 +219,7 @@ TEST(GgxClosedForm, IsFiniteAndWithinTheLightForNonsense) {
     const double value_float = closed_form_radiance_float(light, at, m, quality).x;
     ASSERT_TRUE(value >= 0 && value <= f * (1 + 1e-12)) << i << ": " << value << " alpha " << m.alpha_x << " view " << z;
     ASSERT_TRUE(value_float >= 0 && value_float <= f * (1 + 1e-6)) << i << ": " << value_float << " alpha " << m.alpha_x << " view " << z;
-    m.shadowing = false;  // sends more than it gets at grazing views, but finite all the same
+    m.shadowing = false;  // sends more than it gets at grazing views, but stays finite
     const double exact = exact_ggx_radiance(light, at, m).x, exact_float = exact_ggx_radiance_float(light, at, m).x;
     ASSERT_TRUE(std::isfinite(exact) && exact >= 0 && std::isfinite(exact_float) && exact_float >= 0)
         << i << ": " << exact << ", in float " << exact_float;

@@ -15,7 +15,7 @@
 namespace steradian::methods {
 namespace {
 
-// Calls use(length) with each of a shape's vectors and numbers, seen from the position.
+// Calls use(length) with each of a shape's vectors and numbers, relative to the position.
 void each_length(Polygon& polygon, Vec3d position, auto use) {
   const auto each = [&](std::vector<Vec3d>& contour) {
     for (Vec3d& v : contour) v = v - position, use(v);
@@ -45,8 +45,8 @@ void each_length(Line& l, Vec3d position, auto use) {
 double largest_of(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 double largest_of(double x) { return std::fabs(x); }
 
-// The light from the point, in units in which its largest number is 1: no square leaves the range of double. A line's
-// radiance times width is per unit of length, too.
+// The light relative to the point, in units in which its largest number is 1: no square leaves the range of double. A line's radiance times
+// width is per unit of length, too.
 AreaLight seen_from(const AreaLight& light, Vec3d position) {
   AreaLight seen = light;
   double largest = 0;
@@ -72,14 +72,14 @@ double in_precision(const RadianceOptions& options, auto in_double, auto in_floa
   return options.precision == Precision::float_ ? static_cast<double>(in_float()) : in_double();
 }
 
-// A light of a billionth of its distance is one direction; the vertices of its polygon would be rounded to one place.
+// A light of a billionth of its distance is one direction; the vertices of its polygon would round to one place.
 RadianceResult small_answer(Vec3d place, Vec3d intensity, const ShadingPoint& at, const Material& m, const Row& entry) {
   RadianceResult answer = nothing(entry.method);
   answer.radiance = point_light_radiance({place, intensity}, at, m);
   return answer;
 }
 
-// Of the ellipse that the origin sees, x cross y towards it.
+// Answer for the ellipse as seen from the origin, with x cross y towards it.
 RadianceResult ellipse_answer(const Ellipse& outline, Vec3d radiance, const ShadingPoint& at, const Material& m, const Row& entry,
                               const RadianceOptions& options) {
   if (is_exact_lambert(m, entry))
@@ -95,7 +95,7 @@ RadianceResult ellipse_answer(const Ellipse& outline, Vec3d radiance, const Shad
                         [&](int vertices) { return equal_area_polygon(outline, radiance, vertices); }, radiance, at, m, entry, options);
 }
 
-// How the line lies, seen from the origin.
+// Position of the line relative to the origin.
 struct Axis {
   double length, distance;  // of the segment
   Vec3d moment;             // nearer end x unit direction: its length is the distance of the endless line
@@ -110,7 +110,7 @@ Axis axis_of(const Capsule& c) {
   return axis;
 }
 
-// The segment as a strip of that half width across the sight; walked the way in which the origin sees its lit side.
+// The segment as a strip of that half width across the line of sight, in walk order from the lit side.
 PolygonLight strip(const Capsule& c, const Axis& axis, double half_width) {
   const Vec3d aside = normalized(axis.moment) * half_width;
   PolygonLight light;
@@ -121,7 +121,7 @@ PolygonLight strip(const Capsule& c, const Axis& axis, double half_width) {
 //   radiance  times width
 RadianceResult thin_answer(const Capsule& c, const Axis& axis, Vec3d radiance, const ShadingPoint& at, const Material& m, const Row& entry,
                            const RadianceOptions& options) {
-  // Towards the point nothing of a line is seen.
+  // A line towards the point is not visible.
   if (!(length(axis.moment) > 1e-14 * axis.distance)) return nothing(entry.method);
   if (is_exact_lambert(m, entry))
     return lambert_answer(in_precision(
@@ -143,7 +143,7 @@ RadianceResult thin_answer(const Capsule& c, const Axis& axis, Vec3d radiance, c
   return answer;
 }
 
-// Each of the shapes as the origin sees it.
+// Answers for each of the shapes, relative to the origin.
 struct AnswerOfShape {
   const AreaLight& light;
   const ShadingPoint& at;
@@ -183,7 +183,7 @@ struct AnswerOfShape {
           in_precision(
               options, [&] { return capsule_irradiance(c, {}, at.normal); }, [&] { return capsule_irradiance_float(c, {}, at.normal); }),
           light.radiance, m);
-    // The corners of so thin an outline would be rounded to one place.
+    // The corners of such a thin outline would round to one place.
     if (c.radius < 1e-7 * axis.distance && axis.length > 1e3 * c.radius)
       return thin_answer(c, axis, light.radiance * (2 * c.radius), at, m, entry, options);
     return outline_answer([&](const LobeAxis& lobe, int vertices) { return polygon_for_lobe(c, {}, lobe, vertices); },
@@ -191,7 +191,7 @@ struct AnswerOfShape {
   }
 
  private:
-  // About its middle, the error is of second order.
+  // About the capsule's middle, the error is of second order.
   static bool is_small(const Capsule& c, const Axis& axis) { return axis.length + c.radius < 1e-7 * axis.distance; }
   static Vec3d middle(const Capsule& c) { return (c.end_a + c.end_b) * 0.5; }
   static double across(const Axis& axis) { return axis.length * length(axis.moment) / axis.distance; }

@@ -6,7 +6,7 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// share(a, b): a Real<S>, of an edge that is not below the horizon. x: the sum, as the outline was walked.
+// share(a, b): contribution of an edge that is not below the horizon, a Real<S>. x: the sum, in walk order.
 template <class S, class Share>
 class EdgeSum {
  public:

@@ -5,8 +5,8 @@
 
 namespace steradian {
 
-// Both integrals over the part in front of an edge: of (1 - x^m)/(1 - x^2), times |s|, and of x^m; m = n + 1 > 0.
-// Absolute error below 1e-12 each.
+// Two integrals over the part in front of an edge: of (1 - x^m)/(1 - x^2), times |s|, and of x^m; m = n + 1 > 0. The absolute error of each
+// is below 1e-12.
 Kernels<double>::MomentIntegrands integrate_front(const Kernels<double>::MomentEdge& edge, double n);
 
 }  // namespace steradian

@@ -1,4 +1,4 @@
-// Elements that stand for far lights: their values against exact ones and quadrature, and every bound against the error it bounds.
+// Elements that represent far lights: their values against exact ones and quadrature, and every bound against its error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ V to_kernel(Vec3d v) { return {v.x, v.y, v.z}; }
 Vec3d element(Vec3d area, Vec3d r) { return vector(K().far_element_vector(to_kernel(area), to_kernel(r))); }
 Vec3d ball(Vec3d r) { return vector(K().far_ball_vector(to_kernel(r))); }
 
-// Of n on [-1, 1].
+// Node i of n on [-1, 1].
 double chebyshev_node(int i, int n) { return std::cos(std::numbers::pi * (i + 0.5) / n); }
 
 template <class F>
@@ -58,7 +58,7 @@ Line random_line(std::mt19937& random) {
   line.distance = length(line.to - line.u * along);
   return line;
 }
-// Not clamped, as of a light that surely faces the line.
+// Irradiance without clamping, for a light that certainly faces the line.
 Vec3d at(const Line& line, double t) {
   const Vec3d r = line.to - line.u * (t * line.reach);
   const double r2 = dot(r, r);
@@ -118,7 +118,7 @@ TEST(FarLight, OneElementIsWithinItsBound) {
         nearest = std::min(nearest, length(r));
         all = all + element(normal * (side * 4 * a * b / (kSide * kSide)), r);
       }
-    // Wholly in front by construction: the plane does not pass through the receiver.
+    // The rectangle is in front by construction: the plane does not pass through the receiver.
     const double one = number(K().far_error_of_one((a * a + b * b) / 3, nearest * nearest));
     const double error = length(element(normal * (side * 4 * a * b), c) - all) * nearest * nearest / (4 * a * b);
     EXPECT_LT(error, one * (1 + 1e-3)) << "a " << a << " b " << b;
@@ -133,7 +133,7 @@ TEST(FarLight, OneElementIsWithinItsBound) {
     EXPECT_LT(length(elements - all) * nearest * nearest / (4 * a * b), four + 1e-4 * one) << "a " << a << " b " << b;
   }
   std::printf("largest error over bound of one element %.2f\n", largest);
-  EXPECT_GT(largest, 0.3);  // a bound far above would cost elements
+  EXPECT_GT(largest, 0.3);  // a much larger bound would cost elements
 }
 
 // A rectangle that the plane z = 0 of the receiver at the origin cuts, or nearly.
@@ -199,7 +199,7 @@ TEST(FarLight, InterpolationUnderFresnelIsWithinItsBound) {
       line.reach *= 0.3;
       const double along = std::clamp(dot(line.to, line.u), -line.reach, line.reach);
       line.distance = length(line.to - line.u * along);
-      // Half of the eyes about opposite to the element, where the weight is large.
+      // Half of the eyes are about opposite to the element, where the weight is large.
       const Vec3d away = uniform(random) < 0.5 ? normalized(line.to * -0.5 + direction(random) * 0.6) : direction(random);
       const Vec3d eye = away * (0.7 + 3 * uniform(random));
       double least = 1, view_distance = 1e9;

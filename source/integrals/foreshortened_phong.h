@@ -1,8 +1,8 @@
 // A Phong lobe times the cosine of the light: the double-axis moment of the lobe's axis and the normal.
 //
-// (n + 2) times the moment is n (r.z) times the moment of n - 1, a Phong lobe's, and for each edge the z of its plane's normal
-// times the integral of x^n along it (kernels/integral/moment_cosine.glsl). Shares here are in proportion to those of Phong, so
-// that its sum finishes both: the factor of the lobe stays (n + 1)/(2 pi).
+// (n + 2) times the moment is n (r.z) times the moment of n - 1, a Phong lobe's, and for each edge the z of its plane's normal times the
+// integral of x^n along it (kernels/integral/moment_cosine.glsl). The contributions here are scaled like those of Phong, so that its sum
+// finishes both: the factor of the lobe stays (n + 1)/(2 pi).
 #pragma once
 
 #include "integrals/phong.h"
@@ -23,7 +23,7 @@ class ForeshortenedLobe {
         low_(exponent < 8 ? 1 : 0),
         lower_(exponent - 1, PhongOptions{.relative_precision = precision}) {}
 
-  // One edge's share; r the lobe's unit axis, z the normal.
+  // Contribution of one edge; r is the lobe's unit axis, z the normal.
   template <Method method, Quality quality>
   Real<S> share(typename K::vec3 a, typename K::vec3 b, typename K::vec3 r) const {
     K k;
@@ -44,7 +44,7 @@ class ForeshortenedLobe {
     return factor_ * double_axis_share(edge, a, b, r, front, cosines);
   }
 
-  // The same of the two integrals over the part in front: of (1 - x^n)/(1 - x^2), times |s|, and of x^n.
+  // Contribution by the two integrals over the part in front: of (1 - x^n)/(1 - x^2), times |s|, and of x^n.
   static Real<S> double_axis_share(const typename K::MomentEdge& edge, typename K::vec3 a, typename K::vec3 b, typename K::vec3 r,
                                    Real<S> front, Real<S> cosines) {
     K k;
@@ -58,7 +58,7 @@ class ForeshortenedLobe {
   PhongLobe<S> lower_;  // of exponent n - 1
 };
 
-// As with_phong_share, for the methods that can: exact, arvo, series.
+// Like with_phong_share, for the methods that support it: exact, arvo, series.
 template <class S, class Use>
 auto with_foreshortened_share(const ForeshortenedLobe<S>& lobe, const PhongOptions& options, Use use) {
   const auto by = [&]<Method method, Quality quality = Quality::normal>() {

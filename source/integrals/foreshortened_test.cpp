@@ -22,9 +22,9 @@ Material foreshortened(double n) {
 
 struct Allowed {
   PhongOptions options;
-  // exact: quadrature that has converged, to 1e-10. arvo: the fixed quadrature of the cosines, and its recurrence; docs/accuracy.md
-  // has the former at 1e-6. series: an edge's 2e-4 and 5.5e-5 of the full lobe (docs/moments.md), and the cosines' 9e-5 of a half
-  // circle over 2 pi an edge; edges' errors partly cancel, and four of them count.
+  // exact: converged quadrature, to 1e-10. arvo: the fixed quadrature of the cosines, and its recurrence; docs/accuracy.md has the former
+  // at 1e-6. series: an edge's 2e-4 and 5.5e-5 of the full lobe (docs/moments.md), and the cosines' 9e-5 of a half circle over 2 pi an
+  // edge. Edges' errors partly cancel, and four of them count.
   double in_double, in_float;
 };
 
@@ -41,7 +41,7 @@ TEST(Foreshortened, EveryMethodAgreesWithQuadrature) {
     int lit = 0;
     for (int i = 0; i < 400; ++i) {
       const auto c = reference::random_configuration(random);
-      if (c.kind == "near") continue;  // edges that nearly pass through the point: their directions are rounded
+      if (c.kind == "near") continue;  // edges that nearly pass through the point have rounded directions
       double n = i % 7 == 0 ? 0.0 : std::pow(10.0, random.uniform(-1, 3));
       if (allowed.options.method == Method::arvo) n = std::floor(n);
       const PreparedPolygon light = prepare_polygon(c.light);

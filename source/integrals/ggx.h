@@ -9,7 +9,7 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// The clipped outline, kept as arcs in stretched half-vector space. One object serves a thread for all its lights.
+// The clipped outline, stored as arcs in stretched half-vector space. One object serves a thread for all its lights.
 template <class S>
 class GgxArcs {
  public:
@@ -25,7 +25,7 @@ class GgxArcs {
     edges_.clear();
     return lit_;
   }
-  // Lanes without light walk edges of no length, so that they never keep the others waiting.
+  // Lanes without light walk edges of no length, so that the others never wait for them.
   STERADIAN_INLINE vec3 end(const vec3& u) const { return select(lit_, u, vec3(0.0, 0.0, 0.0)); }
   STERADIAN_INLINE void add(const vec3& a, const vec3& b) { edges_.push_back({a, b}); }
 
@@ -36,7 +36,7 @@ class GgxArcs {
   }
 
  protected:
-  // Turns the edges into arcs; the sum of their vectors.
+  // Turns the edges into arcs; returns the sum of their vectors.
   STERADIAN_INLINE vec3 prepare() {
     vec3 e(0.0, 0.0, 0.0);
     arcs_.clear();
@@ -78,7 +78,7 @@ class Ggx : public GgxArcs<S> {
   Part<S> at(const typename K::vec3& u) const { return K().ggx_lobe_and_fresnel(this->view_, u, smith); }
 };
 
-// Without shadowing and with F = 1, exactly: x.
+// GGX without shadowing and with F = 1, exact: x.
 template <class S>
 class UnshadowedGgx : public GgxArcs<S> {
  public:

@@ -10,9 +10,9 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// lobe: alpha_x() and alpha_y(); deviation() of the half vectors' slopes in the narrower direction; arc(view, p, q) of an arc of unit
-// half vectors in walk order, and at_half_vector(view, h) the same of a steradian; finish(view, edges, sum, facing); bias() and at(view, u)
-// for small lights.
+// lobe: alpha_x() and alpha_y(); deviation() of the half vectors' slopes in the narrower direction. arc(view, p, q) is the value of an arc
+// of unit half vectors in walk order, at_half_vector(view, h) that of a steradian. Further members are finish(view, edges, sum, facing),
+// and bias() and at(view, u) for small lights.
 template <class S, class Lobe>
 class HalfVector {
  public:
@@ -61,7 +61,7 @@ class HalfVector {
   Part<S> at(const vec3& u) const { return lobe_.at(view_, u); }
 
  private:
-  static constexpr int kSliverNodes = 4;  // three leave four to ten times the error (docs/accuracy.md, "Half vectors")
+  static constexpr int kSliverNodes = 4;  // three have four to ten times the error (docs/accuracy.md, "Half vectors")
 
   Lobe lobe_;
   HalfVectorOptions options_;
@@ -70,10 +70,10 @@ class HalfVector {
   decltype(std::declval<Lobe>().nothing()) sum_;
 };
 
-// Which form of the cosine series serves an exponent: blinn_phong_arc_approximate's range.
+// The form of the cosine series that serves an exponent: the range argument of blinn_phong_arc_approximate.
 inline int cosine_series_range(double n) { return n < 2 ? 2 : n < 8 ? 1 : 0; }
 
-// In double by quadrature, else by the cosine series.
+// Uses quadrature in double, else the cosine series.
 template <class S>
 class BlinnPhongArcs {
  public:
@@ -153,7 +153,7 @@ struct GgxHalfVectorArcs {
   Real<S> alpha_x() const { return ax; }
   Real<S> alpha_y() const { return ay; }
   Real<S> deviation() const { return Real<S>(0.5) * min(ax, ay); }
-  double bias() const { return kUnbiased; }  // chords of short edges are as good as their arcs
+  double bias() const { return kUnbiased; }  // chords of short edges are as exact as their arcs
   template <class View, class V>
   Part<S> at(const View& view, const V& u) const {
     return K().ggx_lobe_and_fresnel(view, u, smith);
@@ -167,7 +167,7 @@ struct GgxHalfVectorArcs {
   V at_half_vector(const View& view, const V& h) const {
     return K().ggx_at_half_vector(view, h);
   }
-  // Shadowing and Fresnel as the closed form takes them: only the measure is the arcs'.
+  // Shadowing and Fresnel as in the closed form: only the measure is computed by the arcs.
   template <class View, class Edges, class V>
   Part<S> finish(const View& view, const Edges& edges, const V& e, Real<S> facing) const {
     auto c = K().ggx_cubature_begin(view, e, smith, facing);

@@ -68,8 +68,8 @@ TEST_P(HalfVector, FourPoleMappedArcsHoldTheirError) {
       const Deviation pole = error_of(all, {arcs, ArcSplit::pole_mapped}), uniform = error_of(all, {arcs, ArcSplit::uniform});
       std::printf("view %2.0f, %d arcs: pole-mapped rms %.5f largest %.4f, uniform rms %.5f largest %.4f\n", view, arcs, pole.rms,
                   pole.largest, uniform.rms, uniform.largest);
-      // A great circle alone is off by 2e-3 to 2e-2 (mean square); four nodes of what lies between leave a tenth at least, and Beckmann's
-      // series 5e-5 for each half edge.
+      // A great circle alone has an error of 2e-3 to 2e-2 (mean square). Four nodes of the area between leave a tenth at least, and
+      // Beckmann's series 5e-5 for each half edge.
       if (arcs == 4) {
         EXPECT_LE(pole.rms, view > 80 ? 1e-3 : 3e-4) << "view " << view;
         if (view >= 75) {
@@ -84,13 +84,14 @@ TEST_P(HalfVector, ManyArcsConvergeToTheReference) {
   for (double view : {5.0, 45.0, 75.0}) {
     const auto all = cases(GetParam(), view, 4);
     const Deviation e = error_of(all, {200, ArcSplit::pole_mapped});
-    // Chords fall with the square of their number, 2500 times from 4 to 200; Beckmann keeps the series' 5e-5 a half edge.
+    // The error of chords falls with the square of their number, 2500 times from 4 to 200; Beckmann retains the series' 5e-5 a half edge.
     EXPECT_LE(e.largest, GetParam() == Brdf::beckmann ? 4 * 2 * 5.5e-5 : 5e-5) << "view " << view;
     std::printf("view %2.0f: largest error of 200 arcs %.2e\n", view, e.largest);
   }
 }
 
-// A light that fills the upper half space, one seen edge-on, a wall that stands on the surface beside the point: every lobe, every view.
+// A light that fills the upper half space, one seen edge-on, and a wall that stands on the surface beside the point; every lobe, every
+// view.
 TEST_P(HalfVector, HoldsItsErrorOverWhateverFillsTheHemisphereOrIsSeenEdgeOn) {
   Random random(17);
   double worst = 0, error = 0, signal = 0;
@@ -123,7 +124,7 @@ TEST_P(HalfVector, HoldsItsErrorOverWhateverFillsTheHemisphereOrIsSeenEdgeOn) {
   EXPECT_LE(worst, 2e-3);
 }
 
-// With shadowing and Fresnel by the closed form's cubature, only the measure is the arcs': relative RMSE as without.
+// Shadowing and Fresnel come from the closed form's cubature; only the measure comes from the arcs: relative RMSE as without.
 TEST(HalfVectorGgx, ShadowingAndFresnelAreAveraged) {
   for (const double f0 : {1.0, 0.04})
     for (const double view : {5.0, 45.0, 75.0}) {
@@ -145,7 +146,7 @@ TEST(HalfVectorGgx, ShadowingAndFresnelAreAveraged) {
     }
 }
 
-// A needle in the lobe: what one edge's chords leave out, the other's must.
+// A needle in the lobe: one edge's chords omit the area that the other's must omit as well.
 TEST(HalfVectorGgx, AThinLightIsWhatItsTwoEdgesLeave) {
   for (const Brdf brdf : {Brdf::ggx, Brdf::blinn_phong, Brdf::beckmann})
     for (const double width : {1e-2, 1e-3, 1e-4}) {

@@ -1,4 +1,4 @@
-// The clip hands out edges whose boundary integrals are those of the clipped light.
+// The clip returns edges whose boundary integrals are those of the clipped light.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using K = Kernels<double>;
 
-// Irradiance from the sum of edge vectors over everything that the clip hands out.
+// Irradiance from the sum of edge vectors over all edges that the clip returns.
 double irradiance_by_segments(const std::vector<K::vec3>& v) {
   K k;
   double sum = 0;
@@ -68,14 +68,14 @@ TEST(HorizonClip, SegmentsGiveTheIrradianceOfTheClippedOutline) {
     }
     clipped += crossings > 0;
     with_many_arcs += crossings > 2;
-    // Where the walk starts must not matter.
+    // The start of the walk must not matter.
     const double expected = walk.edges.z.v + 0.5 * k.trig_atan2_unwrapped(walk.horizon.y, walk.horizon.x).v;
     for (int turn = 0; turn < 3; ++turn) {
       worst = std::max(worst, std::fabs(irradiance_by_segments(v) - expected));
       std::rotate(v.begin(), v.begin() + 1, v.end());
     }
   }
-  // A dozen edges of a few roundings each.
+  // The error is that of a dozen edges of a few roundings each.
   EXPECT_LT(worst, 1e-13) << "seed 1";
   EXPECT_GT(clipped, 5000);
   EXPECT_GT(with_many_arcs, 500);

@@ -1,15 +1,15 @@
-// integrate: the one way of an integral over a light's outline, for every kind of number.
+// integrate: the single implementation of an integral over a light's outline, for every kind of number.
 //
 // An integral is a type with
 //
 //   static constexpr Clip kClip;
 //   void anchor(u);                     // optional: a direction of the horizon that lies in the light's plane, or the zero vector
-//   Mask<S> begin(const Shading<S>&);   // forgets the last light; where this light can send anything
-//   end(u)                              // what it keeps of a corner, the unit direction u in the shading frame: mostly u itself
-//   void add(a, b);                     // one edge, of what `end` gave
+//   Mask<S> begin(const Shading<S>&);   // resets the integral; returns true where this light can send anything
+//   end(u)                              // the stored value of a corner, the unit direction u in the shading frame: mostly u itself
+//   void add(a, b);                     // adds one edge, from the values of `end`
 //   finish(Mask<S> reversed);           // the integral: Part<S> of a lobe
 //
-// Each stands in a file of its own beside this one. Memory that it keeps from light to light is its own matter.
+// Each is in a file of its own beside this one. It manages memory that it reuses from light to light itself.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// Radiance towards the view under a light of radiance 1: x with F = 1, y with F = (1 - v.h)^5. A channel of a lobe with
-// Schlick's Fresnel is f0 (x - y) + f90 y (ggx_radiance); an integral without Fresnel leaves y at 0.
+// Radiance towards the view under a light of radiance 1: x with F = 1, y with F = (1 - v.h)^5. A channel of a lobe with Schlick's Fresnel
+// is f0 (x - y) + f90 y (ggx_radiance). An integral without Fresnel returns y = 0.
 template <class S>
 using Part = typename Kernels<S>::vec2;
 
@@ -33,22 +33,22 @@ Vec3d radiance_of(const Part<S>& part, Vec3d f0, Vec3d f90, Vec3d light) {
   return {channel(f0.x, f90.x, light.x), channel(f0.y, f90.y, light.y), channel(f0.z, f90.z, light.z)};
 }
 
-// How a light is seen from a point.
+// View of a light from a point.
 template <class S>
 struct Shading {
   typename Kernels<S>::vec3 view;  // unit, in the shading frame
   Mask<S> lit;                     // the light shines towards the point
-  Mask<S> reversed;                // it is seen from behind: its edges run the wrong way round
+  Mask<S> reversed;                // it is seen from behind: its edges run in reverse order
 };
 
-// side: of a plane light, 1 or -1 as it is seen from the front or the back, 0 where it sends nothing.
+// side: for a plane light, 1 or -1 if it is seen from the front or the back, 0 if it sends nothing.
 template <class S>
 Shading<S> shading_from(int side, const typename Kernels<S>::vec3& view) {
   return {view, Mask<S>(side != 0), Mask<S>(side < 0)};
 }
 
 enum class Clip {
-  none,     // the edges as they come: the integral has no horizon, or clips by itself
+  none,     // unchanged edges: the integral has no horizon, or clips by itself
   horizon,  // the edges' parts above z = 0, and the arcs of the horizon that close them
 };
 
@@ -61,7 +61,7 @@ STERADIAN_INLINE void set_to_zero(Vec3<R>& v) {
   v = Vec3<R>(0.0, 0.0, 0.0);
 }
 
-// Two integrals in one walk: a corner is turned into the shading frame once for both.
+// Two integrals in one walk: a corner is transformed into the shading frame once for both.
 template <class First, class Second>
 struct Together {
   First first;
@@ -126,7 +126,7 @@ struct Together {
   }
 };
 
-// The integral over the outline, after begin.
+// Computes the integral over the outline, after begin.
 template <class S, class Outline, class Integral>
 STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& shading, Integral& integral) {
   Kernels<S> k;
@@ -159,8 +159,8 @@ STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& 
   return integral.finish(shading.reversed);
 }
 
-// By the light's elements where they serve; the outline is walked where a lane needs it. A function of its own that takes copies,
-// so that it keeps nothing of the usual way in memory.
+// Uses the light's elements where they serve, and walks the outline if a lane needs it. It is not inlined and takes copies, so that it
+// costs the usual path no memory.
 template <class S, class Outline, class Integral>
 __attribute__((noinline)) auto integrate_small(Outline outline, Shading<S> shading, Integral integral, Mask<S> lit) {
   Kernels<S> k;

@@ -16,13 +16,13 @@ namespace {
 
 using K = Kernels<double>;
 
-// Above the horizon, with a hole.
+// A light above the horizon, with a hole.
 PreparedPolygon light_with_a_hole() {
   return prepare_polygon(
       {{{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}}, {{{-0.5, -0.5, 2}, {0.5, -0.4, 2}, {0, 0.5, 2}}}, {1, 1, 1}, true});
 }
 
-// Every edge as a contour of its own, in an order of the seed.
+// Every edge as a contour of its own, in an order that depends on the seed.
 PreparedPolygon as_single_edges(const PreparedPolygon& light, unsigned seed) {
   std::vector<std::pair<Vec3d, Vec3d>> edges;
   integrals::walk_contours(
@@ -54,7 +54,7 @@ void expect_the_same_in_any_order(auto&& integral) {
   EXPECT_NE(expected, 0);
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const PreparedPolygon pieces = as_single_edges(light, seed);
-    // A sum of seven terms in another order.
+    // The sum has seven terms in another order.
     EXPECT_NEAR(integrate(integrals::contours_in<double>(pieces, frame, position), shading, integral).x.v, expected,
                 1e-14 + 1e-12 * std::fabs(expected));
   }
@@ -66,7 +66,7 @@ TEST(Integrate, TakesSingleEdgesInAnyOrder) {
   expect_the_same_in_any_order(integrals::Ltc<double>(a_lobe()));
   integrals::Ggx<double> ggx;
   ggx.alpha_x = ggx.alpha_y = 0.3;
-  ggx.quality = Quality::draft;  // the cubature's nodes go by the edges
+  ggx.quality = Quality::draft;  // the cubature's nodes depend on the order of the edges
   expect_the_same_in_any_order(ggx);
   const integrals::PhongLobe<double> lobe(20);
   integrals::with_phong_share<double>(

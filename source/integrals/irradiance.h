@@ -29,7 +29,7 @@ class Irradiance {
   typename Kernels<S>::PolygonWalk walk_;
 };
 
-// x: the solid angle of all of the light, in [0, 2 pi].
+// x: the solid angle of the whole light, in [0, 2 pi].
 template <class S>
 class SolidAngle {
  public:

@@ -1,4 +1,4 @@
-// Large lights: every method up to a billion times the distance, in double and in float, against quadrature.
+// Large lights: every method at sizes up to a billion times the distance, in double and in float, against quadrature.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,8 @@ Material material(Brdf brdf, double width) {
   return m;
 }
 
-// What a method may be off, as a share of the full lobe: what docs/accuracy.md has as its largest error for lights of ordinary size,
-// and the rounding of vertices that lie `size` times as far away as what is seen of the light.
+// Largest error of a method, as a fraction of the full lobe. It is the largest error of docs/accuracy.md for lights of ordinary size, plus
+// a rounding. That is the rounding of vertices that lie `size` times as far away as the visible part of the light.
 double stated(Method method, const Material& m, Precision precision, double size) {
   const double rounding = precision == Precision::float_ ? 2e-5 : 1e-10 + 1e-15 * size;
   switch (method) {
@@ -37,8 +37,8 @@ double stated(Method method, const Material& m, Precision precision, double size
   }
 }
 
-// A square at distance 1 in a plane of any tilt, of which the point is in front of the middle, of a place beside an edge, or of one beside
-// a corner, inside or outside.
+// A square at distance 1 in a plane of any tilt. The point faces its middle, a place beside an edge, or one beside a corner, inside or
+// outside.
 PreparedPolygon large_light(Random& random, double size, bool standing) {
   const auto turn = random.uniform(-3.14, 3.14);
   const Vec3d normal = normalized(standing ? Vec3d{std::cos(turn), std::sin(turn), random.uniform(-0.2, 0.2)}
@@ -74,7 +74,7 @@ TEST(LargeLight, EveryMethodAtEverySize) {
         const ReferenceResult truth = reference_radiance(light, at, m);
         for (const methods::Row& entry : methods::all()) {
           if (!entry.serves(m) || entry.method == Method::sampled || entry.method == Method::reference) continue;
-          if (entry.method == Method::ltc_clipless || entry.method == Method::representative_point) continue;  // far off on large lights
+          if (entry.method == Method::ltc_clipless || entry.method == Method::representative_point) continue;  // inaccurate here
           for (const Precision precision : {Precision::double_, Precision::float_}) {
             RadianceOptions options;
             options.precision = precision;

@@ -1,4 +1,4 @@
-// Products of cosine lobes: the exact double-axis moment, and one lobe in place of many, against cubature.
+// Products of cosine lobes: the exact double-axis moment, and one lobe instead of many, against cubature.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,7 +75,7 @@ PreparedPolygon light_towards_origin(const std::vector<Vec3d>& v) {
   return prepare_polygon(light);
 }
 
-// (n + 1) times the moment of an outline about z by quadrature, in walk order whichever way it runs.
+// (n + 1) times the moment of an outline about z by quadrature, in walk order in either direction.
 double sum_about_z(const std::vector<K::vec3>& v, double n) {
   K k;
   double sum = 0;
@@ -123,7 +123,7 @@ TEST(DoubleAxis, AgreesWithCubature) {
     const double n = kExponents[i % 10];
     const Vec3d axis = reference::random_view(random, {0, 0, 1}), other = reference::random_direction(random);
     Vec3d towards = normalized(axis + reference::random_direction(random) * 0.3);
-    towards.z = std::fabs(towards.z) + 0.7;  // above the horizon with all of the quad
+    towards.z = std::fabs(towards.z) + 0.7;  // above the horizon with the whole quad
     towards = normalized(towards);
     const std::vector<Vec3d> v = quad_near(random, towards, 0.4);
     const double truth = over_quad(v, 6, [&](Vec3d u) { return std::pow(std::fmax(dot(u, axis), 0.0), n) * dot(u, other); });
@@ -182,7 +182,7 @@ TEST(LobeProduct, ClosedFormOfTwoIsTheMaximum) {
     const double na = std::exp(random.uniform(0, 7)), nb = std::exp(random.uniform(0, 7));
     const auto peak = k.lobe_product_peak_of_two(to_kernel(a), na, to_kernel(b), nb);
     const auto p = summed({{a, na}, {b, nb}}, peak);
-    // At the maximum the slope of the logarithm is 0: against the sum of its parts' sizes.
+    // At the maximum the slope of the logarithm is 0; the scale is the sum of its parts' sizes.
     EXPECT_LT(std::hypot(p.slope.x.v, p.slope.y.v), 1e-12 * p.total.v * (1 + std::tan(gamma))) << i;
   }
 }
@@ -211,7 +211,7 @@ TEST(LobeProduct, NewtonFindsThePeakOfThree) {
   EXPECT_LT(worst[2], 1e-5);
 }
 
-// Two lobes, over random quads, against cubature: the table of docs/moments.md, row by row and digit by digit.
+// Two lobes over random quads against cubature: the table of docs/moments.md, row by row and digit by digit.
 TEST(LobeProduct, TwoLobesAsOne) {
   struct Row {
     double n1, n2, degrees;
@@ -232,7 +232,7 @@ TEST(LobeProduct, TwoLobesAsOne) {
     const Vec3d weighted = lobes[0].axis * row.n1 + lobes[1].axis * row.n2;
     const double sg_n = length(weighted), sg_scale = std::exp(sg_n - row.n1 - row.n2);
     const Vec3d sg_axis = normalized(weighted), peak = from_kernel(one.axis);
-    // The full lobe, over a pyramid about the peak that is as wide as the hemisphere.
+    // The full lobe over a pyramid about the peak that is as wide as the hemisphere.
     const Frame frame = Frame::from_normal(peak);
     const double wide = 40;
     const std::vector<Vec3d> all = {peak + frame.to_world({-wide, -wide, 0}), peak + frame.to_world({wide, -wide, 0}),

@@ -10,7 +10,7 @@ namespace integrals {
 template <class S>
 struct LtcLobe {
   typename Kernels<S>::LtcMatrix matrix;
-  Real<S> n_a{1.0};  // what multiplies the integral: with F = 1 ...
+  Real<S> n_a{1.0};  // factor of the integral with F = 1 ...
   Real<S> f_a{0.0};  // ... and with F = (1 - v.h)^5
 };
 
@@ -25,7 +25,7 @@ STERADIAN_INLINE Part<S> value_of(const LtcLobe<S>& lobe, Real<S> integral) {
   return {lobe.n_a * integral, lobe.f_a * integral};
 }
 
-// Clips to the horizon by itself: a corner is brought under the matrix once for its two edges.
+// Clips to the horizon by itself: a corner is transformed by the matrix once for its two edges.
 template <class S>
 class Ltc {
  public:
@@ -42,7 +42,7 @@ class Ltc {
     above_ = shading.view.z > Real<S>(0.0);
     return shading.lit && above_;
   }
-  // Where the arcs of the horizon go by, in place of where the outline first crosses it: see kernels/integral/ltc.glsl.
+  // Anchor of the horizon's arcs, instead of the place at which the outline first crosses it: see kernels/integral/ltc.glsl.
   void anchor(const vec3& u) {
     walk_.anchor = K().ltc_direction(lobe_.matrix, u);
     walk_.anchored = dot(u, u) > Real<S>(0.5);
@@ -74,7 +74,7 @@ class LtcVector : public Ltc<S> {
   }
 };
 
-// Without clipping: a sphere's form factor in its place.
+// The integral without clipping: a sphere's form factor replaces it.
 template <class S>
 class CliplessLtc {
  public:

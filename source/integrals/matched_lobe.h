@@ -1,7 +1,7 @@
 // The product of two Phong lobes as one lobe of the product's place, height and curvature: an approximation.
 //
-// The one lobe is not round. A linear map makes it so, and polygons stay polygons: the moment of the stretched outline, by the
-// cosine series, is the integral (kernels/lobe/lobe_product.glsl).
+// The one lobe is not round. A linear map makes it round, and polygons stay polygons: the moment of the stretched outline, by the cosine
+// series, is the integral (kernels/lobe/lobe_product.glsl).
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// x: radiance of albedo 1, in [0, 1]. 0 for axes 90 degrees apart and more, where the product is about 0. For one point at a time:
-// the matched exponent is the point's own.
+// x: radiance of albedo 1, in [0, 1]. 0 for axes 90 degrees apart and more, where the product is about 0. It serves one point at a time,
+// since the matched exponent depends on the point.
 template <class S>
 class MatchedLobe {
  public:
@@ -20,7 +20,7 @@ class MatchedLobe {
   using K = Kernels<S>;
   using vec3 = typename K::vec3;
 
-  // axis: of the second lobe, unit, in the shading frame.
+  // axis: axis of the second lobe, unit, in the shading frame.
   MatchedLobe(double exponent, double axis_exponent, const vec3& axis, Quality quality)
       : n1_(exponent),
         n2_(axis_exponent),
@@ -47,12 +47,12 @@ class MatchedLobe {
                                       : round_->template share<Method::series, Quality::normal>(p, q, z);
   }
   Part<S> finish(Mask<S> reversed) {
-    // The factor is that of n1 + n2; the moment's is that of the matched exponent.
+    // The factor belongs to n1 + n2; the moment's factor belongs to the matched exponent.
     const Real<S> scale = lobe_.scale * ((n1_ + n2_ + 1.0) / (lobe_.exponent + 1.0));
     return {scale * K().moment_phong_radiance(sum_, reversed), Real<S>(0.0)};
   }
 
-  // The product itself, where the light is small: without the bias of one lobe in its place.
+  // Small lights use the product itself, without the bias of the one lobe.
   double least_distance2() const { return least_distance2_of_power(exponents_, true); }
   SmallLight<S> small_light(const vec3&) const {
     return {Real<S>(sharpness_of_power(exponents_)), kAlongArcs.roundings, bends_ ? kUnbiased : kSeriesBias};

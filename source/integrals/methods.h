@@ -1,5 +1,4 @@
-// The table of methods: one row each. `eval`, `render`, their help and the tables of the manual come from it, or are tested
-// against it.
+// The table of methods with one row each. `eval`, `render`, their help and the tables of the manual come from it, or are tested against it.
 #pragma once
 
 #include <span>
@@ -17,29 +16,29 @@ namespace steradian::methods {
 struct Row {
   Method method;
   const char* name;
-  const char* lobes;  // what `serves` holds, in words
+  const char* lobes;  // description of the lobes that `serves` accepts
   bool (*serves)(const Material& lobe);
   bool in_float;          // has Precision::float_
-  const char* qualities;  // the ones it tells apart, in words; empty: none
+  const char* qualities;  // the supported ones, in words; empty: none
   const char* help;       // one line
-  // What the lobe sends to the view under a light. Precondition: serves(lobe).
+  // Radiance that the lobe sends to the view under a light. Precondition: serves(lobe).
   RadianceResult (*polygon)(const PreparedPolygon&, const ShadingPoint&, const Material&, const RadianceOptions&);
-  // By the light's vertices and the normal; null: the method has none. Throws Error for lobes that have none.
+  // Derivatives by the light's vertices and the normal; null: the method has none. Throws Error for lobes without derivatives.
   RadianceDerivatives (*derivatives)(const PolygonLight&, const ShadingPoint&, const Material&, Quality) = nullptr;
-  // What they come from where only a part of the light is seen; null likewise.
+  // Density of these derivatives, for a light of which only a part is visible; null if the method has none.
   LobeDensity (*density)(const ShadingPoint&, const Material&, Quality) = nullptr;
 };
 
-// In the order of preference of `auto`, which itself has no row.
+// The rows in the order of preference of `auto`, which itself has no row.
 std::span<const Row> all();
 
 const Row& row_of(Method method);  // not of Method::automatic
 
-// The row that a method comes down to for a lobe; null where it does not serve it. The rule of `auto`: the first row that
-// serves the lobe; a draft prefers ltc-compact to the closed form.
+// The row that a method selects for a lobe; null if it does not serve the lobe. The rule of `auto`: the first row that serves the lobe; a
+// draft prefers ltc-compact to the closed form.
 const Row* find(Method method, const Material& lobe, Quality quality);
 
-// The same. Throws Error, which names the methods that serve the lobe, also where the row does not have the precision.
+// The same. Throws Error, which names the methods that serve the lobe, also if the row does not have the precision.
 const Row& resolve(Method method, const Material& lobe, Precision precision, Quality quality);
 
 // The arcs of half vectors at a quality.
@@ -47,7 +46,7 @@ constexpr HalfVectorOptions half_vector_options(Quality quality) {
   return {quality == Quality::draft ? 3 : quality == Quality::normal ? 4 : 8, ArcSplit::pole_mapped};
 }
 
-// 0, as a method says it: nothing of the light is seen.
+// The answer 0 of a method: nothing of the light is visible.
 RadianceResult nothing(Method method);
 
 std::string names();  // "auto, series, exact, ..."

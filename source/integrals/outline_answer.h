@@ -1,4 +1,4 @@
-// What one lobe sends to the view of a light with a curved outline: one procedure for ellipses and capsules.
+// Radiance that one lobe sends to the view under a light with a curved outline: one procedure for ellipses and capsules.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ inline RadianceResult lambert_answer(double irradiance, Vec3d radiance, const Ma
   return answer;
 }
 
-// By polygons in the outline's place: of 32 vertices (48 in high quality) that gather about the lobe, of 1024 for `exact` and `sampled`;
-// for `reference` of 1024 and 512, whose difference its bound holds: the error falls with the square of the number at least.
+// Polygons replace the outline. They have 32 vertices (48 in high quality) that gather about the lobe, or 1024 for `exact` and `sampled`.
+// `reference` uses 1024 and 512, and its bound includes the difference: the error falls with the square of the number at least.
 //
 //   about(lobe, vertices)  a polygon that gathers about a lobe
 //   fine(vertices)         one of equal steps

@@ -29,17 +29,17 @@ void check(const Material& material, const PhongOptions& options) {
 
 using integrals::to_kernel;
 
-// The quadrature of x^n has a limit at n = 0, but not that exponent; from here it is as far off as this.
+// The quadrature of x^n has a limit at n = 0, but not that exponent; from here the error equals this bound.
 constexpr double kNearlyFlat = 1e-11;
 
-// The edge's share by quadrature in double that subdivides until it has converged.
+// Contribution of the edge by quadrature in double that subdivides until it has converged.
 double exact_share(const auto& a, const auto& b, const auto& axis, double n) {
   Kernels<double> k;
   const auto edge = k.moment_edge(a, b, axis);
   return k.moment_edge_share(edge, integrate_front(edge, n).moment).v;
 }
 
-// The same of the lobe times the light's cosine.
+// The same for the lobe times the light's cosine.
 double exact_foreshortened_share(const auto& a, const auto& b, const auto& axis, double n) {
   Kernels<double> k;
   const auto edge = k.moment_edge(a, b, axis);

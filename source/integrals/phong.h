@@ -7,8 +7,8 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// The best form of each fit, over quad, star and triangle and n from 37 to 5001 (docs/moments.md): of the ellipsoid f = 1, to which
-// it is exact where x^m vanishes; of the two others f = x.
+// The best form of each fit, over quad, star and triangle and n from 37 to 5001 (docs/moments.md). For the ellipsoid it is f = 1, to which
+// it is exact where x^m vanishes; for the two others f = x.
 inline bool takes_x(const PhongOptions& options, bool even_n) {
   switch (options.form) {
     case PeakForm::one: return false;
@@ -19,13 +19,13 @@ inline bool takes_x(const PhongOptions& options, bool even_n) {
   return options.method != Method::ellipsoid;
 }
 
-// What does not depend on light and point.
+// Values that do not depend on light and point.
 template <class S>
 struct PhongLobe {
   using K = Kernels<S>;
 
   Real<S> n{1.0};
-  int integer_n = 1;     // arvo's count of steps
+  int integer_n = 1;     // the series then goes through n + 2
   int f_is_x = 0;        // the peak fits' choice of f
   bool below_1 = false;  // the series then goes through n + 2
   int can_stop = 0;      // arvo's early exit
@@ -45,7 +45,7 @@ struct PhongLobe {
     series_high = k.moment_series_high_prepare(order);
   }
 
-  // One edge's share of (n + 1) times the moment; r the lobe's unit axis.
+  // Contribution of one edge to (n + 1) times the moment; r is the lobe's unit axis.
   template <Method method, Quality quality>
   STERADIAN_INLINE Real<S> share(typename K::vec3 a, typename K::vec3 b, typename K::vec3 r) const {
     K k;
@@ -60,7 +60,7 @@ struct PhongLobe {
     if constexpr (method == Method::exact) {
       return k.moment_quadrature_front(edge, n).moment;
     } else if constexpr (method == Method::arvo) {
-      // The sum of no power at all: 1/(1 + x) is what is left.
+      // The sum has no powers: only 1/(1 + x) remains.
       if (integer_n == 0) return k.moment_solid_angle_front(edge);
       return k.moment_arvo_front(edge, integer_n, can_stop, relative_precision);
     } else if constexpr (method == Method::lorentzian) {
@@ -77,14 +77,14 @@ struct PhongLobe {
   }
 };
 
-// Of a method over lights that are small against the lobe. Below an exponent of 2 the lobe has a bend where it ends, which elements do not
-// see: they serve only what is tiny there.
+// Bias of a method over lights that are small against the lobe. Below an exponent of 2 the lobe has a bend at its end, which elements miss:
+// they serve only where the lobe is tiny there.
 inline double bias_of(double exponent, const PhongOptions& options) {
   if (options.method != Method::series || exponent < 2) return kUnbiased;
   return options.quality == Quality::high ? kHighSeriesBias : kSeriesBias;
 }
 
-// x: radiance of albedo 1, in [0, 1]. share(a, b, axis): one edge's share of (n + 1) times the moment, by the options' method.
+// x: radiance of albedo 1, in [0, 1]. share(a, b, axis): one edge's contribution to (n + 1) times the moment, by the options' method.
 template <class S, class Share>
 class Phong {
  public:
@@ -101,7 +101,7 @@ class Phong {
     return shading.lit && shading.view.z > Real<S>(0.0);
   }
   STERADIAN_INLINE vec3 end(const vec3& u) const { return u; }
-  // Not always inlined: clipping calls it at three places, and in dual numbers one copy is the quicker.
+  // Not always inlined: clipping calls it at three places, and in dual numbers one copy is faster.
   void add(const vec3& a, const vec3& b) { sum_ += share_(a, b, axis_); }
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) { return {Kernels<S>().moment_phong_radiance(sum_, reversed), Real<S>(0.0)}; }
 
@@ -120,7 +120,7 @@ class Phong {
   Real<S> sum_{0.0};
 };
 
-// Calls use(share) with the share of the method: a type for each, so that a walk holds one method.
+// Calls use(share) with the function of the method: one type for each, so that a walk contains one method.
 template <class S, class Use>
 STERADIAN_INLINE auto with_phong_share(const PhongLobe<S>& lobe, const PhongOptions& options, Use use) {
   const auto by = [&]<Method method, Quality quality = Quality::normal>() {

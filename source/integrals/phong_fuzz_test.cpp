@@ -1,4 +1,4 @@
-// Degenerate input: every method stays finite, not negative and within the full lobe; packs do what scalar code does.
+// Degenerate input: every method stays finite, not negative and within the full lobe; packs agree with scalar code.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Material phong(double n) {
   return material;
 }
 
-// A coordinate that likes to coincide with others and with the ends of the range.
+// A coordinate that often coincides with others and with the ends of the range.
 double odd_number(Random& random) {
   static constexpr double kOdd[] = {0, 0, -0.0, 1, -1, 0.5, 1e-30, -1e-30, 1e30, -1e30, 1e-18, 1e18, 1e-7, 1 + 1e-7};
   return random.uniform() < 0.6 ? kOdd[random.bits() % std::size(kOdd)] : random.uniform(-2, 2);
@@ -35,7 +35,7 @@ typename Kernels<S>::vec3 odd_direction(Random& random) {
   return k.polygon_direction(v);
 }
 
-// Walks odd outlines through the kernels themselves: nothing there has checked that a light is flat.
+// Walks odd outlines through the kernels themselves, which do not check that a light is flat.
 template <class S, Method method, Quality quality = Quality::normal>
 void walk_odd_outlines(int count) {
   Kernels<S> k;
@@ -92,7 +92,7 @@ TEST(PhongPacks, AgreeWithScalarFloatForEveryMethodAndInstructionSet) {
     auto c = moment::adversarial_quad(random);
     const PreparedPolygon light = prepare_polygon(c.light);
     const double n = i % 4 == 0 ? random.uniform() : std::floor(std::sqrt(c.n));
-    // Sixteen points around the one that the quad was made for.
+    // Sixteen points around the one for which the quad was built.
     std::vector<float> a[9], result(16);
     std::vector<ShadingPoint> at;
     for (int j = 0; j < 16; ++j) {

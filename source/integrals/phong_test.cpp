@@ -1,4 +1,4 @@
-// The Phong methods against independent quadrature over the sphere, and each other.
+// The Phong methods against independent quadrature over the sphere, and against each other.
 #include "steradian/kernels.h"
 #include "steradian/phong.h"
 
@@ -36,7 +36,7 @@ double exact_of(const PreparedPolygon& light, const ShadingPoint& at, double n) 
   return phong_radiance(light, at, phong(n), {Method::exact}).x;
 }
 
-// Largest and root mean square error, and where the largest was.
+// Largest and root mean square error, and the exponent of the largest.
 struct Errors {
   double largest = 0, squares = 0, at_n = 0;
   int count = 0;
@@ -54,7 +54,7 @@ struct Errors {
 
 }  // namespace
 
-// Two-dimensional adaptive cubature knows nothing of boundary integrals. The full lobe's radiance is 1.
+// Two-dimensional adaptive cubature is independent of boundary integrals. The full lobe's radiance is 1.
 TEST(PhongExact, AgreesWithQuadratureOverTheSphere) {
   Random random(3);
   Errors errors;
@@ -63,7 +63,7 @@ TEST(PhongExact, AgreesWithQuadratureOverTheSphere) {
     auto c = random_configuration(random);
     const PreparedPolygon light = prepare_polygon(c.light);
     const double n = i % 13 == 12 ? std::exp(random.uniform(0, std::log(10000.0))) : kExponents[i % 13];
-    if (i % 4 != 0 && !light.vertices.empty()) {  // aim the lobe at the light
+    if (i % 4 != 0 && !light.vertices.empty()) {  // aims the lobe at the light
       const Vec3d to_light = normalized(light.vertices[random.bits() % light.vertices.size()] * 0.7 + light.centroid * 0.3 - c.at.position);
       if (dot(to_light, c.at.normal) > 1e-3) c.at.view = moment::view_mirrored_to(to_light, c.at.normal);
     }
@@ -94,12 +94,12 @@ TEST(PhongExact, AgreesWithQuadratureOnQuadsAroundTheLobe) {
   errors.print("exact against cubature");
 }
 
-// A light with the axis inside and wider than the lobe's hemisphere: the full lobe, cut by the horizon alone.
+// A light with the axis inside and wider than the lobe's hemisphere: the full lobe, cut only by the horizon.
 TEST(PhongExact, GivesTheWholeLobeUnderAVeryLargeLight) {
   PolygonLight big;
   big.vertices = {{-1e6, 1e6, 1}, {1e6, 1e6, 1}, {1e6, -1e6, 1}, {-1e6, -1e6, 1}};  // shines down
   const PreparedPolygon light = prepare_polygon(big);
-  // What the light lacks is a band of 1e-6 above the horizon, where the lobe is 0.
+  // The light lacks a band of 1e-6 above the horizon, where the lobe is 0.
   for (double n : kExponents) EXPECT_NEAR(exact_of(light, {{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}, n), 1, 1e-11) << "n = " << n;
 }
 
@@ -109,7 +109,7 @@ TEST(PhongExact, IsAdditiveWhenAPolygonIsCut) {
     const auto c = moment::adversarial_quad(random);
     const auto& v = c.light.vertices;
     const double whole = exact_of(prepare_polygon(polygon(v)), c.at, c.n);
-    // Cut at the vertex that the quad's other diagonal does not leave: either triangle may run backwards.
+    // The cut starts at a vertex that is not on the quad's other diagonal: either triangle may run backwards.
     const Vec3d up = normalized(cross(v[1] - v[0], v[2] - v[0])), up2 = normalized(cross(v[2] - v[0], v[3] - v[0]));
     if (dot(up, up2) < 0) continue;
     const double parts = exact_of(prepare_polygon(polygon({v[0], v[1], v[2]})), c.at, c.n) +
@@ -131,9 +131,9 @@ TEST(PhongArvo, IsExactForIntegerExponents) {
   }
   all.print("arvo");
   early.print("arvo, stopped at 1e-4");
-  // The recurrence cancels in c^p of ends close together: a thousand roundings of its largest term.
+  // The recurrence cancels in c^p for ends close together: a thousand roundings of its largest term.
   EXPECT_LT(all.largest, 1e-11);
-  // 1e-4 of an edge's share, which is at most 2 pi; four edges.
+  // 1e-4 of an edge's contribution, which is at most 2 pi; four edges.
   EXPECT_LT(early.largest, 4e-4);
   EXPECT_GT(early.largest, all.largest);
 }
@@ -146,7 +146,7 @@ TEST(PhongArvo, RefusesOtherExponents) {
   EXPECT_THROW(phong_radiance(light, c.at, phong(-1), {Method::series}), Error);
 }
 
-// The bounds are the specification of the method; the largest errors come from lights with an edge through the axis.
+// The bounds are the specification of the method. The largest errors come from lights with an edge through the axis.
 TEST(PhongSeries, HoldsItsErrorsInFloatOver100000AdversarialQuads) {
   Random random(8);
   Errors normal, high;
@@ -183,9 +183,9 @@ TEST(PhongSeries, ServesExponentsBelowOne) {
   EXPECT_LE(high.largest, 4.5e-4);
 }
 
-// What defines the fits, whatever their error elsewhere: they have the integrand's value at its foot, the Lorentzian, which has no
-// weight to blend, also at the half width.
-// An edge's integral up to an angle is differentiated there by central differences.
+// Properties that define the fits, whatever their error elsewhere: they have the integrand's value at its foot. The Lorentzian, which has
+// no blending weight, has it also at the half width. The test differentiates an edge's integral up to an angle there by central
+// differences.
 TEST(PhongPeakFits, MeetTheIntegrandAtItsFootAndHalfWidth) {
   using K = Kernels<double>;
   K k;
@@ -239,7 +239,7 @@ TEST(PhongPeakFits, PlacesAndWidthsAreThePapers) {
         EXPECT_NEAR(p.x_w.v, widest * ratio, 1e-6) << n << " " << c;
         const double x_t = std::min(p.x_w.v + 0.3946 * widest * (1 - std::pow(1 - ratio, 12)), quarter);
         EXPECT_NEAR(p.x_t.v, x_t, 1e-6) << n << " " << c;
-        // Eq. 11, 15 and what follows them: widths, and each scaled peak where the tail is asked for.
+        // Eq. 11, 15 and the following ones: widths, and each scaled peak where the tail is requested.
         const auto height = [&](double phi) { return k.moment_peak_height(s2, c * c, n, f_is_x, std::cos(phi), std::sin(phi)).v; };
         const double y_w = height(p.x_w.v) / height(0);
         EXPECT_NEAR(p.y_w.v, std::clamp(y_w, 0.01, 0.99), 1e-7);
@@ -259,8 +259,8 @@ TEST(PhongPeakFits, PlacesAndWidthsAreThePapers) {
       }
 }
 
-// The published choice of f by the parity of n jumps from one exponent to the next; either form by itself does not, and the
-// form that a method takes by itself is the closer one.
+// The published choice of f by the parity of n jumps from one exponent to the next. Either form by itself does not, and a method's default
+// form is the closer one.
 TEST(PhongPeakFits, OneFormForEveryExponentIsContinuousAndTheDefaultTheCloser) {
   for (Method method : {Method::lorentzian, Method::pearson, Method::ellipsoid}) {
     Random random(10);
@@ -297,7 +297,7 @@ TEST(PhongQuadrature, IsCloseInFloat) {
     in_double.add(f - exact, c.n);
   }
   in_double.print("quadrature, 14 nodes, float");
-  // Directions in float are off by 1.2e-7; the lobe's slope is at most sqrt(n/e) = 61 over the outline's 4 lobe widths.
+  // Directions in float have an error of 1.2e-7; the lobe's slope is at most sqrt(n/e) = 61 over the outline's 4 lobe widths.
   EXPECT_LT(in_double.largest, 2e-4);
 }
 

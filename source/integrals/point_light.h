@@ -1,4 +1,4 @@
-// Lights without an extent as seen from a point: the lobe in one direction.
+// Lights without an extent from a point: the lobe in one direction.
 #pragma once
 
 #include "shapes/shape.h"
@@ -7,7 +7,7 @@
 
 namespace steradian::methods {
 
-// f cos intensity / d^2. 0 below the surface, for a view below it and at no distance.
+// f cos intensity / d^2. 0 below the surface, for a view below it, and at distance 0.
 Vec3d point_light_radiance(const PointLight& light, const ShadingPoint& at, const Material& material);
 
 // f cos illuminance. 0 below the surface and for a view below it.

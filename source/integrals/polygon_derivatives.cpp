@@ -42,11 +42,11 @@ std::size_t stored_count(const PolygonLight& light) {
   return count;
 }
 
-// By the vertices in walk order, relative to the point.
+// Derivatives by the vertices in walk order, relative to the point.
 using integrals::to_kernel;
 using VertexDerivatives = std::vector<Vec3d>;
 
-// Of an integral's two parts (integrals::Part).
+// Derivatives of an integral's two parts (integrals::Part).
 struct BothByVertices {
   VertexDerivatives plain, fresnel;
 };
@@ -54,8 +54,8 @@ struct PartByNormal {
   Vec3d plain, fresnel;
 };
 
-// Each edge depends on its two ends alone: six directions an edge, however many vertices there are. Irradiance is the sum
-// of the edges' z and of half the angle of the product of their horizon factors, so of half the sum of their angles.
+// Each edge depends on its two ends alone: six directions an edge, however many vertices there are. Irradiance is the sum of the edges' z
+// and of half the angle of the product of their horizon factors. That angle is the sum of their angles.
 VertexDerivatives irradiance_by_vertices(const PreparedPolygon& light, Vec3d position, const Frame& frame) {
   using S = Dual<6>;
   using R = Real<S>;
@@ -82,10 +82,10 @@ VertexDerivatives irradiance_by_vertices(const PreparedPolygon& light, Vec3d pos
   return result;
 }
 
-// Of any integral over the whole outline, in walk order, in the frame's coordinates turned back to the world's. Six directions
-// are followed at a time.
+// Derivatives of any integral over the whole outline, in walk order, turned back from the frame to the world. Six directions are followed
+// at a time.
 //
-//   side      on which the light is seen
+//   side      side from which the light is seen
 //   integral  integral.template operator()<S>(outline, shading): an integrals::Part<S>
 template <class Integral>
 BothByVertices by_vertices(const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame, const Integral& integral) {
@@ -125,9 +125,9 @@ VertexDerivatives solid_angle_by_vertices(const PreparedPolygon& light, Vec3d po
   return by_vertices(light, side, {position, {0, 0, 1}, {0, 0, 1}}, Frame::from_normal({0, 0, 1}), solid_angle).plain;
 }
 
-// By the normal, of the function of n/|n|, the light, the point and the view held: one evaluation, in which the frame turns.
+// Derivatives by the normal, of the function of n/|n|, with light, point and view fixed: one evaluation, in which the frame turns.
 //
-//   toward   what the frame's x axis follows: the tangent, or the view
+//   toward   direction that the frame's x axis follows: the tangent, or the view
 template <class Integral>
 PartByNormal by_normal(const PreparedPolygon& light, int side, const ShadingPoint& at, Vec3d toward, const Integral& integral) {
   using S = Dual<3>;
@@ -142,8 +142,8 @@ PartByNormal by_normal(const PreparedPolygon& light, int side, const ShadingPoin
   return {{plain[0], plain[1], plain[2]}, {fresnel[0], fresnel[1], fresnel[2]}};
 }
 
-// Point and normal move as the vertices do the other way: the integral sees only vertices relative to the point, turned
-// into the normal's frame. `back` is -1 where the walk ran the wrong way round.
+// Point and normal move opposite to the vertices: the integral sees only vertices relative to the point, turned into the normal's frame.
+// `back` is -1 if the walk ran in reverse.
 LightDerivatives gather(const PolygonLight& stored, const PreparedPolygon& light, Vec3d position, Vec3d normal, double value,
                         const VertexDerivatives& by_vertex, double back) {
   LightDerivatives result;
@@ -186,7 +186,7 @@ LightDerivatives polygon_solid_angle_derivatives(const PolygonLight& stored, Vec
 
 namespace {
 
-// The channels of an integral's two parts: factors on the parts, a number a channel.
+// The channels of an integral's two parts: factors on the parts, one number a channel.
 struct Factors {
   Vec3d plain, fresnel;
   std::array<Vec3d, 3> of(Vec3d p, Vec3d f) const {
@@ -232,8 +232,8 @@ auto ggx_integral(const Material& m, Quality quality) {
 }
 
 auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, Quality quality) {
-  // The series' bias is a smooth function of the outline, and over a light that is small against the lobe its derivative is a multiple of
-  // the light's: there by quadrature, where elements take the light's value over (shapes/small_light.h: t^3 / 8 below the bias).
+  // The series' bias is a smooth function of the outline. Over a light that is small against the lobe, its derivative is a multiple of the
+  // light's. There quadrature is used, where elements replace the light's value (shapes/small_light.h: t^3 / 8 below the bias).
   const LightQuarters& q = light.quarters;
   const Vec3d to = q.center - at.position;
   const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
@@ -241,7 +241,7 @@ auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const 
   const bool small = (2.5 + std::sqrt(m.exponent)) * deviation < std::cbrt(8 * bias);
   return [&m, quality, small]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
     const integrals::PhongLobe<S> lobe(m.exponent);
-    // Of two methods alone: all of them in dual numbers would take the compiler's budget for inlining.
+    // Only two methods appear here: all of them in dual numbers would exceed the compiler's budget for inlining.
     const auto share = [&](const auto& a, const auto& b, const auto& axis) {
       if (small) return lobe.template share<Method::exact, Quality::normal>(a, b, axis);
       return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
@@ -252,7 +252,7 @@ auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const 
   };
 }
 
-// By the normal of the irradiance over pi: the normal turns, or all of the light turns the other way about the point.
+// Derivative by the normal of the irradiance over pi: the normal turns, or the whole light turns the other way about the point.
 PartByNormal lambert_by_normal(const PreparedPolygon& light, int side, const ShadingPoint& at, const VertexDerivatives& by_vertex) {
   Vec3d moment{};
   for (std::size_t i = 0; i < by_vertex.size(); ++i) moment += cross(light.vertices[i] - at.position, by_vertex[i]);
@@ -324,13 +324,13 @@ void refuse_other_ltc(LtcMethod method, const Material& m) {
     throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
 }
 
-// x along the view; any x where the view is the normal, which rounding alone tells apart.
+// Frame with x along the view; any x if the view is the normal, which only rounding distinguishes.
 Frame frame_of_view(Vec3d normal, Vec3d view) {
   const Vec3d across = view - normal * dot(normal, view);
   return dot(across, across) > 1e-16 ? Frame::from_normal_and_tangent(normal, view) : Frame::from_normal(normal);
 }
 
-// The table is interpolated in S: between its nodes it has derivatives by the view, at them those of one side.
+// The table is interpolated in S: between its nodes it has derivatives by the view; at the nodes, those of one side.
 template <class S>
 integrals::Ltc<S> ltc_of(LtcMethod method, const Material& m, const integrals::Shading<S>& shading) {
   const double alpha = std::max(m.alpha_x, kSmallestAlpha);
@@ -338,7 +338,7 @@ integrals::Ltc<S> ltc_of(LtcMethod method, const Material& m, const integrals::S
                                                         : classic_lobe<S>(ggx_classic_table(), alpha, shading.view.z));
 }
 
-// The lobe times (1 - v.h)^5, where it has a table of its own.
+// The lobe times (1 - v.h)^5, if it has a table of its own.
 template <class S>
 integrals::Ltc<S> grazing_ltc_of(const Material& m, const integrals::Shading<S>& shading) {
   return integrals::Ltc<S>(classic_lobe<S>(ggx_fresnel_table(), std::max(m.alpha_x, kSmallestAlpha), shading.view.z));

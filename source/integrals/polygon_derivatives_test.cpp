@@ -35,7 +35,7 @@ Vec3d vector(std::mt19937_64& random) {
   return {x, y, z};
 }
 
-// A triangle with a triangular hole, two-sided, somewhere about the point: often across the horizon.
+// A triangle with a triangular hole, two-sided, at random about the point: often across the horizon.
 PolygonLight random_light(std::mt19937_64& random) {
   PolygonLight light;
   for (int i = 0; i < 3; ++i) light.vertices.push_back(vector(random) * 2.0 + Vec3d{0.0, 0.0, 1.5});
@@ -90,8 +90,8 @@ void check_all(const LightDerivatives& got, const PolygonLight& light, Vec3d p, 
   }
 }
 
-// A vertex moved by 2e-5 would leave the plane further than prepare_polygon allows a light of this size, so the
-// triangles are walked apart: the outline less the hole, each flat whatever is moved.
+// A vertex moved by 2e-5 would leave the plane further than prepare_polygon allows for a light of this size. The triangles are therefore
+// walked separately: the outline minus the hole, each flat for any move.
 double outline_less_hole(const std::function<double(const PreparedPolygon&)>& integral, const PolygonLight& light) {
   PolygonLight outline = light, hole = light;
   outline.holes.clear();
@@ -129,8 +129,8 @@ TEST(PolygonDerivatives, OfSolidAngleAgreeWithCentralDifferences) {
   }
 }
 
-// Of a lobe's radiance by the vertices. The last step of the poles' iteration is at most 1e-8 of a pole's height, so that a
-// derivative may lack that share of what depends on the poles: of the order of the derivatives of the whole light.
+// Derivatives of a lobe's radiance by the vertices. The last step of the poles' iteration is at most 1e-8 of a pole's height. A derivative
+// may lack that fraction of the part that depends on the poles, which is of the order of the derivatives of the whole light.
 using Radiance = std::function<Vec3d(const PreparedPolygon&, const ShadingPoint&)>;
 using Derivatives = std::function<RadianceDerivatives(const PolygonLight&, const ShadingPoint&)>;
 
@@ -160,8 +160,8 @@ void check_radiance(const Material& material, const Radiance& radiance, const De
             Vec3d value = radiance(prepare_polygon(moved), moved_at);
             return component(value, channel);
           });
-          // GGX's number of nodes is a step function: where it changes within h, the differences see a jump, and tell it
-          // by disagreeing with each other.
+          // GGX's number of nodes is a step function. If it changes within h, the differences meet a jump, and show it by disagreeing with
+          // each other.
           if (d.tolerance > 0.01 * size + 1e-7) {
             ++jumps;
             continue;
@@ -234,9 +234,9 @@ TEST(PolygonDerivatives, AreZeroBehindAndForDroppedVertices) {
   EXPECT_EQ(length(lit.vertices[2]), 0);
 }
 
-// Prints what derivatives cost. 18 derivatives of a quad by central differences take 36 evaluations: ours must be cheaper.
-// Of small lights, in the light's plane: no noise, and no bias that is large against a light that is small against the lobe. As shares of
-// the value over the size; the values are off themselves by a share of (size / lobe)^3.
+// Prints the cost of derivatives. 18 derivatives of a quad by central differences take 36 evaluations: these must be cheaper. Small lights
+// move in the light's plane: no noise, and no large bias where the light is small against the lobe. Errors are fractions of the value over
+// the size; the values themselves have an error of a fraction of (size / lobe)^3.
 TEST(PolygonDerivatives, OfSmallLightsAreThoseOfTheirValues) {
   std::mt19937_64 random(23);
   for (const Brdf brdf : {Brdf::lambert, Brdf::phong, Brdf::ggx})
@@ -277,7 +277,7 @@ TEST(PolygonDerivatives, CostLessThanCentralDifferences) {
   light.vertices = {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}};
   const PreparedPolygon prepared = prepare_polygon(light);
   const auto time = [](const auto& f) {
-    double fastest = 1e30;  // of many short runs: what other programs take from the machine does not count
+    double fastest = 1e30;  // of many short runs: time taken by other programs does not count
     for (int run = 0; run < 100; ++run) {
       const auto start = std::chrono::steady_clock::now();
       double sum = 0;

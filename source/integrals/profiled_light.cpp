@@ -18,10 +18,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A cell's span over which 3 x 3 points integrate cosine over distance squared to 1e-4.
 constexpr double kWidestKernel = 0.6;
-// Shares of the lobe's width, and of the angle in which the steepest part of a profile falls from its peak to nothing, that a cell may
-// span: at these, finer cells move the mean by less than the kinks of the profile do (ProfiledLight.ErrorsAreMeasured).
+// Fractions that a cell may span: of the lobe's width, and of the angle in which the steepest part of a profile falls from its peak to
+// nothing. At these, finer cells change the mean by less than the profile's kinks do (ProfiledLight.ErrorsAreMeasured).
 constexpr double kLobeShare = 0.6, kProfileShare = 0.5;
-constexpr double kNarrowest = 0.01;  // what no measured lamp is steeper than [rad]
+constexpr double kNarrowest = 0.01;  // no measured lamp is steeper than this [rad]
 
 struct Node {
   double x, weight;
@@ -29,7 +29,7 @@ struct Node {
 constexpr double kOuter = 0.774596669241483377;  // Gauss-Legendre, three points
 constexpr std::array<Node, 3> kGauss = {{{-kOuter, 5.0 / 9}, {0, 8.0 / 9}, {kOuter, 5.0 / 9}}};
 
-// The angle in which the steepest part would fall from the peak to nothing [rad].
+// The angle in which the profile's steepest part would fall from the peak to nothing [rad].
 double steepest_part(const LightProfile& profile) {
   const std::size_t n = profile.vertical.size();
   double peak = 0, slope = 0;
@@ -62,7 +62,7 @@ ProfiledLight::ProfiledLight(const AreaLight& light)
   widest_ = std::min(kWidestKernel, kProfileShare * steepest_part(*emission_.profile));
 }
 
-// Rect: u and v along the half axes, from -1 to 1. Disk: u the distance from the middle, v the angle about it.
+// A rect has u and v along the half axes, from -1 to 1. A disk has u as the distance from the middle, v as the angle about it.
 Vec3d ProfiledLight::place(double u, double v) const {
   if (!round_) return center_ + x_ * u + y_ * v;
   return center_ + x_ * (u * std::cos(v)) + y_ * (u * std::sin(v));
@@ -79,12 +79,12 @@ ProfiledLight::Sent ProfiledLight::sent(double u, double v, const lobes::Lobe& l
           lobe.evaluate(frame.to_local(l)) * per_area};
 }
 
-// Cells of the light that are as fine as the lobe and the profile ask for.
+// Cells of the light that are as fine as the lobe and the profile require.
 class ProfiledLight::Cells {
  public:
   Cells(const ProfiledLight& light, const LobeAxis& peak, Vec3d position) : light_(light), peak_(peak), position_(position) {}
 
-  // use(cell), each once. The one that is widest for what it should be is halved first, while there are fewer than `most`.
+  // Calls use(cell) once for each. The cell with the largest excess is halved first, while there are fewer than `most`.
   void visit(std::size_t most, auto use) const {
     thread_local std::vector<Wide> cells;
     cells.clear();
@@ -111,8 +111,8 @@ class ProfiledLight::Cells {
  private:
   struct Wide {
     Cell cell;
-    double excess;  // what it spans over what it should
-    bool along_u;   // where it is to be halved
+    double excess;  // span over the allowed span
+    bool along_u;   // direction in which it is to be halved
     bool operator<(const Wide& other) const { return excess < other.excess; }
   };
   Wide judged(const Cell& cell) const {
@@ -143,8 +143,8 @@ double ProfiledLight::radiance_of_peak(const LobeAxis& peak, Vec3d position) con
   return intensity(*emission_.profile, {-dot(peak.axis, emission_.axes.x), -dot(peak.axis, emission_.axes.y), cosine}) / std::fabs(cosine);
 }
 
-// What is sent is peak * integral, and what the radiance differs from the peak's, times the lobe: where the lobe is narrowest, nothing. So
-// that a lobe between the points costs no more than the others.
+// The result is peak * integral, plus the lobe times the difference of the radiance from the peak's. That difference is zero where the lobe
+// is narrowest, so a lobe between the points costs no more than the others.
 Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, double integral, int most_cells) const {
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
@@ -172,8 +172,8 @@ Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, d
   return emission_.intensity * (mean / emission_.area);
 }
 
-// The cells of seen_by, and then, as long as Gauss's rule of 7 points a side is far from Kronrod's of 15, that with the largest difference
-// in two: their differences, added up, are the bound.
+// Starts with the cells of seen_by. While Gauss's rule of 7 points a side is far from Kronrod's of 15, it halves the cell with the largest
+// difference. The sum of the differences is the bound.
 ReferenceResult ProfiledLight::reference(const Material& material, const ShadingPoint& at, const ReferenceOptions& options) const {
   struct Part {
     Cell cell;
@@ -237,7 +237,7 @@ ReferenceResult ProfiledLight::reference(const Material& material, const Shading
       std::push_heap(parts.begin(), parts.end());
     }
   }
-  resum();  // running sums carry the rounding of all that was taken out of them
+  resum();  // running sums carry the rounding of all terms that were removed
   const Vec3d scale = emission_.intensity * (1 / emission_.area);
   return {lobe.radiance(value) * scale,
           error * std::max({scale.x, scale.y, scale.z}) + 1e-14 * size(value) * std::max({scale.x, scale.y, scale.z})};
@@ -263,13 +263,13 @@ RadianceResult profiled_light_answer(const AreaLight& light, const ShadingPoint&
   }
   RadianceResult answer = nothing(entry.method);
   if (entry.method == Method::reference) {
-    // The table's kinks lie all over the light: to 1e-7, or as far as that many points go.
+    // The table's kinks cover the whole light: to 1e-7, or as far as that many points allow.
     const ReferenceResult r = ProfiledLight(light).reference(m, at, {1e-7, 0, 1'000'000});
     answer.radiance = r.radiance;
     answer.bound = r.bound;
     return answer;
   }
-  // The factor is that of one channel's intensity; the light's radiance carries the channels.
+  // The factor is that of one channel's intensity; the light's radiance contains the channels.
   LightEmission white = *light.emission;
   white.intensity = {1, 1, 1};
   PolygonLight polygon = flat_polygon(light, kFineVertices);

@@ -1,6 +1,6 @@
-// ProfiledLight: the mean radiance that a lobe sees of a rect or disk that shines by a measured profile (LightEmission). Times the lobe's
-// integral over a light of radiance 1, which every method has, it is what the light sends. Approximate; the error is measured in
-// docs/lights.md, "Profiles on area lights".
+// ProfiledLight: the mean radiance, under a lobe, of a rect or disk that shines by a measured profile (LightEmission). Times the lobe's
+// integral over a light of radiance 1, which every method has, it is the radiance. Approximate; the error is measured in docs/lights.md,
+// "Profiles on area lights".
 #pragma once
 
 #include "integrals/methods.h"
@@ -15,16 +15,16 @@ class ProfiledLight {
   // The light must have an emission.
   explicit ProfiledLight(const AreaLight& light);
 
-  // The mean over the light, weighted with the lobe; that of all directions where the lobe sees nothing of it.
+  // The mean over the light, weighted with the lobe, or the mean of all directions if the lobe covers nothing of the light.
   //
-  //   integral  the lobe's over the light as one of radiance 1, in the channel where it is largest: what the method found
+  //   integral  the lobe's over the light as one of radiance 1, in the channel where it is largest, as the method computed it
   //
-  // By Gauss's rule of 3 x 3 points in cells of the light. Cells are halved that span more, as seen from the point, than the lobe there or
-  // the profile's steepest part is wide, as long as there are fewer than most_cells. What a point of the light sends depends on the
-  // direction alone, so that this is what bounds the error.
+  // It uses Gauss's rule of 3 x 3 points in cells of the light. A cell is halved if it subtends more than the lobe's width there or the
+  // width of the profile's steepest part, while there are fewer than most_cells. The light of a point depends on the direction alone, so
+  // this bounds the error.
   Vec3d seen_by(const Material& lobe, const ShadingPoint& at, double integral, int most_cells = 256) const;
 
-  // What the means go by.
+  // Emission on which the means are based.
   const LightEmission& emission() const { return emission_; }
   struct Outline {
     bool round;
@@ -33,14 +33,14 @@ class ProfiledLight {
   };
   Outline outline() const { return {round_, center_, x_, y_, widest_}; }
 
-  // What the lobe sends to the view, by adaptive cubature over the light's area, with a bound on the error.
+  // Radiance that the lobe sends to the view, by adaptive cubature over the light's area, with a bound on the error.
   ReferenceResult reference(const Material& lobe, const ShadingPoint& at, const ReferenceOptions& options) const;
 
  private:
   struct Cell {
     double u0, u1, v0, v1;
   };
-  // What one of the light's points sends, times the area that it stands for per du dv.
+  // Light of one of the light's points, times the area that it represents per du dv.
   struct Sent {
     double intensity, even;  // candela by the profile; by the cosine, as a light of radiance 1 has it
     lobes::LobeValue lobe;   // over distance squared, times the area
@@ -48,7 +48,7 @@ class ProfiledLight {
   class Cells;
 
   Vec3d place(double u, double v) const;
-  double radiance_of_peak(const LobeAxis& peak, Vec3d position) const;  // 0 where the peak misses the light
+  double radiance_of_peak(const LobeAxis& peak, Vec3d position) const;  // 0 if the peak misses the light
   Sent sent(double u, double v, const lobes::Lobe& lobe, const Frame& frame, Vec3d position) const;
 
   LightEmission emission_;
@@ -60,8 +60,8 @@ class ProfiledLight {
 
 namespace methods {
 
-// What one lobe sends to the view, by a method of the table: that method's integral times the mean. `reference` and `sampled` take the
-// emission itself, as a factor on their integrand.
+// Radiance that one lobe sends to the view, by a method of the table: that method's integral times the mean. `reference` and `sampled` use
+// the emission itself, as a factor on their integrand.
 RadianceResult profiled_light_answer(const AreaLight& light, const ShadingPoint& at, const Material& material, const Row& entry,
                                      const RadianceOptions& options);
 

@@ -1,4 +1,4 @@
-// Lights that shine by a profile, against sums over their area of points with that profile: what the emission is defined by.
+// Lights that shine by a profile, against sums over their area of points with that profile, which define the emission.
 #include "integrals/profiled_light.h"
 
 #include <gtest/gtest.h>
@@ -30,11 +30,11 @@ std::shared_ptr<const LightProfile> profile_of(const Candela& candela, double la
 }
 
 double lambert(double v, double) { return std::max(100 * std::cos(v * kDegree), 0.0); }
-// Bright aside, as of street lamps, and more along one plane.
+// A profile that is bright to the sides, like street lamps, and more along one plane.
 double batwing(double v, double h) {
   return std::cos(v * kDegree) * (40 + 200 * std::exp(-(v - 55) * (v - 55) / 300) * (1 + 0.6 * std::cos(2 * h * kDegree)));
 }
-double narrow(double v, double) { return std::cos(v * kDegree) * 1000 * std::exp(-v * v / 200); }  // half of it at 12 degrees
+double narrow(double v, double) { return std::cos(v * kDegree) * 1000 * std::exp(-v * v / 200); }  // half of the peak at 12 degrees
 double up_and_down(double v, double) {
   return 30 + 70 * std::pow(std::cos(v * kDegree), 2) * (v > 90 ? 0.5 : 1) - 30 * std::sin(v * kDegree);
 }
@@ -54,7 +54,7 @@ AreaLight shining(AreaLight light, const std::shared_ptr<const LightProfile>& pr
   return light;
 }
 
-// The definition: points evenly over the area, each with its share of the intensity.
+// The definition: points uniform over the area, each with its fraction of the intensity.
 Vec3d by_points(const AreaLight& light, const ShadingPoint& at, const Material& m, int n) {
   const LightEmission& e = *light.emission;
   const auto* round = std::get_if<Ellipse>(&light.shape);
@@ -95,8 +95,8 @@ TEST(ProfiledLight, TheReferenceIsASumOfPoints) {
   for (const AreaLight& light : lights)
     for (const Material& m : {Material{}, ggx(0.6)}) {
       const RadianceResult r = radiance(light, kBelow, m, {.method = Method::reference});
-      // Midpoints of a smooth function with kinks: halving the step divides their error by four, so that a third of the step from one sum
-      // to the next is what is left of the finer.
+      // Midpoints of a smooth function with kinks: halving the step divides their error by four. A third of the difference between the two
+      // sums is then the error of the finer one.
       const Vec3d fine = by_points(light, kBelow, m, 240), coarse = by_points(light, kBelow, m, 120);
       const double left = std::fabs(fine.x - coarse.x) + 1e-6 * fine.x;
       EXPECT_NEAR(r.radiance.x, fine.x, left + *r.bound);
@@ -153,7 +153,7 @@ TEST(ProfiledLight, OnlyRectsAndDisksShineByAProfile) {
   EXPECT_EQ(radiance(light, kBelow, {}).radiance.x, 0);
 }
 
-// What docs/lights.md says of the error: random places of a light of a metre or so, seen from 0.1 to 4 m, each quality.
+// The error that docs/lights.md states: random places of a light of a metre or so, from 0.1 to 4 m, each quality.
 TEST(ProfiledLight, ErrorsAreMeasured) {
   struct Kind {
     const char* name;
@@ -180,7 +180,7 @@ TEST(ProfiledLight, ErrorsAreMeasured) {
         const AreaLight lamp = shining(light, kind.profile, f.x);
         const ShadingPoint at = {{0, 0, 0}, {0, 1, 0}, normalized(Vec3d{uniform(-1, 1), uniform(0.2, 1), uniform(-1, 1)})};
         const double got = radiance(lamp, at, lobe.m).radiance.x;
-        // A lobe that sees something of the light, and that at least a hundredth as bright as straight before it.
+        // The lobe must cover some of the light, and be at least a hundredth as bright as straight in front of it.
         AreaLight brightest = lamp;
         brightest.emission.reset();
         brightest.radiance = emitted_radiance(*lamp.emission, lamp.emission->axes.aim);
@@ -189,10 +189,10 @@ TEST(ProfiledLight, ErrorsAreMeasured) {
         const double truth = ProfiledLight(lamp).reference(lobe.m, at, {1e-5, 0, 60'000}).radiance.x;
         AreaLight even = lamp;
         even.emission.reset();
-        // Of the same light where it is even; of a disk as the polygon that lobes walk.
+        // The error of the same light with a uniform profile; a disk is the polygon that lobes walk.
         const double judged = ProfiledLight(shining(even, cosine, f.x)).reference(lobe.m, at, {1e-5, 0, 60'000}).radiance.x;
         const double plain = radiance(even, at, lobe.m).radiance.x * (100 / lamp.emission->area) / even.radiance.x;
-        const double error = got / truth - 1, own = plain / judged - 1;  // own: of the method under even light
+        const double error = got / truth - 1, own = plain / judged - 1;  // own: error of the method under uniform light
         squares += (error - own) * (error - own);
         worst = std::max(worst, std::fabs(error - own));
         of_method = std::max(of_method, std::fabs(own));

@@ -80,8 +80,8 @@ TEST(Quartic, StartsAtTheRootsUnlessPairsNearlyMeet) {
     const std::complex<double> z1(z.z1.x.v, z.z1.y.v), z2(z.z2.x.v, z.z2.y.v);
     worst = std::max(worst, std::min(std::abs(z1 - a) + std::abs(z2 - b), std::abs(z1 - b) + std::abs(z2 - a)));
   }
-  // The cosine is good to 1e-7; squares of heights and distances magnify it by at most 1 / 0.05 and 1 / 0.1, roots of
-  // quantities that vanish take the root of that.
+  // The cosine has an error of 1e-7. Squares of heights and distances magnify it by at most 1 / 0.05 and 1 / 0.1, and roots of vanishing
+  // quantities take the root of that.
   EXPECT_LT(worst, 1e-2);
   std::printf("largest distance %.2e\n", worst);
 }

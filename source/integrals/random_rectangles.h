@@ -1,4 +1,4 @@
-// Test support: random rectangles over a surface, most of them where the lobe is, and the figures that are asked of them.
+// Test support: random rectangles over a surface, most of them near the lobe, and the quantities that tests compute from them.
 #pragma once
 
 #include <cmath>

@@ -6,7 +6,7 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// How the lobe is widened: the kernel's way, or as published, without the factor 1/sqrt(v.h) and held to 1.
+// How the lobe is widened: the kernel's way, or as published, without the factor 1/sqrt(v.h) and limited to 1.
 enum class Widening { by_half_vectors, published };
 
 template <class S>
@@ -21,14 +21,14 @@ class RepresentativePoint {
     view_ = shading.view;
     mirror_ = K().phong_mirror(view_);
     walk_ = K().representative_begin();
-    // Any apex serves: the walk is closed by clipping.
+    // Any apex serves: clipping closes the walk.
     solid_angle_ = K().solid_angle_begin(vec3(0.0, 0.0, 1.0));
     return shading.lit && view_.z > Real<S>(0.0);
   }
   vec3 end(const vec3& u) const { return u; }
   void add(const vec3& a, const vec3& b) {
     const auto next = K().representative_add_edge(walk_, mirror_, a, b);
-    // Where other lanes of a pack are cut by the horizon, this one gets edges without length, whose place is nowhere on its outline.
+    // If the horizon cuts other lanes of a pack, this one gets edges without length, which are not on its outline.
     const auto counts = dot(b - a, b - a) > Real<S>(1e-14);
     walk_ = {next.turn, select(counts, next.nearest, walk_.nearest), select(counts, next.cosine, walk_.cosine)};
     solid_angle_ = K().solid_angle_add_edge(solid_angle_, a, b);
@@ -45,7 +45,7 @@ class RepresentativePoint {
     return {lobe, lobe * K().fresnel_schlick(0.0, 1.0, v_dot_h)};
   }
 
-  // Of a small light every point stands for it.
+  // Every point of a small light represents it.
   double least_distance2() const { return kTransformed.least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
     return {K().light_elements_half_vector_sharpness(Real<S>(0.5) * alpha_, view_.z), kTransformed.roundings};

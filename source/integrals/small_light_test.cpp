@@ -14,9 +14,9 @@
 namespace steradian::small_light_test {
 namespace {
 
-// What a method may be off over a light that is a thousandth of its distance or less, as a share of what it sends. The tables are off by
-// their fit, whatever the size; the published fits and the series of float only where double's elements do not serve yet; all
-// others by their roundings: 24 bits, and 53 bits of vertices that the distance has rounded.
+// Error of a method over a light that is a thousandth of its distance or less, as a fraction of what it sends. The tables have the error of
+// their fit at any size. The published fits and float's series err only where double's elements do not serve yet. All others have rounding
+// errors: 24 bits, and 53 bits of vertices that the distance has rounded.
 double stated(Method method, Precision precision, double size) {
   switch (method) {
     case Method::ltc:
@@ -35,7 +35,7 @@ PolygonLight small_light(double size, double distance) {
   const Vec3d center = normalized(Vec3d{-0.5, 0.8, -0.1}) * distance;
   const Vec3d x = Vec3d{0.8, 0.3, 0} * (size * distance), y = Vec3d{0, 0.2, -0.9} * (size * distance);
   PolygonLight light;
-  light.vertices = {center - x - y, center + x - y, center + x * 0.4 + y, center - x + y};  // no mirror image of itself
+  light.vertices = {center - x - y, center + x - y, center + x * 0.4 + y, center - x + y};  // not symmetric
   if (dot(cross(x, y), center) > 0) std::reverse(light.vertices.begin(), light.vertices.end());
   return light;
 }
@@ -72,7 +72,7 @@ TEST(SmallLight, EveryMethodAtEverySize) {
     for (const double distance : {1e-6, 4.0, 1e6})
       for (const double size : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
         const PreparedPolygon light = prepare_polygon(small_light(size, distance));
-        // The lobe in the light's direction times its solid angle: off by a share of the size squared.
+        // The lobe in the light's direction times its solid angle has an error of a fraction of the size squared.
         const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
         const lobes::Lobe lobe(lobes::in_frame(m, frame), frame.to_local(at.view));
         const Vec3d to = light.quarters.center - at.position, direction = normalized(to);
@@ -94,7 +94,7 @@ TEST(SmallLight, EveryMethodAtEverySize) {
   EXPECT_GT(tested, 600);
 }
 
-// Lights against which our approximations are biased, whatever their quality: the elements take them over.
+// Lights against which these approximations are biased at any quality: the elements replace them.
 TEST(SmallLight, NoBiasInsideALobe) {
   const ShadingPoint at = {{}, {0, 1, 0}, normalized(Vec3d{0.6, 0.8, 0.2})};
   for (const Material& m : {material(Brdf::phong, 20), material(Brdf::phong, 500), material(Brdf::beckmann, 0.25),
@@ -105,7 +105,7 @@ TEST(SmallLight, NoBiasInsideALobe) {
       const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
       const lobes::Lobe lobe(m, frame.to_local(at.view));
       const double peak = lobe.evaluate(lobe.shape().peak).plain;
-      // What the light would send from the lobe's peak, at most 1: the measure of the bias.
+      // Light from the lobe's peak, at most 1: the scale of the bias.
       const double full = std::min(1.0, peak * light.area / 4);
       for (const Quality quality : {Quality::normal, Quality::high})
         for (const Precision precision : {Precision::double_, Precision::float_}) {
@@ -146,7 +146,7 @@ TEST(LightElements, ErrorIsBelowItsBound) {
     const Frame plane = Frame::from_normal(normal);
     const double turn = uniform(0, 6.28), aspect = uniform(0.3, 1);
     const Vec3d x = plane.x * std::cos(turn) + plane.y * std::sin(turn), y = cross(normal, x) * aspect;
-    // In units whose deviation is found first, then scaled.
+    // The shape has units in which its deviation is computed first, then it is scaled.
     PolygonLight shape;
     shape.vertices = i % 2 == 0 ? std::vector<Vec3d>{-x - y, x - y, x + y, y - x} : std::vector<Vec3d>{-x - y, x - y, x * 0.3 + y};
     const LightQuarters q = prepare_polygon(shape).quarters;
@@ -168,7 +168,7 @@ TEST(LightElements, ErrorIsBelowItsBound) {
     EXPECT_LT(share, 1) << name_of(m.brdf) << " t " << t << " view " << view_z;
     largest_share = std::max(largest_share, share);
   }
-  EXPECT_GT(largest_share, 0.2);  // the bound is one, and not far off
+  EXPECT_GT(largest_share, 0.2);  // the bound holds and is not far from the error
 }
 
 }  // namespace steradian::small_light_test

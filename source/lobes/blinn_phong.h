@@ -10,7 +10,7 @@ struct BlinnPhong {
   static constexpr Brdf kBrdf = Brdf::blinn_phong;
   static constexpr const char* kName = "blinn-phong";
   static constexpr Key kKeys[] = {kExponent};
-  // A turned half vector turns the reflected direction by twice the angle.
+  // Turning the half vector turns the reflected direction by twice the angle.
   static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) { return {mirrored(at), 2 / std::sqrt(m.exponent + 1)}; }
 
   BlinnPhong(const Material& material, Vec3d view_) : n(material.exponent), view(view_) {}
@@ -27,7 +27,7 @@ struct BlinnPhong {
     const double alpha = std::sqrt(2 / (n + 2));
     return shape_of_half_vectors(view, alpha, alpha, false);
   }
-  // log h_z moves by the rounding of h_z, which the length of l + v >= 2 v_z enlarges.
+  // log h_z changes by the rounding of h_z, which grows with the length of l + v >= 2 v_z.
   double sensitivity() const { return 1 + n / std::max(view.z, 1e-6); }
   std::array<Vec3d, 2> ending_planes() const { return no_planes(); }
 

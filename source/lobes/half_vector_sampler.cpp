@@ -33,7 +33,7 @@ double pdf_beckmann_half_vector(double ax, double ay, Vec3d h) {
 
 Vec3d sample_ggx_visible_normal(Vec3d view, double ax, double ay, double u, double v) {
   const Vec3d w = normalized(Vec3d{ax * view.x, ay * view.y, view.z});
-  // Reflections at a hemisphere of mirrors fill a cap of the sphere evenly: from z = -w_z upwards.
+  // Reflections at a hemisphere of mirrors fill a cap of the sphere uniformly, from z = -w_z upwards.
   const double z = (1 - v) * (1 + w.z) - w.z;
   const Vec3d cap = direction_at(z, std::sqrt(std::clamp(1 - z * z, 0.0, 1.0)), u);
   const Vec3d h = cap + w;

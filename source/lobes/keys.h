@@ -1,4 +1,4 @@
-// The keys of a lobe in files: what `eval` and the extras of glTF materials both read.
+// The keys of a lobe in files, for `eval` and for the extras of glTF materials.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +19,15 @@ enum class KeyKind {
   word           // one of Key::words
 };
 
-// What a key says, in the member of its kind.
+// Value of a key, in the member of its kind.
 struct KeyValue {
   double number = 0;
-  Vec3d vector;  // of a colour, too
+  Vec3d vector;  // also holds a colour
   bool flag = false;
   std::string word;
 };
 
-// A material as far as it is read. The width may be said in three ways; which were used is checked at the end.
+// A material while it is read. The width may be given in three ways; which of them were used is checked at the end.
 struct Draft {
   Material material;
   bool roughness = false, alpha = false, alpha_x = false, alpha_y = false;
@@ -38,18 +38,18 @@ struct Key {
   KeyKind kind;
   void (*set)(Draft& draft, const KeyValue& value);
   bool required = false;
-  std::string_view words{};  // of KeyKind::word, separated by spaces
+  std::string_view words{};  // for KeyKind::word, separated by spaces
 };
 
 bool is_word_of(const Key& key, std::string_view word);
 
-// Whether the keys hold this one.
+// True if the keys contain this one.
 template <class Keys>
 bool has_key(const Keys& keys, std::string_view name) {
   return std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return key.name == name; });
 }
 
-// What is wrong with the width of a lobe that has one: the key, what about it, and what to do.
+// A problem with the width of a lobe: the key, the problem, and what to do.
 struct WidthProblem {
   std::string_view key, problem, hint;
 };

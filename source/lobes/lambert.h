@@ -1,4 +1,4 @@
-// Lambert: the same radiance in every direction.
+// Lambert: a lobe of the same radiance in every direction.
 #pragma once
 
 #include "lobes/cosine_sampler.h"
@@ -14,7 +14,7 @@ struct Lambert {
 
   Lambert(const Material& material, Vec3d view_) : colours{material.albedo, material.albedo * -material.fresnel_loss}, view(view_) {}
 
-  // What a dielectric above reflects away goes as Schlick's Fresnel does.
+  // The loss to the reflection of a dielectric above follows Schlick's Fresnel term.
   LobeValue evaluate(Vec3d l) const {
     const auto plain = Kernels<double>().lambert_lobe(to_kernel(l));
     return {plain.v, (plain * Kernels<double>().lambert_grazing(to_kernel(l), to_kernel(view))).v};

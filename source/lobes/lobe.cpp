@@ -11,7 +11,7 @@ constexpr std::size_t kKinds = std::variant_size_v<Lobe::Kind>;
 template <std::size_t I>
 using KindAt = std::variant_alternative_t<I, Lobe::Kind>;
 
-// The kinds are listed as their enumerators are numbered.
+// The kinds must be listed in the order of their enumerators.
 template <std::size_t... I>
 constexpr bool in_order(std::index_sequence<I...>) {
   return ((static_cast<std::size_t>(KindAt<I>::kBrdf) == I) && ...);

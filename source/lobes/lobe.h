@@ -1,10 +1,10 @@
-// Lobe: a material's lobe at one view. What quadrature integrates, Monte Carlo samples, the fitter fits, and lights of one
-// direction are reflected by.
+// Lobe: a material's lobe at one view. Quadrature integrates it, Monte Carlo samples it, the fitter fits it, and lights of one direction
+// are reflected by it.
 //
 // Each kind has a file of its own beside this one: a struct with
 //
-//   kBrdf, kName, kKeys                  what it is called, and its keys in files (keys.h)
-//   axis_and_width(material, at)         where the lobe is, for an outline that gathers its corners there
+//   kBrdf, kName, kKeys                  its name, and its keys in files (keys.h)
+//   axis_and_width(material, at)         position of the lobe, for an outline that gathers its corners there
 //   constructor (material, view)
 //   evaluate(l), sample(u, v), pdf(l)    l and view are above the surface in evaluate
 //   shape(), sensitivity(), ending_planes(), and the colours plain and fresnel
@@ -35,8 +35,8 @@ class Lobe {
   // BRDF times cosine; 0 where l or the view is not above the surface.
   LobeValue evaluate(Vec3d l) const;
 
-  // A direction with density pdf(l) per solid angle, for u, v in [0, 1). The zero vector: no direction; the density
-  // then integrates to less than 1. Directions below the surface occur.
+  // A direction with density pdf(l) per solid angle, for u, v in [0, 1). The zero vector means no direction; the density then integrates to
+  // less than 1. Directions below the surface occur.
   Vec3d sample(double u, double v) const;
   double pdf(Vec3d l) const;
 
@@ -48,7 +48,7 @@ class Lobe {
   LobeShape shape() const;
   // Relative error of evaluate() per unit of the last place of l and the view.
   double sensitivity() const;
-  // Planes through the point, by their normals, on which the lobe ends, and not smoothly. Zero vectors: no plane.
+  // Planes through the point, by their normals, at which the lobe ends abruptly. Zero vectors: no plane.
   std::array<Vec3d, 2> ending_planes() const;
   bool above_surface() const { return view_.z > 0; }
 
@@ -58,10 +58,10 @@ class Lobe {
   Colours colours_;
 };
 
-// The material with its directions in a frame: what Lobe wants.
+// The material with its directions in a frame, as Lobe needs it.
 Material in_frame(const Material& material, const Frame& frame);
 
-// A kind of lobe as files name it.
+// A kind of lobe with its name and keys in files.
 struct LobeRow {
   const char* name;
   Brdf brdf;

@@ -1,4 +1,4 @@
-// What lobes of every kind are made of.
+// Parts that lobes of every kind share.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@ struct LobeValue {
   LobeValue& operator+=(LobeValue b) { return *this = *this + b; }
 };
 
-// Factors of the two scalars, a number a channel.
+// Factors of the two scalars, one number a channel.
 struct Colours {
   Vec3d plain{1, 1, 1}, fresnel{0, 0, 0};
 };
 
-// A space in which the lobe is round and simple, for an integrator to work in. Never a matter of correctness.
+// A space in which the lobe is round and simple, for an integrator to work in. It never affects correctness.
 //
-// A direction l lies there in the direction of the solution w of x w_x + y w_y + z w_z = l + offset. The offset is zero,
-// or the view: w is then a half vector, and a distribution of any two widths is round about (0, 0, 1).
+// A direction l lies there in the direction of the solution w of x w_x + y w_y + z w_z = l + offset. The offset is zero or the view. With
+// the view, w is a half vector, and a distribution of any two widths is round about (0, 0, 1).
 struct LobeShape {
   Vec3d peak;     // the l of w = (0, 0, 1)
   Vec3d x, y, z;  // at most of length 1
@@ -39,16 +39,16 @@ struct LobeShape {
   bool long_tailed;  // falls off as a power, not as a Gaussian
 };
 
-// About the normal, as wide as the hemisphere.
+// A shape about the normal, as wide as the hemisphere.
 inline LobeShape shape_about_normal() { return {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}, 1.0, false}; }
 
-// Round about an axis.
+// A round shape about an axis.
 inline LobeShape shape_about(Vec3d axis, double width) {
   const Frame f = Frame::from_normal(axis);
   return {axis, f.x, f.y, axis, {}, width, false};
 }
 
-// Round in half vectors after the widths are taken out.
+// A shape that is round in half vectors after the widths are taken out.
 inline LobeShape shape_of_half_vectors(Vec3d view, double ax, double ay, bool long_tailed) {
   const double width = ax > ay ? ax : ay;
   return {{-view.x, -view.y, view.z}, {ax / width, 0, 0}, {0, ay / width, 0}, {0, 0, 1}, view, width < 1.0 ? width : 1.0, long_tailed};
@@ -61,7 +61,7 @@ inline Vec3d mirrored(const ShadingPoint& at) { return normalized(at.normal * (2
 inline Vec3<Real<double>> to_kernel(Vec3d v) { return {v.x, v.y, v.z}; }
 inline Vec3d from_kernel(const Vec3<Real<double>>& v) { return {v.x.v, v.y.v, v.z.v}; }
 
-// A microfacet lobe without shadowing from its distribution's value.
+// A microfacet lobe without shadowing, from its distribution's value.
 inline double unshadowed_lobe(Real<double> distribution, Vec3d l, Vec3d v) {
   return Kernels<double>().microfacet_lobe_unshadowed(distribution, to_kernel(l), to_kernel(v)).v;
 }

@@ -1,9 +1,9 @@
-// The product of two Phong lobes: a power of the cosine about the mirrored view times one about an axis of the surface's own.
+// The product of two Phong lobes: a power of the cosine about the mirrored view times one about an axis of the surface.
 //
 //   (n1 + n2 + 1)/(2 pi) max(l.r, 0)^n1 max(l.a, 0)^n2
 //
-// without foreshortening. About one axis the two are a Phong lobe of exponent n1 + n2, which the factor normalises; the further
-// apart the axes, the less is left.
+// There is no foreshortening. With equal axes the product is a Phong lobe of exponent n1 + n2, which the factor normalises. The further
+// apart the axes are, the less remains.
 #pragma once
 
 #include "lobes/cosine_sampler.h"
@@ -38,7 +38,7 @@ struct LobeProduct {
     return {(n1 + n2 + 1) / (2 * std::numbers::pi) * (k.phong_power(along_mirror, n1) * k.phong_power(along_axis, n2)).v, 0};
   }
 
-  // The power n1 + n2 about the product's peak, which the product stays below: the mean of arithmetic is above that of geometry.
+  // Samples the power n1 + n2 about the product's peak, which bounds the product: the arithmetic mean is above the geometric one.
   Vec3d sample(double u, double v) const { return frame.to_world(sample_cosine_power(n1 + n2, u, v)); }
   double pdf(Vec3d l) const { return pdf_cosine_power(n1 + n2, dot(l, frame.z)); }
 

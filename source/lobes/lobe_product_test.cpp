@@ -1,4 +1,4 @@
-// Products of two Phong lobes: what they are where one knows it, and the ground truth's bounds on them.
+// Products of two Phong lobes: known values, and the ground truth's bounds on them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,15 +40,15 @@ TEST(ProductOfLobes, AboutOneAxisIsAPhongLobe) {
     phong.exponent = n + m;
     const ReferenceResult one = reference_radiance(light, c.at, phong, {1e-7, 1e-9, 400'000});
     const ReferenceResult two = reference_radiance(light, c.at, product(n, m, mirrored(c.at)), {1e-7, 1e-9, 400'000});
-    // The two axes differ by roundings, to which the lobe answers n + m times as strongly.
+    // The two axes differ by rounding, which the lobe magnifies n + m times.
     EXPECT_NEAR(two.radiance.x, one.radiance.x, one.bound + two.bound + 1e-14 * (n + m)) << c.kind << " " << n << " " << m;
     lit += one.radiance.x > 1e-6;
   }
   EXPECT_GT(lit, 50);
 }
 
-// (l.r)^n (l.n) with the axis along the normal is a double-axis moment, which has a closed form of its own; and under a square
-// sky seen from above, n + m + 1 over n + m + 1 of the sky's light arrives: all of it.
+// (l.r)^n (l.n) with the axis along the normal is a double-axis moment, which has a closed form of its own. Under a square sky, viewed from
+// above, all of the sky's light arrives: n + m + 1 over n + m + 1.
 TEST(ProductOfLobes, UnderASkyTheWholeLobeArrives) {
   PolygonLight sky;
   sky.vertices = {{-1e4, -1e4, 1}, {-1e4, 1e4, 1}, {1e4, 1e4, 1}, {1e4, -1e4, 1}};
@@ -78,12 +78,12 @@ TEST(ProductOfLobes, QuadratureKeepsItsBoundAndSamplingItsError) {
     beyond += std::fabs(sampled.radiance.x - fine.radiance.x) > 4 * sampled.standard_error + fine.bound;
   }
   EXPECT_GT(lit, 40);
-  // A normal error leaves four deviations once in 15,000; a skewed one some dozen times more often.
+  // A normally distributed error exceeds four deviations once in 15,000 times; a skewed one some dozen times more often.
   EXPECT_LE(beyond, 2) << "of " << lit;
 }
 
-// The one lobe in place of the product, as a share of the product's height. The table of docs/moments.md has 2.9 % at most for
-// the whole lobe, which a large light sees, and 1 % for parts of it: 4 % together. Here up to 75 degrees between the axes.
+// Error of the one lobe that replaces the product, as a fraction of the product's height. The table of docs/moments.md has 2.9 % at most
+// for the whole lobe, as under a large light, and 1 % for parts of it: 4 % together. Here the axes are up to 75 degrees apart.
 TEST(ProductOfLobes, TheMatchedLobeIsNear) {
   Random random(64);
   double worst = 0, squares = 0;
@@ -115,7 +115,7 @@ TEST(ProductOfLobes, TheMatchedLobeIsNear) {
   EXPECT_GT(lit, 60);
 }
 
-// What sampling relies on: the product never rises above its height times the power n + m about its peak.
+// Sampling relies on this bound: the product never rises above its height times the power n + m about its peak.
 TEST(ProductOfLobes, StaysBelowThePowerAboutItsPeak) {
   Random random(63);
   for (int i = 0; i < 2000; ++i) {

@@ -21,7 +21,7 @@ struct Phong {
         frame(Frame::from_normal(mirror)) {}
 
   LobeValue evaluate(Vec3d l) const {
-    if (!(dot(l, mirror) > 0)) return {};  // the kernel's power 0 knows no end of the lobe
+    if (!(dot(l, mirror) > 0)) return {};  // the kernel's power 0 has no end of the lobe
     return {Kernels<double>().phong_lobe(to_kernel(l), to_kernel(mirror), n).v * (foreshortening ? l.z : 1), 0};
   }
   Vec3d sample(double u, double v) const { return frame.to_world(sample_cosine_power(n, u, v)); }

@@ -13,7 +13,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 Vec3d across_at(double azimuth) { return {std::cos(azimuth), std::sin(azimuth), 0}; }
 
-// Where the side's great circle meets the half plane of z and `across`; its normal's z is positive.
+// Intersection of the side's great circle with the half plane of z and `across`; its normal's z is positive.
 Vec3d meet(Vec3d normal, Vec3d across) { return normalized(across * normal.z - Vec3d{0, 0, dot(normal, across)}); }
 
 }  // namespace
@@ -27,7 +27,7 @@ void AzimuthSampler::prepare(const SphericalRegion& region, SphericalMeasure mea
   ends_.clear();
   if (region.arcs.empty()) return;
 
-  // Azimuths run from a vertex, so that a small light lies near 0 and 2 pi and keeps its digits on one side at least.
+  // Azimuths start at a vertex, so that a small light lies near 0 and 2 pi and retains its digits on at least one side.
   zero_azimuth_ = std::atan2(region.arcs[0].a.y, region.arcs[0].a.x);
   for (const Arc& arc : region.arcs) {
     if (arc.normal.z > 0)
@@ -59,7 +59,7 @@ void AzimuthSampler::prepare(const SphericalRegion& region, SphericalMeasure mea
   }
 }
 
-// a to b by growing azimuth, less than half a turn; cut where azimuths begin again.
+// Adds the arc from a to b by growing azimuth, less than half a turn; it is cut where azimuths start again.
 void AzimuthSampler::add_side(Vec3d a, Vec3d b, Vec3d normal, double sign) {
   const auto azimuth_of = [&](Vec3d w) {
     double azimuth = std::atan2(w.y, w.x) - zero_azimuth_;
@@ -86,7 +86,7 @@ double AzimuthSampler::extent(const Piece& piece, Vec3d across) const {
   return sine2 / (1 + cosine);
 }
 
-// Newton's steps spend their time here: one arctangent a piece, and q, where the piece meets the azimuth, not normalised.
+// Newton's steps spend their time here: one arctangent a piece, and q, the piece's point at the azimuth, not normalised.
 AzimuthSampler::Sweep AzimuthSampler::sweep(const Slice& slice, Vec3d across) const {
   Sweep sum;
   for (std::size_t i = slice.first; i < slice.last; ++i) {
@@ -120,14 +120,14 @@ Vec3d AzimuthSampler::sample(double u, double v) const {
   if (slice == slices_.end()) --slice;
   const double before = slice == slices_.begin() ? 0 : std::prev(slice)->share;
 
-  // Newton's steps within a bracket that shrinks; halved where a step would leave it.
+  // Newton's steps within a shrinking bracket; a step that would leave it is replaced by its middle.
   const double target = share - before;
   double low = slice->begin, high = slice->end;
   double azimuth = low + (high - low) * std::clamp(target / (slice->share - before), 0.0, 1.0);
   for (int i = 0; i < 60; ++i) {
     const Sweep at = sweep(*slice, across_at(azimuth + zero_azimuth_));
     const double error = at.measure - target;
-    if (std::fabs(error) <= std::numeric_limits<double>::epsilon() * at.magnitude) break;  // all else is rounding
+    if (std::fabs(error) <= std::numeric_limits<double>::epsilon() * at.magnitude) break;  // the rest is rounding
     (error > 0 ? high : low) = azimuth;
     double next = azimuth - error / at.density;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
@@ -136,7 +136,7 @@ Vec3d AzimuthSampler::sample(double u, double v) const {
     if (step <= 4e-16 * kTurn) break;
   }
 
-  // From the outside in: an interval counts where the sides further out wind around it.
+  // From the outside in, an interval counts if the sides further out wind around it.
   const Vec3d across = across_at(azimuth + zero_azimuth_);
   struct Crossing {
     double extent, sign;
@@ -155,7 +155,7 @@ Vec3d AzimuthSampler::sample(double u, double v) const {
     crossings[i] = {extent(piece, across), piece.sign};
   }
   std::sort(crossings, crossings + count, [](const Crossing& a, const Crossing& b) { return a.extent > b.extent; });
-  const auto walk = [&](double stop) {  // returns the extent at which `stop` of the intervals' lengths is used up
+  const auto walk = [&](double stop) {  // returns the extent at which the lengths of the intervals sum to `stop`
     double winding = 0, length = 0;
     for (std::size_t i = 0; i < count; ++i) {
       winding += crossings[i].sign;
@@ -180,7 +180,7 @@ bool AzimuthSampler::contains(Vec3d l) const {
   double winding = 0, azimuth = std::atan2(l.y, l.x) - zero_azimuth_;
   if (azimuth < 0) azimuth += kTurn;
   for (const Side& side : sides_) {
-    // Inside of the side: det(a, b, l) > 0.
+    // A point is inside of the side if det(a, b, l) > 0.
     if (azimuth >= side.begin && azimuth < side.end && dot(side.normal, l) > 0) winding += side.sign;
   }
   return winding > 0.5;

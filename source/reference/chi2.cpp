@@ -10,7 +10,7 @@
 
 namespace steradian::reference {
 
-// Series below the mean, Legendre's continued fraction (by Lentz's method) above it.
+// Uses the series below the mean, and Legendre's continued fraction (by Lentz's method) above it.
 double regularized_upper_gamma(double a, double x) {
   if (!(x > 0)) return 1;
   const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
@@ -23,7 +23,7 @@ double regularized_upper_gamma(double a, double x) {
     }
     return 1 - front * sum;
   }
-  constexpr double kTiny = 1e-300;  // stands in for a zero denominator
+  constexpr double kTiny = 1e-300;  // replaces a zero denominator
   double b = x + 1 - a, c = 1 / kTiny, d = 1 / b, product = d;
   for (int i = 1; i < 100'000; ++i) {
     const double numerator = -i * (i - a);
@@ -61,7 +61,7 @@ struct Cells {
   std::array<double, 2> coordinates(Vec3d l) const {
     const Vec3d p = frame.to_local(l);
     const double x = std::atan2(p.y, p.x) / (2 * std::numbers::pi);
-    // Squares of tangents of half angles, from the sine on the side where 1 - cosine would cancel.
+    // Squares of tangents of half angles are computed from the sine on the side where 1 - cosine would cancel.
     const double sine2 = p.x * p.x + p.y * p.y;
     const double t2 = p.z > 0 ? sine2 / ((1 + p.z) * (1 + p.z)) : (1 - p.z) * (1 - p.z) / std::max(sine2, 1e-300);
     return {x < 0 ? x + 1 : x, t2 / (t2 + w2)};
@@ -85,11 +85,11 @@ double gauss_3x3(const F& f, const Rectangle& r) {
 
 struct Integral {
   double value = 0;
-  double error = 0;  // what was left where the depth ended: along jumps of the density
+  double error = 0;  // difference that remained at the greatest depth: along jumps of the density
 };
 
-// Halves both sides until the quarters agree with the whole. The first halvings are not up for discussion: nine points
-// may all miss a light. The depth bounds the work along a light's outline.
+// Halves both sides until the quarters agree with the whole. The first halvings are unconditional: nine points may all miss a light. The
+// depth bounds the work along a light's outline.
 template <class F>
 Integral integrate(const F& f, const Rectangle& r, double whole, double tolerance, int depth) {
   constexpr int kDepth = 9, kForced = 3;
@@ -124,7 +124,7 @@ Chi2Result chi2_test(const std::function<Vec3d(double, double)>& sample, const s
     for (int column = 0; column < options.columns; ++column) {
       const Rectangle r{double(column) / options.columns, double(column + 1) / options.columns, double(ring) / options.rings,
                         double(ring + 1) / options.rings};
-      // A tenth of a sample: far below the deviation of any cell that is not pooled.
+      // The tolerance is a tenth of a sample: far below the deviation of any cell that is not pooled.
       const Integral p = integrate(density, r, 0, 0.1 / options.samples, 0);
       result.expected_total += p.value;
       integration_error += p.error;
@@ -169,7 +169,7 @@ Chi2Result chi2_test(const std::function<Vec3d(double, double)>& sample, const s
       pooled_counted += counted[i];
     }
   }
-  // Fewer than 5 are expected even together: their counts are then too few for the test, but must not be many.
+  // Fewer than 5 are expected even together: their counts are then too few for the test, but there must not be many.
   if (pooled_expected >= 5 || pooled_counted > 25) add(std::max(pooled_expected, 1e-3), pooled_counted, "(pooled)");
   result.freedom = std::max(used - 1, 1);
   result.p_value = chi2_p_value(result.statistic, result.freedom);

@@ -1,4 +1,4 @@
-// Test support: how far the weight of a diffuse lobe under a dielectric's boundary is from glTF's 1 - F(v.h).
+// Test support: error of the weight of a diffuse lobe under a dielectric's boundary against glTF's 1 - F(v.h).
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct DiffuseBelowErrors {
   double constant = 0;  // the weight 1 - F0 in every direction
 };
 
-// The walk of kernels/polygon.glsl, and what is made of its irradiance vector.
+// The walk of kernels/polygon.glsl, and the result from its irradiance vector.
 inline double diffuse_below(const PreparedPolygon& light, const ShadingPoint& at, double loss) {
   Kernels<double> k;
   const Frame frame = Frame::from_normal(at.normal);
@@ -33,7 +33,7 @@ inline double diffuse_below(const PreparedPolygon& light, const ShadingPoint& at
   return k.lambert_irradiance_below(e, {v.x, v.y, v.z}, loss).v / std::numbers::pi;
 }
 
-// Over random squares (random_squares.h).
+// Measures the errors over random squares (random_squares.h).
 inline DiffuseBelowErrors measure_diffuse_below(double side, double degrees, int lights, std::uint64_t seed) {
   Random random(seed);
   const ShadingPoint at = seen_from(degrees);

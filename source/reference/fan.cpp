@@ -7,7 +7,7 @@
 namespace steradian::reference {
 namespace {
 
-// How often the arcs run around an axis, counted by azimuth.
+// Number of turns of the arcs around an axis, counted by azimuth.
 int winding_about(const std::vector<Arc>& arcs, Vec3d axis) {
   double turn = 0;
   for (const Arc& arc : arcs) turn += std::atan2(dot(axis, cross(arc.a, arc.b)), dot(arc.a, arc.b) - dot(axis, arc.a) * dot(axis, arc.b));
@@ -43,16 +43,16 @@ Fan::Fan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) 
   }
   apex_ = Frame::from_normal(apex);
 
-  // At the peak the lobe falls off on the scale of its width. Off it a power law slows down, and a Gaussian of width w
-  // falls as exp(-distance theta / w^2). Beyond 40 widths nothing of it is left in double.
+  // At the peak the lobe falls off on the scale of its width. Away from it a power law slows down, and a Gaussian of width w falls as
+  // exp(-distance theta / w^2). Beyond 40 widths nothing of it remains in double.
   theta_scale_ = shape.long_tailed ? std::hypot(shape.width, distance) : shape.width / (1 + std::min(distance / shape.width, 40.0));
   for (const Arc& arc : region.arcs) add_triangles(arc);
 }
 
 Vec3d Fan::to_lobe_space(Vec3d v) const { return {dot(inverse_x_, v), dot(inverse_y_, v), dot(inverse_z_, v)}; }
 
-// Where an arc crosses the two planes through an axis of lobe space. A space stretched a hundredfold or more passes the axis
-// in so small a part of the arc that no even probes would meet it.
+// Positions at which an arc crosses the two planes through an axis of lobe space. In a space stretched a hundredfold or more, the arc
+// passes the axis in a tiny part of its length. Evenly spaced probes would miss that part.
 std::vector<double> Fan::crossings(const Arc& arc, const Frame& axis) const {
   std::vector<double> taus;
   if (!stretched_) return taus;
@@ -72,7 +72,7 @@ std::vector<double> Fan::crossings(const Arc& arc, const Frame& axis) const {
   return taus;
 }
 
-// Roughly: it only says where to begin.
+// An approximation: it only provides a start.
 double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
   const auto closeness = [&](double tau) { return dot(normalized(to_lobe_space(arc_point(arc, tau) + shape_.offset)), to); };
   constexpr int kProbes = 12;
@@ -88,7 +88,7 @@ double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
       best_probe = i;
     }
   }
-  // Narrow down between the best probe's neighbours by thirds.
+  // Narrows the interval between the best probe's neighbours by thirds.
   const double best = probes[best_probe];
   double low = probes[best_probe > 0 ? best_probe - 1 : 0], high = probes[std::min(best_probe + 1, probes.size() - 1)];
   for (int i = 0; i < 24; ++i) {
@@ -102,7 +102,7 @@ double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
   return closeness(inner) > best_closeness ? inner : best;
 }
 
-// One for each place where the arc passes the apex or comes nearest to it, as far as half the way to the next.
+// Adds a triangle for each place where the arc passes the apex or is nearest to it, up to half the way to the next.
 void Fan::add_triangles(const Arc& arc) {
   std::vector<double> anchors = crossings(arc, apex_);
   anchors.push_back(nearest_tau(arc, apex_.z));
@@ -119,8 +119,8 @@ void Fan::add_triangle(const Arc& arc, double tau, double from, double to) {
   Triangle t;
   t.nearest = arc_point(arc, tau);
   t.along = cross(arc.normal, t.nearest);
-  // The scale along the arc: of the distance to the apex, or of the lobe's width where the arc comes closer; divided by
-  // the speed with which lobe space is passed.
+  // The scale along the arc is the distance to the apex, or the lobe's width where the arc is closer. It is divided by the speed of the arc
+  // in lobe space.
   const Vec3d p = to_lobe_space(t.nearest + shape_.offset), speed = to_lobe_space(t.along);
   const double size = length(p);
   const Vec3d direction = apex_.to_local(p / size);
@@ -149,7 +149,7 @@ Fan::Ray Fan::ray(const Triangle& t, double u) const {
   const double r2 = p.x * p.x + p.y * p.y, r = std::sqrt(r2);
   Ray ray{};
   ray.arc_speed = tau_speed;
-  if (!(r > 0)) return ray;  // the arc passes through the apex: nothing between them
+  if (!(r > 0)) return ray;  // the arc passes through the apex: the triangle is empty
   ray.across = (apex_.x * p.x + apex_.y * p.y) / r;
   ray.v_scale = std::asinh(std::atan2(r, p.z) / theta_scale_);
   ray.measure = (p.x * dp.y - p.y * dp.x) / r2 * tau_speed * ray.v_scale;

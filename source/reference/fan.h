@@ -1,10 +1,8 @@
-// Fan: a region of the sphere as the signed sum of triangles between one apex and the region's arcs, with coordinates
-// that open up a peak at the apex. No triangulation: whatever lies outside the region is covered as often positively
-// as negatively, for any outline with holes.
+// Fan: a region of the sphere as the signed sum of triangles between one apex and the region's arcs. Its coordinates spread out a peak at
+// the apex. No triangulation is needed: points outside the region are covered equally often with both signs, for any outline with holes.
 //
-// The triangles live in the lobe's own space (LobeShape). Their sides are straight there; the arcs need not be. What
-// the horizon bounds is convex in both kinds of that space (of half vectors: a disk in the plane h_z = 1), so that no
-// triangle reaches below it.
+// The triangles live in the lobe's own space (LobeShape). Their sides are straight there; the arcs need not be. The region above the
+// horizon is convex in both kinds of that space, so no triangle reaches below it. For half vectors it is a disk in the plane h_z = 1.
 #pragma once
 
 #include <vector>
@@ -18,7 +16,7 @@ using lobes::LobeShape;
 
 class Fan {
  public:
-  // The apex is the lobe's peak where the region holds it, else the boundary's nearest point to it.
+  // The apex is the lobe's peak if the region contains it, else the boundary's nearest point to it.
   Fan(const SphericalRegion& region, const LobeShape& shape);
 
   // A triangle, or the part of it on one side of the arc's point nearest to the apex. Coordinates: u along the arc from
@@ -33,7 +31,7 @@ class Fan {
 
   // All points of a triangle at one u.
   struct Ray {
-    Vec3d across;      // unit, perpendicular to the apex: where the ray goes
+    Vec3d across;      // unit, perpendicular to the apex: the ray's direction
     double v_scale;    // angle from the apex: theta_scale sinh(v v_scale)
     double measure;    // azimuth about the apex per du, signed, times v_scale
     double arc_speed;  // length of arc per du [rad]
@@ -59,7 +57,7 @@ class Fan {
   bool half_vectors_;
   bool stretched_;      // by more than twice in one direction: a lobe of two widths
   Frame apex_;          // z is the apex
-  double theta_scale_;  // on which the lobe falls off from the apex
+  double theta_scale_;  // scale on which the lobe falls off from the apex
   std::vector<Triangle> triangles_;
 };
 

@@ -1,4 +1,4 @@
-// Test support: random lights, points and materials of every kind that the ground truth must bear.
+// Test support: random lights, points and materials of every kind that the ground truth must handle.
 #pragma once
 
 #include <cmath>
@@ -24,13 +24,13 @@ inline Vec3d random_direction(Random& random) {
   return direction_at(z, std::sqrt(1 - z * z), random.uniform());
 }
 
-// Of a uniformly random height above the surface: grazing views are common.
+// A view of uniformly random height above the surface: grazing views are common.
 inline Vec3d random_view(Random& random, Vec3d normal) {
   const double z = 1 - random.uniform();
   return Frame::from_normal(normal).to_world(direction_at(z, std::sqrt(1 - z * z), random.uniform()));
 }
 
-// A star-shaped outline about (0, 0) in a frame: jagged where the radius varies, convex-ish where it does not.
+// A star-shaped outline about (0, 0) in a frame: jagged where the radius varies, nearly convex where it does not.
 inline std::vector<Vec3d> random_star(Random& random, const Frame& frame, Vec3d centre, double size, int vertices, double smallest_radius) {
   std::vector<Vec3d> outline;
   for (int i = 0; i < vertices; ++i) {
@@ -62,7 +62,7 @@ inline Configuration random_configuration(Random& random) {
   const double smallest = kind == 1 ? 0.2 : 0.8;
   c.light.vertices = random_star(random, frame, centre, size, vertices, smallest);
   if (kind == 2) {
-    // The apothem of a triangle of radius 0.8 may be near 0: the hole stays within what any such outline holds.
+    // The apothem of a triangle of radius 0.8 may be near 0: the hole stays within the part that any such outline contains.
     c.light.vertices = random_star(random, frame, centre, size, 8, 0.8);
     c.light.holes.push_back(random_star(random, frame, centre, 0.3 * size, 5, 0.3));
   }

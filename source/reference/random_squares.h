@@ -11,7 +11,7 @@
 
 namespace steradian::reference {
 
-// At distance 1 from the origin in all directions above -3 degrees, turned at random and tilted by at most 64 degrees.
+// A square at distance 1 from the origin in all directions above -3 degrees, turned at random and tilted by at most 64 degrees.
 inline PreparedPolygon random_square(Random& random, double side) {
   const double z = random.uniform(-0.05, 1), phi = random.uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
   const Vec3d centre = {r * std::cos(phi), r * std::sin(phi), z};
@@ -25,7 +25,7 @@ inline PreparedPolygon random_square(Random& random, double side) {
   return prepare_polygon(square);
 }
 
-// At the origin, normal z, the view so many degrees from it.
+// A point at the origin with normal z; the view is so many degrees from it.
 inline ShadingPoint seen_from(double degrees) {
   const double theta = degrees * std::numbers::pi / 180;
   return {{}, {0, 0, 1}, {std::sin(theta), 0, std::cos(theta)}};

@@ -31,9 +31,9 @@ struct Cell {
   friend bool operator<(const Cell& a, const Cell& b) { return a.error() < b.error(); }
 };
 
-// After QUADPACK's estimate: Kronrod's rule is better than its distance from Gauss's tells, the more so the smaller it is; but by the
-// power 5/4 of the distance where QUADPACK has 3/2, and ten times as large. In the tails of narrow lobes, and over sharp ones that a
-// near light fills, the power 3/2 is too small by up to 8 (one of 1,500 random configurations) or 20 (one of 4,000).
+// Error estimate after QUADPACK. Kronrod's rule is more exact than its distance from Gauss's tells, the more so the smaller it is. This one
+// uses the power 5/4 of the distance instead of QUADPACK's 3/2, times ten. In the tails of narrow lobes, and over sharp lobes that a near
+// light fills, the power 3/2 is too small. It is too small by up to 8 (one of 1,500 random configurations) or 20 (one of 4,000).
 //
 //   variation  integral of the distance from the mean
 double error_estimate(double difference, double variation) {
@@ -48,7 +48,7 @@ class Cubature {
   Cubature(const SphericalRegion& region, const Lobe& lobe)
       : lobe_(lobe), factors_(lobe.largest_factors()), fan_(region, lobe.shape()), region_(region) {}
 
-  // Until the bound is below the larger of the two; errors of the radiance for a light of radiance 1.
+  // Refines until the bound is below the larger of the two, which are errors of the radiance for a light of radiance 1.
   void run(double relative, double absolute, int max_evaluations) {
     for (std::size_t i = 0; i < fan_.triangles().size(); ++i) {
       const Fan::Triangle& t = fan_.triangles()[i];
@@ -61,7 +61,7 @@ class Cubature {
     resum();
     while (!heap_.empty() && evaluations_ < max_evaluations) {
       if (error_ <= std::max(absolute, relative * weighted(value_))) {
-        resum();  // running sums carry the rounding of all that was taken out of them
+        resum();  // running sums carry the rounding of all terms that were removed
         if (error_ <= std::max(absolute, relative * weighted(value_))) break;
       }
       split_worst();
@@ -72,9 +72,9 @@ class Cubature {
   LobeValue value() const { return value_; }
 
   double bound() const {
-    // Rounding: of the lobe's arithmetic in every term, and of the light's vertices along its outline.
+    // Adds rounding: that of the lobe's arithmetic in every term, and that of the light's vertices along its outline.
     const double ulp = std::numeric_limits<double>::epsilon();
-    // And what is below 0 was missed elsewhere.
+    // The part of a value below 0 was missed elsewhere.
     const double missed = std::max(-(value_.plain * factors_.plain), 0.0);
     return error_ + missed + ulp * (4 * (8 + lobe_.sensitivity()) * magnitude_ + 4 * region_.magnification * boundary_);
   }

@@ -48,7 +48,7 @@ TEST(Reference, AgreesWithExactLambertOnAThousandPolygons) {
     const ReferenceResult r = reference_radiance(light, c.at, Material{});
     const double error = std::fabs(r.radiance.x - exact);
     EXPECT_LE(error, 1e-9) << i << ": " << c.kind << ", exact " << exact << ", bound " << r.bound;
-    // The exact value carries roundings of its own, a few units of the last place of the vertices' directions.
+    // The exact value has rounding errors of its own, a few units of the last place of the vertices' directions.
     EXPECT_LE(error, r.bound + 1e-15) << i << ": " << c.kind << ", exact " << exact;
     lit += exact > 0;
     worst = std::max(worst, error);
@@ -58,7 +58,7 @@ TEST(Reference, AgreesWithExactLambertOnAThousandPolygons) {
 }
 
 TEST(Reference, BoundHoldsForEveryLobe) {
-  // Configuration 2099 of seed 12 among them: a ridge 500 times as long as wide, which no node of the first cells met.
+  // Configuration 2099 of seed 12 is among them: a ridge 500 times as long as wide, which all nodes of the first cells missed.
   Random random(12);
   int lit = 0, tried = 0;
   double worst = 0;
@@ -79,8 +79,8 @@ TEST(Reference, BoundHoldsForEveryLobe) {
   std::printf("%d of %d lit, largest error %.2f of the bound\n", lit, tried, worst);
 }
 
-// At the defaults, too: configuration 1581 of seed 77 is a sharp GGX lobe that a near light fills, off by twice of what QUADPACK's power
-// of the difference claimed.
+// The bound holds at the defaults, too. Configuration 1581 of seed 77 is a sharp GGX lobe that a near light fills; its error was twice the
+// claim by QUADPACK's power of the difference.
 TEST(Reference, BoundHoldsAtTheDefaults) {
   Random random(77);
   double worst = 0;
@@ -99,7 +99,7 @@ TEST(Reference, BoundHoldsAtTheDefaults) {
 
 namespace {
 
-// A square overhead, so large and so close that only 1e-4 of the hemisphere's directions pass it by.
+// A square overhead, so large and close that only 1e-4 of the hemisphere's directions miss it.
 PreparedPolygon ceiling() {
   PolygonLight light;
   light.vertices = {{-1e4, -1e4, 1}, {-1e4, 1e4, 1}, {1e4, 1e4, 1}, {1e4, -1e4, 1}};
@@ -117,12 +117,12 @@ Material of(Brdf brdf) {
 }  // namespace
 
 TEST(Reference, UnderASkyLobesHaveTheirKnownIntegrals) {
-  // What the ceiling leaves out are elevations below atan(1e-4 to 1.5e-4).
+  // The ceiling omits elevations below atan(1e-4 to 1.5e-4).
   const double gap = 1.5e-4;
   Material m = of(Brdf::phong);
   for (double n : {0.0, 1.0, 2.0, 50.0, 10'000.0}) {
     m.exponent = n;
-    // Seen from above, the lobe is about the normal, all of it above the horizon. The gap holds gap^(n + 1).
+    // Viewed from above, the lobe is about the normal, entirely above the horizon. The gap contains gap^(n + 1).
     const ReferenceResult r = reference_radiance(ceiling(), seen_at(1), m);
     EXPECT_NEAR(r.radiance.x, 1, std::pow(gap, n + 1) + r.bound) << n;
     // Exponent 1 about an axis at the angle t from the normal: the form factor of a half sky, (1 + cos t) / 2.
@@ -130,27 +130,27 @@ TEST(Reference, UnderASkyLobesHaveTheirKnownIntegrals) {
       EXPECT_NEAR(reference_radiance(ceiling(), seen_at(0.5), m).radiance.x, 0.5 * (1 + 0.5), 2 * gap);
     }
   }
-  // Blinn-Phong from above: half vectors up to 45 degrees, l.z = 2 h.z^2 - 1 > 0. With dl = 4 h.z dh the integral of
-  // D / 4 is (n+2)/(2 pi) 2 pi int h.z^(n+1) dh.z from sqrt(1/2) to 1 = 1 - 2^(-(n+2)/2).
+  // Blinn-Phong from above has half vectors up to 45 degrees, l.z = 2 h.z^2 - 1 > 0. With dl = 4 h.z dh the integral of D / 4 is (n+2)/(2
+  // pi) 2 pi int h.z^(n+1) dh.z from sqrt(1/2) to 1 = 1 - 2^(-(n+2)/2).
   m = of(Brdf::blinn_phong);
   for (double n : {0.0, 3.0, 10'000.0}) {
     m.exponent = n;
     EXPECT_NEAR(reference_radiance(ceiling(), seen_at(1), m).radiance.x, 1 - std::pow(2, -0.5 * (n + 2)), gap * (n + 2)) << n;
   }
-  // Beckmann from above: slopes up to 1. 1 - exp(-1/alpha^2).
+  // Beckmann from above has slopes up to 1: 1 - exp(-1/alpha^2).
   m = of(Brdf::beckmann);
   for (double alpha : {1e-4, 0.1, 1.0}) {
     m.alpha_x = m.alpha_y = alpha;
     EXPECT_NEAR(reference_radiance(ceiling(), seen_at(1), m).radiance.x, 1 - std::exp(-1 / (alpha * alpha)), 2 * gap) << alpha;
   }
-  // GGX without shadowing, the same: 1 / (1 + alpha^2).
+  // GGX without shadowing, likewise: 1 / (1 + alpha^2).
   m = of(Brdf::ggx);
   m.shadowing = false;
   for (double alpha : {1e-4, 0.1, 1.0}) {
     m.alpha_x = m.alpha_y = alpha;
     EXPECT_NEAR(reference_radiance(ceiling(), seen_at(1), m).radiance.x, 1 / (1 + alpha * alpha), 2 * gap) << alpha;
   }
-  // With shadowing: a sharp lobe reflects everything, a rough one never more, at any view.
+  // With shadowing, a sharp lobe reflects everything, and a rough one never more, at any view.
   m.shadowing = true;
   for (double vz : {1.0, 0.5, 0.05})
     for (double alpha : {1e-4, 0.1, 1.0}) {
@@ -158,7 +158,7 @@ TEST(Reference, UnderASkyLobesHaveTheirKnownIntegrals) {
       const double energy = reference_radiance(ceiling(), seen_at(vz), m).radiance.x;
       EXPECT_LE(energy, 1 + 1e-9);
       if (alpha == 1e-4) {
-        // The tail beyond a slope s, of which the horizon hides a part, holds (alpha / s)^2.
+        // The tail beyond a slope s, of which the horizon cuts off a part, contains (alpha / s)^2.
         EXPECT_NEAR(energy, 1, 4 * alpha / vz) << vz;
       }
     }
@@ -218,7 +218,7 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
   for (int i = 0; tested < 300; ++i) {
     const auto c = random_configuration(random);
     Material m = random_material(random);
-    // Where a handful of samples carries everything, their mean is not yet normally distributed.
+    // If a handful of samples carries everything, their mean is not yet normally distributed.
     m.alpha_x = std::max(m.alpha_x, 0.05);
     m.alpha_y = std::max(m.alpha_y, 0.05);
     m.exponent = std::min(m.exponent, 300.0);
@@ -227,8 +227,8 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
     if (!(exact > 1e-3)) continue;
     ++tested;
     const SampledResult s = sampled_radiance(light, c.at, m, {2000, static_cast<std::uint64_t>(i)});
-    // A lobe sample that hits a small light adds at most about exact / spp. Of fewer than 20 hits the number is Poisson's,
-    // not normal, and may be 0, when the standard error knows nothing of them: count with that of 20.
+    // A lobe sample that hits a small light adds at most about exact / spp. A number of hits below 20 is Poisson distributed, not normal.
+    // It may be 0, and then the standard error misses it: use that of 20.
     const double least = std::sqrt(20.0) / 2000 * exact;
     const double z = (largest(s.radiance) - exact) / std::max(s.standard_error, least);
     worst = std::max(worst, std::fabs(z));
@@ -236,11 +236,11 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
       squares += z * z;
       ++random_ones;
     }
-    // Sidak: 300 tests that fail together once in 1,000 have each a level of 3.3e-6: 4.65 standard errors.
+    // Sidak: 300 tests that together fail once in 1,000 times have a level of 3.3e-6 each: 4.65 standard errors.
     EXPECT_LE(std::fabs(z), 4.65) << i << ": " << describe(c, m) << ", exact " << exact << ", sampled " << largest(s.radiance) << " +- "
                                   << s.standard_error;
   }
-  // And the errors are not only small enough, they are as large as said: sum of squares of normals.
+  // The errors are also as large as claimed, not only small enough: a sum of squares of normals.
   const double p = reference::chi2_p_value(squares, random_ones);
   EXPECT_GT(random_ones, 100);
   EXPECT_GT(p, 1e-4) << squares;

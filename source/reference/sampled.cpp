@@ -48,7 +48,7 @@ SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const Sha
   SphericalRegion region;
   region.assign_above_horizon(light, at.position, frame);
   AzimuthSampler sampler;
-  // For Lambert the projected solid angle is the integrand. Phong has no foreshortening: even directions suit any lobe.
+  // For Lambert the projected solid angle is the integrand. Phong has no foreshortening: uniform directions suit any lobe.
   sampler.prepare(region, material.brdf == Brdf::lambert ? SphericalMeasure::projected_solid_angle : SphericalMeasure::solid_angle);
   if (!(sampler.measure() > 0)) return {};
 

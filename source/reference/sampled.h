@@ -1,4 +1,4 @@
-// Monte Carlo past occluders.
+// Monte Carlo integration with occluders.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace steradian::reference {
 
-// sees: whether a unit direction of the world meets the light unblocked.
+// sees: returns true if a unit direction of the world meets the light unblocked.
 SampledResult sampled_radiance_past(const std::function<bool(Vec3d)>& sees, const PreparedPolygon& light, const ShadingPoint& at,
                                     const Material& material, const SampledOptions& options);
 

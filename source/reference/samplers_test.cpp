@@ -1,4 +1,4 @@
-// Every sampler against its density (chi-square), and the densities against what they must integrate to.
+// Every sampler against its density (chi-square), and the densities against their known integrals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ const double kLevel = sidak_level(1e-3, kTests);
 
 Vec3d view_at(double z) { return direction_at(z, std::sqrt(1 - z * z), 0.13); }
 
-// Rings for a lobe of a width. A wide one jumps to 0 at the horizon: an edge between two rings is laid there.
+// Width of the rings for a lobe of a width. A wide lobe jumps to 0 at the horizon: an edge between two rings is placed there.
 double width_for(double lobe_width) { return lobe_width < 0.1 ? 2 * lobe_width : 0.5 * std::numbers::pi; }
 
 void expect_density_holds(const std::function<Vec3d(double, double)>& sample, const std::function<double(Vec3d)>& pdf,
@@ -40,7 +40,7 @@ TEST(Chi2, UpperGammaHasItsKnownValues) {
     EXPECT_NEAR(regularized_upper_gamma(0.5, x), std::erfc(std::sqrt(x)), 1e-14);
     EXPECT_NEAR(regularized_upper_gamma(3, x), std::exp(-x) * (1 + x + 0.5 * x * x), 1e-13);
   }
-  // Half a unit of freedom more: Q(a + 1, x) = Q(a, x) + x^a e^-x / Gamma(a + 1).
+  // Half a degree of freedom more: Q(a + 1, x) = Q(a, x) + x^a e^-x / Gamma(a + 1).
   for (double a : {40.5, 150.0})
     for (double x : {20.0, 41.0, 150.0, 180.0})
       EXPECT_NEAR(regularized_upper_gamma(a + 1, x), regularized_upper_gamma(a, x) + std::exp(a * std::log(x) - x - std::lgamma(a + 1)),
@@ -48,7 +48,7 @@ TEST(Chi2, UpperGammaHasItsKnownValues) {
 }
 
 TEST(Chi2, FindsAWrongDensity) {
-  // A cosine sampled, a slightly narrower lobe claimed.
+  // The samples follow a cosine, but the density is of a slightly narrower lobe.
   const auto r =
       chi2_test([](double u, double v) { return sample_cosine_hemisphere(u, v); }, [](Vec3d l) { return pdf_cosine_power(1.1, l.z); }, {});
   EXPECT_LT(r.p_value, kLevel) << r.evidence;
@@ -110,7 +110,7 @@ TEST(Samplers, PolygonsAreSampledEvenlyInBothMeasures) {
     AzimuthSampler sampler;
     const auto measure = tested % 2 == 0 ? SphericalMeasure::solid_angle : SphericalMeasure::projected_solid_angle;
     sampler.prepare(region, measure);
-    // Of lights that nearly touch the point only slivers may be left above the horizon, which cells cannot resolve.
+    // A light that nearly touches the point may have only slivers above the horizon, which cells cannot resolve.
     if (!(sampler.measure() > 0) || c.kind == "near") continue;
     ++tested;
     Chi2Options options;
@@ -135,16 +135,16 @@ TEST(Samplers, PolygonMeasuresAreTheClosedForms) {
     region.assign_above_horizon(light, c.at.position, Frame::from_normal(c.at.normal));
     sampler.prepare(region, SphericalMeasure::projected_solid_angle);
     const double irradiance = polygon_irradiance(light, c.at.position, c.at.normal);
-    // Some dozens of sums of angles of a unit size.
+    // The error is that of some dozens of sums of angles of unit size.
     EXPECT_NEAR(sampler.measure(), irradiance, 1e-13) << i << " " << c.kind;
     lit += irradiance > 0;
 
-    // Without a horizon, about the light's own normal: all of its solid angle.
+    // Without a horizon, about the light's own normal, the measure is its whole solid angle.
     const int side = light.side_of(c.at.position);
     region.assign(light, c.at.position, Frame::from_normal(light.normal * (side < 0 ? 1.0 : -1.0)), nullptr, 0);
     sampler.prepare(region, SphericalMeasure::solid_angle);
-    // A plane through nearly opposite directions is known to a rounding over their sine; the closed form draws planes
-    // through each arc and from the first vertex to all others.
+    // A plane through nearly opposite directions has an error of a rounding over their sine. The closed form has planes through each arc
+    // and from the first vertex to all others.
     double sine = 1;
     for (const Arc& arc : region.arcs) {
       const Vec3d first = side < 0 ? region.arcs[0].b : region.arcs[0].a;
@@ -171,7 +171,7 @@ TEST(Samplers, PolygonSamplesLieWithin) {
     }
   }
   EXPECT_GT(samples, 5000);
-  // Rounding moves a sample by 1e-16: out of a light of 1e-5 with a chance of 1e-11.
+  // Rounding moves a sample by 1e-16: the chance to leave a light of 1e-5 is 1e-11.
   EXPECT_EQ(outside, 0) << "of " << samples;
 }
 
@@ -185,7 +185,7 @@ TEST(Samplers, SphericalRectangleHoldsItsDensityAndSolidAngle) {
     PolygonLight light;
     light.vertices = {corner, corner + x, corner + x + y, corner + y};
     light.two_sided = true;
-    // Four inverse cosines near 0 or pi lose half of the digits of what they are given.
+    // Four inverse cosines near 0 or pi lose half of the digits of their arguments.
     EXPECT_NEAR(rectangle.solid_angle(), polygon_solid_angle(prepare_polygon(light), {}), 4 * 1.5e-8);
     Chi2Options options;
     options.samples = 30'000;

@@ -19,8 +19,8 @@ SphericalRectangle::SphericalRectangle(Vec3d corner, Vec3d edge_x, Vec3d edge_y)
   y1_ = y0_ + length(edge_y);
   if (!(z0_ < 0) || !(x1_ > x0_) || !(y1_ > y0_)) return;
 
-  // Normals of the four planes through the edges have one component along a side and one along z; the inner angles
-  // between neighbours come from the z's alone.
+  // The normals of the four planes through the edges have one component along a side and one along z. The inner angles between neighbours
+  // depend on the z components alone.
   const auto nz = [&](double side) { return side / std::hypot(z0_, side); };
   const double n0 = -nz(y0_), n1 = nz(x1_), n2 = nz(y1_), n3 = -nz(x0_);
   const auto angle = [](double a, double b) { return std::acos(std::clamp(-a * b, -1.0, 1.0)); };

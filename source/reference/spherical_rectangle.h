@@ -1,4 +1,4 @@
-// SphericalRectangle: directions within a rectangular light, even by solid angle.
+// SphericalRectangle: directions within a rectangular light, uniform by solid angle.
 // Source: Urena, Fajardo, King, "An area-preserving parametrization for spherical rectangles", 2013.
 #pragma once
 
@@ -8,12 +8,12 @@ namespace steradian::reference {
 
 class SphericalRectangle {
  public:
-  // A rectangle with a corner and two edges at right angles, relative to the point that sees it.
+  // A rectangle with a corner and two edges at right angles, relative to the viewing point.
   SphericalRectangle(Vec3d corner, Vec3d edge_x, Vec3d edge_y);
 
   double solid_angle() const { return solid_angle_; }
 
-  // A unit direction, for u, v in [0, 1); the zero vector for a rectangle seen from its plane.
+  // A unit direction, for u, v in [0, 1); the zero vector for a rectangle viewed from its plane.
   Vec3d sample(double u, double v) const;
   double pdf(Vec3d direction) const;
 

@@ -8,7 +8,7 @@
 namespace steradian::reference {
 namespace {
 
-// Sutherland, Hodgman, "Reentrant polygon clipping", 1974; on rays, so that no vertex need be in front of anything.
+// Sutherland, Hodgman, "Reentrant polygon clipping", 1974; on rays, so that vertices may also lie behind the point.
 void clip(const std::vector<Vec3d>& contour, Vec3d plane, std::vector<Vec3d>& result) {
   result.clear();
   for (std::size_t i = 0; i < contour.size(); ++i) {
@@ -18,7 +18,7 @@ void clip(const std::vector<Vec3d>& contour, Vec3d plane, std::vector<Vec3d>& re
     if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
       const double wp = std::fabs(dq), wq = std::fabs(dp);
       Vec3d x = (p * wp + q * wq) / (wp + wq);
-      x = x - plane * dot(x, plane);  // exactly on the plane: what follows relies on it not being below
+      x = x - plane * dot(x, plane);  // exactly on the plane: later code relies on it not being below
       result.push_back(x);
     }
     if (dq >= 0) result.push_back(q);
@@ -27,8 +27,8 @@ void clip(const std::vector<Vec3d>& contour, Vec3d plane, std::vector<Vec3d>& re
 
 using Edge = std::pair<Vec3d, Vec3d>;
 
-// The same for edges in no order that together close: a way along the plane from or to the first crossing makes up for what
-// each crossing cuts off; ways there and back cancel.
+// The same for edges in any order that together are closed. A segment along the plane from or to the first crossing replaces the part that
+// each crossing cuts off; segments there and back cancel.
 std::vector<Edge> clip(const std::vector<Edge>& edges, Vec3d plane) {
   std::vector<Edge> result;
   std::optional<Vec3d> anchor;
@@ -51,7 +51,7 @@ std::vector<Edge> clip(const std::vector<Edge>& edges, Vec3d plane) {
 
 void add_arc(Vec3d p, Vec3d q, std::vector<Arc>& arcs) {
   const Vec3d a = normalized(p), b = normalized(q);
-  // Of the difference: a x b would cancel for a tiny light.
+  // The cross product uses the difference: a x b would cancel for a tiny light.
   const Vec3d n = cross(a, (q - p) / std::max(length(q), 1e-300));
   const double sine = length(n);
   if (sine > 0) arcs.push_back({a, b, n / sine, std::atan2(sine, dot(a, b))});

@@ -1,4 +1,4 @@
-// Compiled where STERADIAN_VULKAN is OFF: there are no devices.
+// Compiled if STERADIAN_VULKAN is OFF: there are no devices.
 #include "render/vulkan/back_end.h"
 #include "render/vulkan/device.h"
 #include "steradian/error.h"

@@ -11,7 +11,7 @@ struct Affine {
   Vec3d vector(Vec3d v) const { return x * v.x + y * v.y + z * v.z; }
   Vec3d point(Vec3d p) const { return vector(p) + t; }
   double determinant() const { return dot(cross(x, y), z); }
-  // Normals: the cofactors, which are the inverse transpose times the determinant, with its sign taken out.
+  // Transforms a normal by the cofactors. They are the inverse transpose times the determinant, with the determinant's sign taken out.
   Vec3d normal(Vec3d n) const {
     const Vec3d v = cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z;
     return normalized(determinant() < 0 ? -v : v);

@@ -22,8 +22,8 @@ struct KeyHash {
   }
 };
 
-// The cell of a grid of a millionth (2^-20) of the extent. Equal corners but for rounding share one, unless they lie on the
-// border of two: then their mesh counts as open, as before.
+// A grid whose cells are a millionth (2^-20) of the extent. Corners that are equal up to rounding share a cell, unless they lie on the
+// border of two. Then their mesh counts as open.
 struct Grid {
   Vec3d low;
   double cell = 1;
@@ -47,7 +47,7 @@ struct Grid {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// A number for every distinct position.
+// Numbers every distinct position.
 std::vector<Corners> number_corners(const std::vector<Triangle>& triangles, std::size_t& count) {
   std::unordered_map<Key, std::uint32_t, KeyHash> numbers;
   const Grid grid(triangles);
@@ -65,7 +65,7 @@ std::vector<Corners> number_corners(const std::vector<Triangle>& triangles, std:
 
 bool degenerate(const Corners& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
 
-// Sets of connected corners, by a forest that grows flat.
+// Sets of connected corners: a union-find forest whose paths are shortened.
 class Connected {
  public:
   explicit Connected(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -98,7 +98,7 @@ void measure(MeshPart& part, const std::vector<Triangle>& triangles) {
   const double inf = std::numeric_limits<double>::infinity();
   part.low = {inf, inf, inf};
   part.high = {-inf, -inf, -inf};
-  const Vec3d origin = triangles[part.triangles.front()][0];  // of a part far from the world's origin, nothing cancels
+  const Vec3d origin = triangles[part.triangles.front()][0];  // avoids cancellation for a part far from the world's origin
   for (const std::size_t t : part.triangles) {
     const Triangle& p = triangles[t];
     part.volume += dot(p[0] - origin, cross(p[1] - origin, p[2] - origin)) / 6;

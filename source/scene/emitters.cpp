@@ -12,7 +12,7 @@
 namespace steradian::scene {
 namespace {
 
-// Samples per triangle side of a mean over a texture: at most this, whatever the texture's size.
+// The most samples per triangle side for the mean over a texture, whatever the texture's size.
 constexpr int kMostSamples = 64;
 
 struct UvMap {
@@ -49,7 +49,7 @@ UvMap uv_map(const Mesh& mesh, int set, std::size_t t) {
   return map;
 }
 
-// Whether the texture map of `map` holds at the corners of triangle t, to a thousandth of the texture.
+// True if the texture map `map` also holds at the corners of triangle t, to a thousandth of the texture.
 bool continues(const UvMap& map, const Mesh& mesh, int set, std::size_t t) {
   const Triangle p = world_triangle(mesh, t);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -69,7 +69,7 @@ int samples_per_side(const Image& image, const TextureUse& use, Vec2f a, Vec2f b
   return static_cast<int>(std::clamp(std::ceil(texels), 1.0f, static_cast<float>(kMostSamples)));
 }
 
-// Mean texel of a triangle: centroids of n^2 equal small triangles.
+// The mean texel of a triangle, sampled at the centroids of n^2 equal small triangles.
 Vec3d mean_texel(const Scene& scene, const TextureUse& use, Vec2f a, Vec2f b, Vec2f c) {
   const int n = samples_per_side(scene.images[static_cast<std::size_t>(use.image)], use, a, b, c);
   Vec3d sum{};
@@ -101,10 +101,10 @@ Vec3d mean_radiance(const Scene& scene, const Mesh& mesh, const SurfaceMaterial&
   return total > 0 ? factor * (sum / total) : Vec3d{};
 }
 
-// At worst every triangle becomes a light, and each is averaged over as many texels as it covers.
+// In the worst case every triangle becomes a light, and each is averaged over as many texels as it covers.
 void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial& m, Budget& budget, const std::string& path) {
   const std::string place = path + ": the emissive mesh \"" + mesh.name + "\"";
-  constexpr std::uint64_t kWelding = 400;  // bytes that merging keeps of a triangle
+  constexpr std::uint64_t kWelding = 400;  // bytes that merging holds per triangle
   budget.take_memory(place, "the lights of its emissive triangles", mesh.triangle_count() * (sizeof(AreaLight) + kWelding));
   if (!m.emissive_texture.present()) return;
   constexpr std::uint64_t kStepsPerSample = 50;
@@ -119,7 +119,7 @@ void take_for_lights(const Scene& scene, const Mesh& mesh, const SurfaceMaterial
   budget.take_work(place, "the means of its emissive texture", kStepsPerSample * samples);
 }
 
-// An outline that stands for an ellipse becomes a disk light: exact, with one edge.
+// An outline that matches an ellipse becomes a disk light, which is exact and has one edge.
 void become_disk(AreaLight& light) {
   const auto& polygon = std::get<Polygon>(light.shape);
   if (light.texture || !polygon.holes.empty()) return;
@@ -162,7 +162,7 @@ struct Bounds {
   bool any() const { return low.x <= high.x; }
 };
 
-// Of each mesh, the bounds of all others, in one pass from either end.
+// For each mesh, the bounds of all other meshes, computed in one pass from either end.
 std::vector<Bounds> bounds_of_the_others(const Scene& scene) {
   std::vector<Bounds> result(scene.meshes.size());
   const auto pass = [&](auto begin, auto end, auto out) {
@@ -180,14 +180,14 @@ std::vector<Bounds> bounds_of_the_others(const Scene& scene) {
   return result;
 }
 
-// A dome that lights what it encloses.
+// True if the part is a dome around all other meshes, which it lights.
 bool encloses(const MeshPart& part, const Bounds& others) {
   const Vec3d a = others.low - part.low, b = part.high - others.high;
   return others.any() && a.x > 0 && a.y > 0 && a.z > 0 && b.x > 0 && b.y > 0 && b.z > 0;
 }
 
-// Where a mesh's emission goes. Files say `doubleSided` of nearly everything; of a closed surface, that would let its far
-// half shine through the near one, so it shines outwards. Not a dome around the scene: from within, both sides are right.
+// The side on which a mesh emits. Files set `doubleSided` on nearly everything. On a closed surface the far half would then shine through
+// the near one, so closed surfaces emit outwards. A dome around the scene is an exception: from inside, both sides are right.
 enum class Shines { as_the_file_says, outwards, outwards_and_faces_inwards };
 
 Shines where_it_shines(const SurfaceMaterial& m, const MeshPart& part, const Bounds& others) {
@@ -215,7 +215,7 @@ std::optional<Shape> fit_round(const std::vector<Triangle>& triangles, const Mes
   return {};
 }
 
-// A light for every part, where each of them stands for an ellipsoid or a tube that shines outwards; else none.
+// One light per part if every part matches an ellipsoid or a tube that emits outwards; otherwise no lights.
 std::vector<AreaLight> as_round_lights(const Scene& scene, const Mesh& mesh, const std::vector<Triangle>& triangles,
                                        const std::vector<MeshPart>& parts, const std::vector<Shines>& shines) {
   std::vector<AreaLight> lights;
@@ -229,7 +229,7 @@ std::vector<AreaLight> as_round_lights(const Scene& scene, const Mesh& mesh, con
   return lights;
 }
 
-// The polygons that a mesh's triangles merge to, as lights.
+// Adds the polygons that a mesh's triangles merge to as lights.
 std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& triangles, const std::vector<MeshPart>& parts,
                          const std::vector<Shines>& shines) {
   const TextureUse& texture = scene.materials[static_cast<std::size_t>(mesh.material)].emissive_texture;

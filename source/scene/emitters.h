@@ -1,4 +1,4 @@
-// Emissive meshes to lights.
+// Converts emissive meshes to lights.
 #pragma once
 
 #include "core/budget.h"
@@ -6,9 +6,9 @@
 
 namespace steradian::scene {
 
-// Appends a light for every ball, tube or else flat patch of every mesh whose material emits, and sets Mesh::triangle_lights.
-// Returns how many triangles were left out for having no area. Throws Error where that would
-// exceed the budget; path: of the file, for its message.
+// Appends one light for every ball, tube or flat patch of every mesh whose material emits, and sets Mesh::triangle_lights. Returns the
+// number of triangles skipped because they have no area. Throws Error where the lights would exceed the budget. path: the file's path, for
+// the message.
 std::size_t add_emitters(Scene& scene, Budget& budget, const std::string& path);
 
 }  // namespace steradian::scene

@@ -16,12 +16,12 @@
 namespace steradian::scene::emitters_test {
 namespace {
 
-// A ball of segments and rings as modelling programs make them, under an affine map.
+// A ball of segments and rings as modelling programs build it, under an affine map.
 Mesh ball(int segments, int rings, Vec3d x, Vec3d y, Vec3d z, Vec3d center) {
   Mesh mesh;
   const auto corner = [&](int ring, int segment) {
     const double theta = std::numbers::pi * ring / rings,
-                 phi = 2 * std::numbers::pi * segment / segments;  // at poles and seam equal but for rounding
+                 phi = 2 * std::numbers::pi * segment / segments;  // at poles and seam equal up to rounding
     const double s = std::sin(theta), c = std::cos(theta);
     mesh.positions.push_back(static_cast<Vec3f>(center + x * (s * std::cos(phi)) + y * (s * std::sin(phi)) + z * c));
     return static_cast<std::uint32_t>(mesh.positions.size() - 1);
@@ -35,7 +35,7 @@ Mesh ball(int segments, int rings, Vec3d x, Vec3d y, Vec3d z, Vec3d center) {
   return mesh;
 }
 
-// A tube of segments, with rings at either end, about the y axis; flat: without the rings.
+// A tube of segments about the y axis, with rings at either end. flat: without the rings.
 Mesh tube(int segments, int rings, double radius, double half_length, bool flat) {
   Mesh mesh;
   struct Row {
@@ -61,7 +61,7 @@ Mesh tube(int segments, int rings, double radius, double half_length, bool flat)
   return mesh;
 }
 
-// A file of one emissive mesh, turned and moved by its node.
+// A file with one emissive mesh, rotated and moved by its node.
 GltfTestFile file_of(const Mesh& mesh, const Affine& world) {
   GltfTestFile f;
   std::vector<float> positions;
@@ -116,7 +116,7 @@ Scene emitting(Mesh mesh, bool double_sided) {
   return scene;
 }
 
-// Irradiance of polygons of the scene at a point, over the radiance.
+// Irradiance of the scene's polygons at a point, divided by the radiance.
 double irradiance(const Scene& scene, Vec3d position, Vec3d normal) {
   double sum = 0;
   for (const AreaLight& light : scene.area_lights) sum += polygon_irradiance(prepare_polygon(flat_polygon(light)), position, normal);
@@ -152,8 +152,8 @@ TEST(Emitters, ATubeInAFileIsOneCapsuleThatSendsWhatItsMeshDoes) {
     EXPECT_NEAR(light.power, 4 * std::numbers::pi * capsule.radius * (capsule.radius + 0.75), 1e-6 * light.power);
     EXPECT_FALSE(loaded.scene.meshes[0].casts_shadow);
 
-    // A fine mesh lies between the coarse one's inner and outer radius, as does the capsule: their outlines' widths differ by less than
-    // these do. Of the balls' rings, cosines of half a step both ways.
+    // A fine mesh lies between the coarse mesh's inner and outer radius, as does the capsule. So the widths of their outlines differ by
+    // less than these radii do. The ratio of the radii comes from cosines of half a step, around the tube and along the rings of its ends.
     const double between = 1 / (std::cos(std::numbers::pi / kSegments) * std::cos(std::numbers::pi / 32)) - 1;
     const Mesh mesh = tube(256, 64, radius, 0.75, false);
     for (const Vec3d position : {Vec3d{0, 0, 0}, Vec3d{2.5, 1.8, -1.1}, Vec3d{0.9, 2.6, -0.4}}) {
@@ -182,7 +182,7 @@ TEST(Emitters, ACylinderWithFlatEndsIsItsFacesAndTwoDisks) {
 
 TEST(Emitters, ARoundBoxIsNoTube) {
   Mesh mesh = tube(32, 8, 0.2, 0.75, false);
-  for (Vec3f& p : mesh.positions) p.x *= 1.001f;  // an ellipse across
+  for (Vec3f& p : mesh.positions) p.x *= 1.001f;  // an elliptical cross-section
   EXPECT_GT(emitting(mesh, true).area_lights.size(), 1u);
 }
 
@@ -194,7 +194,7 @@ TEST(Emitters, ACubeIsNoBall) {
 
 TEST(Emitters, AClosedMeshShinesOutwardsWhateverItsFlagAndWinding) {
   const Vec3d point{0, 3, 0}, down{0, -1, 0};
-  // Of the front alone: a square of side 2, two units away.
+  // Expected irradiance of the front side alone: a square of side 2, two units away.
   Scene front;
   front.area_lights.emplace_back();
   front.area_lights[0].shape = Polygon{{{-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}}, {}};
@@ -222,7 +222,7 @@ TEST(Emitters, AnOpenMeshAndADomeShineAsTheFileSays) {
   scene.meshes[1].material = 1;
   add_all_emitters(scene);
   ASSERT_EQ(scene.area_lights.size(), 6u);
-  EXPECT_GT(irradiance(scene, {0, 2, 0}, {0, 1, 0}), 3.14);  // from within a dome: pi
+  EXPECT_GT(irradiance(scene, {0, 2, 0}, {0, 1, 0}), 3.14);  // from inside a dome: pi
 }
 
 TEST(Emitters, ARoundFlatPatchIsADisk) {
@@ -241,7 +241,7 @@ TEST(Emitters, ARoundFlatPatchIsADisk) {
     if (corners != 32) continue;
     const auto& disk = std::get<Ellipse>(light.shape);
     const double area = std::numbers::pi * length(cross(disk.x, disk.y));
-    EXPECT_NEAR(area, 16 * std::sin(2 * std::numbers::pi / 32) * 0.125, 1e-6);  // of the mesh
+    EXPECT_NEAR(area, 16 * std::sin(2 * std::numbers::pi / 32) * 0.125, 1e-6);  // the area of the mesh
     EXPECT_GT(cross(disk.x, disk.y).y * (dot(Vec3d{0, 1, 0}, prepare_polygon(flat_polygon(light)).normal)), 0);
   }
 }
@@ -254,7 +254,7 @@ TEST(Framing, OnlyEmissiveTexturesLeaveRoomForTheDefaultLight) {
   EXPECT_FALSE(wants_light(scene, outside));  // placed by its author, however weak
   for (AreaLight& light : scene.area_lights) light.texture.emplace();
   EXPECT_TRUE(wants_light(scene, outside));
-  Mesh room = box({-9, -9, -9}, {9, 9, 9});  // that it lights: a lamp, then
+  Mesh room = box({-9, -9, -9}, {9, 9, 9});  // it lights this room, so it is a lamp
   turn(room);
   scene.meshes.push_back(room);
   Camera inside;
@@ -272,7 +272,7 @@ TEST(Framing, OnlyEmissiveTexturesLeaveRoomForTheDefaultLight) {
 }
 
 TEST(Framing, LabelsBehindWhatTheCameraSeesAreNoLight) {
-  // As bright as can be, and as large as the ball; it lights the ball's rim.
+  // The light is very bright and as large as the ball; it lights the ball's rim.
   Scene scene = emitting(quad_mesh({-4, -1, 0}, {-2, -1, 0}, {-2, 1, 0}, {-4, 1, 0}, 0), false);
   scene.area_lights[0].texture.emplace();
   scene.materials.push_back({});

@@ -11,10 +11,10 @@
 namespace steradian {
 namespace {
 
-// Largest value of a map: the sun's disc has 2e9 nits.
+// The largest value of a map. The sun's disc has 2e9 nits.
 constexpr float kMostRadiance = 1e12f;
 
-// What other programs leave in maps becomes a radiance; returns how often.
+// Replaces the invalid values that other programs write into maps by valid radiances; returns the number of replacements.
 std::size_t repair(Picture& map) {
   float largest = 0;
   const auto each = [&](auto use) {
@@ -35,8 +35,8 @@ std::size_t repair(Picture& map) {
 
 double smooth_share(double x) { return std::clamp(x, 0.0, 1.0); }
 
-// Luminance of the clear sky relative to some constant; cosines of the angles from the zenith, and of the sun from it.
-// Source: Kittler, Perez, Darula, "A set of standard skies", 1998; CIE S 011 type 12.
+// Relative luminance of the clear sky. The arguments are the cosines of the angles from the zenith and from the sun. Source: Kittler,
+// Perez, Darula, "A set of standard skies", 1998; CIE S 011 type 12.
 double clear_sky_luminance(double cos_zenith, double cos_from_sun) {
   constexpr double a = -1, b = -0.32, c = 10, d = -3, e = 0.45;
   const double gradation = 1 + a * std::exp(b / std::max(cos_zenith, 0.01));
@@ -44,7 +44,7 @@ double clear_sky_luminance(double cos_zenith, double cos_from_sun) {
   return gradation * (1 + c * (std::exp(d * angle) - std::exp(d * std::numbers::pi / 2)) + e * cos_from_sun * cos_from_sun);
 }
 
-// Luminance 1; whiter towards the horizon. The hues are a choice, not a measurement.
+// Sky colour of luminance 1, whiter towards the horizon. The hues are a choice, not a measurement.
 Vec3d sky_colour(double cos_zenith) {
   const Vec3d zenith{0.30, 0.55, 1.15}, horizon{0.80, 0.92, 1.10};
   const double t = std::pow(1 - smooth_share(cos_zenith), 3.0);
@@ -101,7 +101,7 @@ Environment white_environment() {
 Environment clear_sky() {
   Environment sky{"sky", Picture(512, 256), {}, 0};
   const Vec3d sun = normalized(Vec3d{-0.4, 0.8, 0.6});
-  // A clear sky gives the ground about a sixth of what the sun does, and --light sun gives it pi.
+  // A clear sky gives the ground about a sixth of the sun's irradiance, and --light sun gives the ground pi.
   constexpr double kIrradiance = std::numbers::pi / 6, kGroundAlbedo = 0.2;
   double irradiance = 0;
   const auto texel = [&](int i, int j) { return direction_of({(i + 0.5) / sky.map.width, (j + 0.5) / sky.map.height}); };

@@ -47,7 +47,7 @@ TEST(Environment, RepairsWhatIsNoRadiance) {
   EXPECT_THROW(load_environment("map.txt"), Error);
 }
 
-// A sixth of the default sun's illuminance, and a ground of albedo 0.2 below.
+// The sky gives a sixth of the default sun's illuminance, and the ground below has albedo 0.2.
 TEST(Environment, TheClearSkyLightsTheGroundAsStated) {
   const Picture& sky = clear_sky().map;
   double irradiance = 0;
@@ -59,13 +59,13 @@ TEST(Environment, TheClearSkyLightsTheGroundAsStated) {
     }
   EXPECT_NEAR(irradiance, std::numbers::pi / 6, 1e-3);
   EXPECT_NEAR(sky.at(0, sky.height - 1).y, irradiance * 0.2 / std::numbers::pi, 1e-4);
-  // Bluer overhead than at the horizon, brighter towards the sun.
+  // The sky is bluer overhead than at the horizon, and brighter towards the sun.
   const Vec3f zenith = radiance_from(sky, {0, 1, 0}), sun = radiance_from(sky, normalized(Vec3d{-0.4, 0.8, 0.6}));
   EXPECT_GT(zenith.z, 2 * zenith.x);
   EXPECT_GT(sun.y, 2 * zenith.y);
 }
 
-// Coefficients of a constant and of a linear radiance, whose irradiances are pi and 2 pi / 3 times it.
+// Coefficients of a constant and of a linear radiance. Their irradiances are pi and 2 pi / 3 times the radiance.
 TEST(Environment, IrradianceByCoefficientsTurnsWithItsAxes) {
   IrradianceCoefficients c{};
   const double k0 = std::sqrt(1 / (4 * std::numbers::pi)), k1 = std::sqrt(3 / (4 * std::numbers::pi));

@@ -1,4 +1,4 @@
-// What decides a stranger's first picture: the camera, the lights' units, the environment that a file brings, the order of refusals.
+// A new user's first picture: the camera, the units of lights, the environment that a file brings, and the order of error messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ GltfTestFile with_punctual(const std::string& generator) {
 
 double intensity(const LoadedScene& loaded) { return loaded.scene.punctual_lights.at(0).intensity.x; }
 
-// A PNG of one colour; four channels: what a glTF environment takes for RGBD.
+// A PNG of one colour with four channels: glTF environments read it as RGBD.
 std::string png_of(int side, std::uint8_t value) {
   Picture picture(side, side);
   for (Vec3f& p : picture.pixels) p.x = p.y = p.z = srgb_decode(static_cast<float>(value) / 255.0f);
@@ -112,7 +112,7 @@ TEST(FirstPicture, ReadsTheEnvironmentOfAFile) {
   const Environment& e = *loaded.scene.environment;
   EXPECT_EQ(e.name, "studio");
   EXPECT_TRUE(loaded.scene.area_lights.empty()) << "no default light beside it";
-  // encode_png has a tone curve: what counts is that the faces keep their order.
+  // encode_png applies a tone curve, so the test only checks that the faces keep their order.
   const float bright = radiance_from(e.map, {1, 0, 0}).x, dark = radiance_from(e.map, {-1, 0, 0}).x;
   EXPECT_GT(bright, 5 * dark);
   EXPECT_GT(dark, 0);

@@ -11,18 +11,18 @@
 namespace steradian::scene {
 namespace {
 
-// What a mesh that is symmetric about an axis says of that axis, whatever its triangles.
+// Measures of a mesh that is symmetric about an axis. They give the axis whatever the triangulation.
 struct Surface {
   double area = 0;
-  Vec3d center;  // of the area
-  Vec3d axis;    // in which fewest faces look
+  Vec3d center;  // centroid of the area
+  Vec3d axis;    // the direction that the fewest faces point to
 };
 
 Vec3d twice_area(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
 Surface measure(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part) {
   Surface s;
-  const Vec3d origin = triangles[part.front()][0];  // of a part far from the world's origin, nothing cancels
+  const Vec3d origin = triangles[part.front()][0];  // avoids cancellation for a part far from the world's origin
   SymmetricMatrix faces(3);
   for (const std::size_t index : part) {
     const Triangle& t = triangles[index];
@@ -39,13 +39,13 @@ Surface measure(const std::vector<Triangle>& triangles, const std::vector<std::s
   return s;
 }
 
-// How far single precision lets a corner be from where it should be.
+// The largest distance of a corner from its exact place in single precision.
 double rounding(Vec3d v) { return 1e-7 * (std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z)); }
 
 }  // namespace
 
 std::optional<Capsule> fit_capsule(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part) {
-  if (part.size() < 64) return {};  // no mesh of fewer faces comes as near as kNearestFace
+  if (part.size() < 64) return {};  // no mesh with fewer faces comes as near as kNearestFace
   const Surface s = measure(triangles, part);
   double radius = 0, reach = 0;
   for (const std::size_t index : part)
@@ -62,15 +62,15 @@ std::optional<Capsule> fit_capsule(const std::vector<Triangle>& triangles, const
     const Triangle& t = triangles[index];
     for (const Vec3d& v : t)
       if (!(std::fabs(distance_to_axis(around, v) - radius) <= kOnShape * radius + rounding(v))) return {};
-    // The plane of a face against those that touch the axis's ends.
+    // Compares the plane of a face with the planes that touch the ends of the axis.
     const Vec3d n = normalized(twice_area(t));
     const double plane = std::fabs(dot(t[0] - s.center, n)) - half * std::fabs(dot(n, s.axis));
     if (length(n) > 0 && !(plane >= kNearestFace * radius - rounding(t[0]))) return {};
   }
   const double share = s.area / (4 * std::numbers::pi * radius * (radius + half));
-  if (!(share > 0.9 && share < 1.0001)) return {};  // walked once around, not twice
+  if (!(share > 0.9 && share < 1.0001)) return {};  // covered once, not twice
 
-  // 4 pi r (r + half) = area.
+  // Solves 4 pi r (r + half) = area.
   const double of_area = s.area / std::numbers::pi / (2 * (half + std::sqrt(half * half + s.area / std::numbers::pi)));
   return Capsule{around.end_a, around.end_b, of_area};
 }

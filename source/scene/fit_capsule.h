@@ -1,4 +1,4 @@
-// Recognises closed meshes that stand for tubes with round ends.
+// Recognises closed meshes that approximate tubes with round ends.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace steradian::scene {
 
-// The capsule of the area of a closed mesh that stands for one: by the tolerances of fit_ellipsoid.h, both shares of the
-// radius, and the rounding of single precision. None for any other mesh, a ball and a cylinder with flat ends among them.
+// The capsule of equal area, if the closed mesh approximates one. The tolerances are those of fit_ellipsoid.h, both as fractions of the
+// radius, and the rounding of single precision. None for any other mesh, including balls and cylinders with flat ends.
 std::optional<Capsule> fit_capsule(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part);
 
 }  // namespace steradian::scene

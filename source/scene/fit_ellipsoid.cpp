@@ -11,7 +11,7 @@
 namespace steradian::scene {
 namespace {
 
-// Points about their mean, in units of their spread, so that the fit is well conditioned wherever they lie.
+// Points relative to their mean, in units of their spread, so that the fit is well conditioned wherever they lie.
 struct Normalised {
   Vec3d center;
   double scale = 1;
@@ -27,14 +27,14 @@ Normalised normalise(const std::vector<Vec3d>& points) {
   return n;
 }
 
-// The center of the quadric x'Qx + 2 q.x = 1, its axes and its level there.
+// The centre of the quadric x'Qx + 2 q.x = 1, its axes and its level at the centre.
 struct Center {
   std::vector<double> at;
   double level = 0;
   EigenSystem axes;
 };
 
-// None where the quadric is no ellipse or ellipsoid.
+// None if the quadric is no ellipse or ellipsoid.
 std::optional<Center> center_of(const SymmetricMatrix& q, const std::vector<double>& linear) {
   Center c;
   c.at = solve(q, linear);
@@ -50,7 +50,7 @@ std::optional<Center> center_of(const SymmetricMatrix& q, const std::vector<doub
 
 double triangle_area(const Triangle& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }
 
-// The area of triangles on the unit sphere over that of the sphere.
+// The area of triangles on the unit sphere, divided by the area of the sphere.
 double ball_area_share(const std::vector<Triangle>& unit_triangles) {
   double area = 0;
   for (const Triangle& t : unit_triangles) area += triangle_area(t);
@@ -60,14 +60,14 @@ double ball_area_share(const std::vector<Triangle>& unit_triangles) {
 }  // namespace
 
 std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part) {
-  if (part.size() < 64) return {};  // no mesh of fewer faces comes as near as kNearestFace
+  if (part.size() < 64) return {};  // no mesh with fewer faces comes as near as kNearestFace
   std::vector<Vec3d> points;
   for (const std::size_t t : part)
     for (const Vec3d& v : triangles[t]) points.push_back(v);
   const Normalised local = normalise(points);
   if (!(local.scale > 0) || !std::isfinite(local.scale)) return {};
 
-  // Least squares of x'Qx + 2 q.x = 1 over the corners.
+  // Least squares fit of x'Qx + 2 q.x = 1 to the corners.
   SymmetricMatrix normal(9);
   std::vector<double> right(9, 0.0), row;
   for (const Vec3d& p : points) {
@@ -82,7 +82,7 @@ std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, c
   const std::optional<Center> center = center_of(q, {c[6], c[7], c[8]});
   if (!center) return {};
 
-  // Half axes; to_unit takes a corner to the unit sphere.
+  // Half axes. to_unit maps a corner to the unit sphere.
   const Vec3d at = {center->at[0], center->at[1], center->at[2]};
   Vec3d axis[3];
   double half[3];
@@ -105,7 +105,7 @@ std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, c
     unit_triangles.push_back(u);
   }
   const double share = ball_area_share(unit_triangles);
-  if (!(share > 0.9 && share < 1.0001)) return {};  // walked once around, not twice
+  if (!(share > 0.9 && share < 1.0001)) return {};  // covered once, not twice
 
   const double size = local.scale * std::sqrt(share);
   if (dot(axis[0], cross(axis[1], axis[2])) < 0) axis[2] = -axis[2];
@@ -113,7 +113,7 @@ std::optional<Ellipsoid> fit_ellipsoid(const std::vector<Triangle>& triangles, c
 }
 
 std::optional<Ellipse> fit_ellipse(const std::vector<Vec3d>& outline) {
-  if (outline.size() < 16) return {};  // as above
+  if (outline.size() < 16) return {};  // see above
   const Normalised local = normalise(outline);
   if (!(local.scale > 0) || !std::isfinite(local.scale)) return {};
   Vec3d area{};

@@ -16,7 +16,7 @@ struct Sphere {
 
 Sphere bounding_sphere(const Scene& scene) {
   const double radius = length(scene.bounds_max - scene.bounds_min) / 2;
-  // A scene of one point or of nothing is still looked at from a distance.
+  // The camera keeps a distance even from a scene of one point or an empty one.
   return {(scene.bounds_min + scene.bounds_max) * 0.5, radius > 0 ? radius : 1};
 }
 
@@ -43,8 +43,8 @@ Camera framing_camera(const Scene& scene, double aspect) {
   camera.y = cross(camera.z, camera.x);
   const double up = std::tan(camera.yfov / 2) / kMargin, across = up * aspect;
 
-  // A point at (x, y, z) of the camera's axes is in the picture where +-y < up (d - z) and +-x < across (d - z), d the camera's z. Each of
-  // the four sides asks for a d once the camera is in the middle of the two opposite ones.
+  // A point at (x, y, z) in the camera's axes is in the picture where +-y < up (d - z) and +-x < across (d - z). Here d is the camera's z.
+  // Each pair of opposite sides demands a d once the camera is in the middle between them.
   double right = -INFINITY, left = -INFINITY, top = -INFINITY, bottom = -INFINITY, nearest = -INFINITY;
   const bool only_lights = std::all_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) { return mesh.is_light_shape; });
   for (const Mesh& mesh : scene.meshes) {
@@ -64,7 +64,7 @@ Camera framing_camera(const Scene& scene, double aspect) {
     camera.position = sphere.center + camera.z * (kMargin * sphere.radius / std::sin(camera.yfov / 2));
     return camera;
   }
-  // A point, or a line of sight, is still looked at from a distance.
+  // The camera keeps a distance even from a point, or from a line along the view.
   const double d = std::max({(right + left) / (2 * across), (top + bottom) / (2 * up), nearest + 0.05 * sphere.radius});
   camera.position = camera.x * ((right - left) / 2) + camera.y * ((top - bottom) / 2) + camera.z * d;
   return camera;
@@ -74,8 +74,8 @@ namespace {
 
 const Vec3d kTowardsKey = {-0.4, 0.8, 0.6};
 
-// A square that looks at the scene's centre from three radii away, a radius half wide. Irradiance [radiance 1 is pi] there,
-// where a surface faces it: radiance (2 r)^2 / (3 r)^2.
+// A square that faces the scene's centre from three radii away, with a half side of one radius. The irradiance there [radiance 1 is pi] on
+// a surface that faces the square: radiance (2 r)^2 / (3 r)^2.
 AreaLight square_light(const Scene& scene, const char* name, Vec3d towards, double irradiance) {
   const Sphere sphere = bounding_sphere(scene);
   const double r = sphere.radius;
@@ -102,7 +102,7 @@ struct SurfacePoint {
   Vec3d position, normal;
 };
 
-// Points spread evenly over the triangles that face the camera and do not shine.
+// Points spread evenly over the triangles that face the camera and do not emit.
 std::vector<SurfacePoint> points_in_view(const Scene& scene, const Camera& camera, int count) {
   struct Piece {
     Vec3d corner, e1, e2, normal;
@@ -124,7 +124,8 @@ std::vector<SurfacePoint> points_in_view(const Scene& scene, const Camera& camer
   for (const Piece& piece : pieces) {
     before += piece.area;
     while (static_cast<int>(points.size()) < count && (static_cast<double>(points.size()) + 0.5) * total < before * count) {
-      // Even over the unit square, and folded into the triangle. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+      // Points that are even over the unit square, folded into the triangle. Roberts, "The unreasonable effectiveness of quasirandom
+      // sequences", 2018.
       const auto i = static_cast<double>(points.size() + 1);
       double u = 0.7548776662466927 * i, v = 0.5698402909980532 * i;
       u -= std::floor(u);
@@ -136,9 +137,9 @@ std::vector<SurfacePoint> points_in_view(const Scene& scene, const Camera& camer
   return points;
 }
 
-// Luminance of what the scene's flat lights send, without shadows, to half or more of what the camera may see.
+// The median luminance, without shadows, that the scene's flat lights send to the surfaces in view: half of them get at least as much.
 double median_irradiance(const Scene& scene, const Camera& camera) {
-  constexpr std::size_t kMostEdges = 1'000'000;  // to walk, some fifty milliseconds' worth
+  constexpr std::size_t kMostEdges = 1'000'000;  // edges to integrate, some fifty milliseconds' worth
   struct Light {
     PreparedPolygon polygon;
     double luminance;

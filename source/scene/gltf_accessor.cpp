@@ -9,7 +9,7 @@ namespace steradian::scene {
 namespace {
 
 constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53;
-// An accessor without a bufferView is all zeros and costs the file nothing: bound what it may claim.
+// An accessor without a bufferView is all zeros and costs the file nothing, so the count that it may claim is bounded.
 constexpr std::size_t kMaxZeros = std::size_t{1} << 24;
 
 enum Component { kByte = 5120, kUnsignedByte, kShort, kUnsignedShort, kUnsignedInt = 5125, kFloat };
@@ -57,7 +57,7 @@ int component_type(const JsonCursor& owner) {
   return component;
 }
 
-// The elements of `count` claims in a bufferView, after checking that the view holds them all.
+// Returns `count` elements of a bufferView, after checking that the view holds them all.
 Elements checked_elements(const GltfDocument& document, const JsonCursor& owner, std::size_t count, std::size_t element_bytes,
                           bool strided) {
   const int view = owner.at("bufferView").as_index(document.count("bufferViews"), "bufferView");

@@ -1,5 +1,4 @@
-// Reads glTF accessors: typed arrays with strides, normalised integers and sparse replacements, all bounds
-// checked.
+// Reads glTF accessors: typed arrays with strides, normalised integers and sparse replacements, all bounds checked.
 #pragma once
 
 #include <string_view>
@@ -14,19 +13,18 @@ struct FloatArray {
   std::vector<float> values;  // count times components; all finite
 };
 
-// How many elements an accessor claims, after the claim was found to be covered by its bytes.
+// The element count of an accessor, after checking that its bytes cover the count.
 std::size_t checked_count(const GltfDocument& document, int accessor);
 
-// types: the allowed "type"s separated by spaces ("VEC3 VEC4"). Integers are taken as numbers, normalised
-// ones as [0, 1] or [-1, 1]. A value that is not finite is an Error where `finite` says so, else it becomes
-// 0.
+// types: the allowed "type"s separated by spaces ("VEC3 VEC4"). Integers are read as numbers, normalised ones as [0, 1] or [-1, 1]. A value
+// that is not finite is an Error if `finite` says so; otherwise it becomes 0.
 enum class NotFinite { refuse, zero };
 FloatArray read_floats(const GltfDocument& document, int accessor, std::string_view types, NotFinite finite = NotFinite::refuse);
 
-// The first `most` elements only, or all where there are fewer.
+// Reads the first `most` elements only, or all if there are fewer.
 FloatArray read_first_floats(const GltfDocument& document, int accessor, std::string_view types, std::size_t most);
 
-// Scalars (or, with types "VEC4", joints): unsigned integers only.
+// Reads scalars (or, with types "VEC4", joints): unsigned integers only.
 std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int accessor, std::string_view types);
 
 }  // namespace steradian::scene

@@ -12,7 +12,7 @@ using Between = AnimationChannel::Between;
 
 constexpr const char* kPointer = "KHR_animation_pointer";
 
-// A pointer that cannot be parsed or names nothing is the file's error; glTF's defaults need not be written out.
+// A pointer that cannot be parsed or names nothing is an error of the file. Defaults of glTF need not be written in the file.
 void check_pointer(const AnimationChannel& channel, const Json& json, const JsonCursor& target) {
   try {
     const Json::json_pointer at(channel.pointer);
@@ -59,7 +59,7 @@ void read_sampler(const GltfDocument& document, const JsonCursor& sampler, Anima
   channel.number = values.components == 1 && channel.width == 1;
 }
 
-// Empty: of a node that the file does not name, or of a path that is not known.
+// The JSON pointer of a channel's target. Empty for a channel without a node and for an unknown path.
 std::string pointer_of(const GltfDocument& document, const JsonCursor& target) {
   const std::string path = target.at("path").as_text();
   if (path == "pointer") {
@@ -86,7 +86,7 @@ GltfAnimation read_animation(const GltfDocument& document, const Json& json, con
     const JsonCursor target = element.at("target");
     AnimationChannel channel;
     channel.pointer = pointer_of(document, target);
-    if (channel.pointer.empty()) continue;  // as glTF asks: an extension may mean something by it
+    if (channel.pointer.empty()) continue;  // ignored, as glTF demands: an extension may give it a meaning
     const int sampler = element.at("sampler").as_index(samplers.size(), "sampler");
     read_sampler(document, samplers[static_cast<std::size_t>(sampler)], channel);
     check_pointer(channel, json, target);
@@ -107,12 +107,12 @@ void normalize(std::vector<double>& q) {
   for (double& x : q) x = norm > 0 ? x / std::sqrt(norm) : (&x == &q.back() ? 1.0 : 0.0);
 }
 
-// Shoemake, "Animating rotation with quaternion curves", 1985: along the shorter arc.
+// Interpolates along the shorter arc. Shoemake, "Animating rotation with quaternion curves", 1985.
 std::vector<double> slerp(const double* a, const double* b, double s) {
   double cosine = 0;
   for (int i = 0; i < 4; ++i) cosine += a[i] * b[i];
   const double sign = cosine < 0 ? -1 : 1, angle = std::acos(std::min(std::fabs(cosine), 1.0));
-  // Nearly the same: the chord is the arc.
+  // For nearly equal rotations the chord replaces the arc.
   const double wa = angle < 1e-6 ? 1 - s : std::sin((1 - s) * angle) / std::sin(angle);
   const double wb = angle < 1e-6 ? s : std::sin(s * angle) / std::sin(angle);
   std::vector<double> q(4);
@@ -121,7 +121,7 @@ std::vector<double> slerp(const double* a, const double* b, double s) {
   return q;
 }
 
-// glTF 2.0, appendix C.5: a Hermite spline, tangents in units a second.
+// Hermite spline of glTF 2.0, appendix C.5, with tangents in units per second.
 std::vector<double> hermite(const AnimationChannel& c, std::size_t key, double s, double step) {
   const double s2 = s * s, s3 = s2 * s;
   std::vector<double> result(c.width);

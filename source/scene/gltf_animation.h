@@ -1,5 +1,5 @@
-// Animations of a glTF file: what changes of it with time. A moment is the file with the values of that moment in the places that they
-// animate, so that whatever reads the file reads the moment.
+// Animations of a glTF file. A moment is the file with the animated values replaced by their values at that time. So whatever reads the
+// file can read the moment.
 #pragma once
 
 #include <string>
@@ -14,27 +14,27 @@ struct AnimationChannel {
 
   std::string pointer;  // the value's place in the file: "/nodes/3/translation"
   Between between = Between::linear;
-  bool rotation = false;       // a unit quaternion: along the arc
+  bool rotation = false;       // a unit quaternion, interpolated along the arc
   bool number = false;         // a number, not a list
   std::vector<double> times;   // rising [s]
-  std::size_t width = 0;       // numbers of a value
-  std::vector<double> values;  // by time; of cubic: tangent before, value, tangent after
+  std::size_t width = 0;       // numbers per value
+  std::vector<double> values;  // one value per time; for cubic: tangent before, value, tangent after
 };
 
 struct GltfAnimation {
   std::string name;
-  double duration = 0;  // of its last key [s]
+  double duration = 0;  // time of the last key [s]
   std::vector<AnimationChannel> channels;
 };
 
-// Of nodes (translation, rotation, scale, weights) and, by KHR_animation_pointer, of any number or list of numbers that the file has:
-// cameras, lights, materials. Throws Error with the place in the file for what is broken.
+// Reads the animations of nodes (translation, rotation, scale, weights). By KHR_animation_pointer they also animate any number or list of
+// numbers in the file: cameras, lights, materials. Throws Error with the place in the file for broken animations.
 std::vector<GltfAnimation> read_animations(const GltfFile& file, const Limits& limits = {});
 
-// The value of a channel, before its first key that of the first, after its last that of the last.
+// The value of a channel. Times before the first key give the first value, times after the last key the last value.
 std::vector<double> value_at(const AnimationChannel& channel, double seconds);
 
-// The file at a moment.
+// The file's JSON at a moment.
 Json json_at(const Json& json, const GltfAnimation& animation, double seconds);
 
 }  // namespace steradian::scene

@@ -33,7 +33,7 @@ TEST(Animation, HoldsItsEndsAndIsLinearBetween) {
   EXPECT_EQ(value_at(step, 1), (std::vector<double>{7}));
 }
 
-// A cubic of its own is its own spline: values and tangents of t^3 - 2 t at its keys give it back between them.
+// A cubic polynomial is its own spline: values and tangents of t^3 - 2 t at the keys reproduce it between them.
 TEST(Animation, CubicSplinesReproduceCubics) {
   const auto f = [](double t) { return t * t * t - 2 * t; };
   const auto d = [](double t) { return 3 * t * t - 2; };
@@ -95,9 +95,9 @@ TEST(Animation, MovesNodesLightsAndMaterialsOfAFile) {
   EXPECT_EQ(s.area_lights[1].radiance, (Vec3d{0.75, 0.75, 1}));
 }
 
-// Numbers by hand. A joint that has turned by 60 degrees about z carries the vertex (1, 0, 0) that it holds with three quarters of its
-// weight, beside one that stands: to 1/4 (1, 0, 0) + 3/4 (cos 60, sin 60, 0). A target of weight 1/4 adds a quarter of its shift. A camera
-// between two places and two fields of view; lights of KHR_lights_punctual by pointers, one of them into an array.
+// Expected values computed by hand. A joint rotated by 60 degrees about z holds the vertex (1, 0, 0) with three quarters of its weight,
+// beside a joint at rest. The vertex moves to 1/4 (1, 0, 0) + 3/4 (cos 60, sin 60, 0). A target of weight 1/4 adds a quarter of its shift.
+// A camera lies between two places and two fields of view. Lights of KHR_lights_punctual move by pointers, one of them into an array.
 TEST(Animation, MovesSkinsWeightsCamerasAndLights) {
   GltfTestFile f;
   const int positions = f.add_floats({1, 0, 0, 2, 0, 0, 1, 1, 0}, "VEC3"), target = f.add_floats({0, 0, 4, 0, 0, 0, 0, 0, 0}, "VEC3");
@@ -127,7 +127,7 @@ TEST(Animation, MovesSkinsWeightsCamerasAndLights) {
     return nlohmann::json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", text}}}}}};
   };
   a["samplers"] = a["channels"] = nlohmann::json::array();
-  const auto s60 = static_cast<float>(std::sin(std::acos(-1.0) / 3)), c60 = 0.5f;  // half of 120 degrees, which are there at the end
+  const auto s60 = static_cast<float>(std::sin(std::acos(-1.0) / 3)), c60 = 0.5f;  // half of the 120 degrees at the end
   animate({0, 0, 0, 1, 0, 0, s60, c60}, "VEC4", {{"node", 2}, {"path", "rotation"}});
   animate({0, 0.5f}, "SCALAR", {{"node", 0}, {"path", "weights"}});
   animate({0, 0, 5, 0, 2, 7}, "VEC3", {{"node", 3}, {"path", "translation"}});

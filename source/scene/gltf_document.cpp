@@ -10,15 +10,15 @@
 namespace steradian::scene {
 namespace {
 
-// Deeper nesting than any real file has; parsers and destructors of nested values may recurse.
+// The nesting limit, deeper than any real file. Parsers and destructors of nested values may recurse.
 constexpr int kMaxDepth = 200;
 
 std::uint32_t little_endian_32(const std::uint8_t* p) {
   return std::uint32_t{p[0]} | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 | std::uint32_t{p[3]} << 24;
 }
 
-// What the parsed text will take, counted by its punctuation: a value has 16 bytes in an array that grows by doubling, an
-// array or object a block on the heap, a member of an object a tree's node with its key.
+// Memory that the parsed text will take, estimated by its punctuation. A value takes 16 bytes in an array that grows by doubling. An array
+// or object takes a block on the heap. A member of an object takes a tree node with its key.
 struct JsonCost {
   std::uint64_t values = 0, containers = 0, members = 0, characters = 0;
   std::uint64_t bytes() const { return 32 * values + 64 * containers + 128 * members + characters; }
@@ -52,7 +52,8 @@ JsonCost judge_json(std::string_view text, const std::string& path) {
   return cost;
 }
 
-// Of the memory that a file may take, the share of its JSON: what it describes is larger in any file that means something.
+// The JSON may take this fraction (one in kJsonShare) of the memory that a file may take. In any meaningful file the described data is
+// larger.
 constexpr std::uint64_t kJsonShare = 8;
 
 nlohmann::json parse_json(std::string_view text, const std::string& path, Budget& budget) {
@@ -66,10 +67,10 @@ nlohmann::json parse_json(std::string_view text, const std::string& path, Budget
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception& e) {
-    // The library's message says line and column after its own prefix "[json.exception...] ".
+    // The library's message gives line and column after its prefix "[json.exception...] ".
     std::string what = e.what();
     if (const auto end = what.find("] "); end != std::string::npos) what = what.substr(end + 2);
-    // It may quote bytes of a binary file: keep what prints.
+    // The message may quote bytes of a binary file, so only printable characters stay.
     for (char& c : what)
       if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) c = '?';
     throw Error(path, "not valid JSON: " + what, "is this a glTF file?");
@@ -246,7 +247,7 @@ GltfDocument checked(nlohmann::json json, std::optional<std::span<const std::uin
   check_version(root);
   for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes",
                             "samplers", "scenes", "skins", "textures"})
-    for (const JsonCursor& element : root.elements(array)) element.text("name", "");  // objects, names strings
+    for (const JsonCursor& element : root.elements(array)) element.text("name", "");  // must be objects with string names
   check_required_extensions(root);
   read_buffers(document, binary);
   return document;

@@ -1,5 +1,5 @@
-// GltfDocument: a .gltf or .glb file taken apart: its JSON and the bytes of its buffers. Every size is
-// checked against the bytes that are there before anything is allocated for it.
+// GltfDocument: a parsed .gltf or .glb file: its JSON and the bytes of its buffers. Every size is checked against the bytes that are there
+// before anything is allocated for it.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace steradian::scene {
 
-// Where a document's bytes are, apart from the file itself: files beside it, each read once however often it is named,
-// and decoded texts; and what is left for all that the document makes.
+// The bytes of a document outside the file itself: external files, each read once however often it is named, and decoded texts. Also the
+// remaining budget for everything that the document allocates.
 struct GltfSources {
   Budget& budget;
   std::map<std::string, Bytes> files{};
@@ -36,25 +36,24 @@ struct GltfDocument {
   Budget& budget() const { return sources->budget; }
 
   JsonCursor root() const { return {json, path}; }
-  std::size_t count(const char* array) const;  // of a top-level array
+  std::size_t count(const char* array) const;  // size of a top-level array
   JsonCursor object(const char* array, int index) const;
 };
 
-// The two parts of a file: its JSON, and a .glb's binary chunk where it has one.
+// The two parts of a file: its JSON, and a .glb's binary chunk if it has one.
 struct GltfContainer {
   std::string_view json;
   std::optional<std::span<const std::uint8_t>> binary;
 };
 GltfContainer gltf_container(std::span<const std::uint8_t> file, const std::string& path);
 
-// path: for messages, and the place that other files are relative to.
-// The document points into `file`, which must outlive it.
+// path: the path for messages, to which the paths of other files are relative. The document points into `file`, which must outlive it.
 GltfDocument read_gltf(std::span<const std::uint8_t> file, const std::string& path, Budget& budget);
 
 // The bytes of a bufferView.
 std::span<const std::uint8_t> view_bytes(const GltfDocument& document, int buffer_view);
 
-// The bytes behind a "uri": a data URI or a file beside the document. They live as long as the document.
+// The bytes of a "uri": a data URI or a file beside the document. They live as long as the document.
 std::span<const std::uint8_t> read_uri(const GltfDocument& document, const JsonCursor& uri);
 
 }  // namespace steradian::scene

@@ -24,7 +24,7 @@ Turn read_rotation(const JsonCursor& light) {
   return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
 }
 
-// A face of the cube and the place on it, from 0 to 1, as one sees it from inside: right to the right, up upwards.
+// A face of the cube and the place on it, from 0 to 1, as viewed from inside: x to the right, y upwards.
 struct FacePlace {
   std::size_t face;
   double u, v;
@@ -39,7 +39,7 @@ FacePlace face_place(Vec3d d) {
   return d.z > 0 ? at(4, -d.x, d.y, z) : at(5, d.x, d.y, z);
 }
 
-// RGBD: colours over alpha. Pictures without alpha have 1 there.
+// Decodes RGBD: the colours divided by alpha. Pictures without alpha have alpha 1.
 Vec3d texel(const Image& image, int i, int j) {
   const std::uint8_t* p =
       image.rgba.data() + 4 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(i));
@@ -70,7 +70,7 @@ std::array<const Image*, kFaces> read_faces(const JsonCursor& light, GltfTexture
   std::array<const Image*, kFaces> images;
   for (std::size_t i = 0; i < kFaces; ++i) {
     if (loaded[i] < 0) faces[i].fail("is a picture of a format that is not read", "save it as PNG or JPEG");
-    images[i] = &textures.images()[static_cast<std::size_t>(loaded[i])];  // only now: loading one may move the others
+    images[i] = &textures.images()[static_cast<std::size_t>(loaded[i])];  // only now: loading an image may move the others
     if (images[i]->width != images[i]->height || images[i]->width != images[0]->width)
       faces[i].fail("the faces of a cube are squares of one size");
   }

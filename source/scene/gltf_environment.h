@@ -1,4 +1,4 @@
-// EXT_lights_image_based: the environment that a glTF scene brings.
+// EXT_lights_image_based: the environment of a glTF scene.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace steradian::scene {
 
-// Null where the scene has none. Of the file's maps the sharpest alone is read, and made equirectangular; the irradiance is the file's.
+// Null if the scene has none. Only the sharpest of the file's maps is read, and converted to equirectangular. The irradiance is the file's.
 std::shared_ptr<const Environment> read_image_based_light(const GltfDocument& document, GltfTextures& textures);
 
 }  // namespace steradian::scene

@@ -1,4 +1,4 @@
-// What a glTF file says about its extensions, before anything else of it is read.
+// Facts that a glTF file states about its extensions. They are read before everything else.
 #pragma once
 
 #include "scene/json_cursor.h"
@@ -10,7 +10,7 @@ namespace steradian::scene {
 // Throws Error for an extension that the file requires and that is not supported.
 void check_required_extensions(const JsonCursor& root);
 
-// The file's own words; what it uses and is not supported goes to the warnings.
+// Facts as the file states them. Extensions that it uses and that are not supported go to the warnings.
 FileFacts read_file_facts(const JsonCursor& root, Warnings& warnings);
 
 }  // namespace steradian::scene

@@ -15,7 +15,7 @@ void append_32(std::string& bytes, std::size_t n) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(x >> shift & 0xFF);
 }
 
-// A chunk is padded to four bytes: JSON with spaces, binary data with zeros.
+// Appends a chunk padded to four bytes: JSON with spaces, binary data with zeros.
 void append_chunk(std::string& bytes, std::string_view type, std::string_view data, char padding) {
   const std::size_t padded = (data.size() + 3) / 4 * 4;
   append_32(bytes, padded);
@@ -24,7 +24,7 @@ void append_chunk(std::string& bytes, std::string_view type, std::string_view da
   bytes.append(padded - data.size(), padding);
 }
 
-// The objects of a document that may name a file.
+// Calls `use` for the objects of a document that may name a file.
 template <class Use>
 void for_each_uri(Json& json, Use use) {
   const auto each = [&](Json& array) {
@@ -38,7 +38,7 @@ void for_each_uri(Json& json, Use use) {
   if (json.contains(profiles)) each(json[profiles]);
 }
 
-// As a URI is written: what is neither a letter, a digit nor a mark of paths, in hexadecimal digits.
+// Encodes a text for a URI: characters other than letters, digits and path marks become hexadecimal digits.
 std::string percent_encoded(const std::string& text) {
   constexpr const char* kHex = "0123456789ABCDEF";
   std::string result;

@@ -1,4 +1,4 @@
-// GltfFile: a .gltf or .glb file as it stands, to be changed and written again: what a change does not touch keeps its place and its value.
+// GltfFile: a .gltf or .glb file that can be changed and written again. Parts that a change does not touch keep their place and value.
 #pragma once
 
 #include <memory>
@@ -16,30 +16,30 @@ namespace steradian::scene {
 using Json = nlohmann::ordered_json;
 
 struct GltfFile {
-  std::string path;  // that it was read from: other files are relative to it
+  std::string path;  // path it was read from; other files are relative to it
   Json json;
   std::shared_ptr<const Bytes> binary;  // a .glb's second chunk; null: none. Copies of a file share it
 };
 
-// Throws Error as load_scene does, for what is no glTF file and for other files that are not there.
+// Throws Error as load_scene does, for files that are not glTF and for missing external files.
 GltfFile read_gltf_file(const std::string& path, const Limits& limits = {});
 
-// The same for the bytes of such a file. path: for messages, and the place that other files are relative to.
+// The same for the bytes of such a file. path: the path for messages, to which the paths of other files are relative.
 GltfFile gltf_file_from_memory(std::string_view bytes, const std::string& path, const Limits& limits = {});
 
-// As read_gltf makes it of the file's bytes, without writing them out first. It points into file.binary.
+// The document that read_gltf would make of the file's bytes, without writing them out first. It points into file.binary.
 GltfDocument document_of(const GltfFile& file, Budget& budget);
 
-// As steradian::load_scene of the file's bytes.
+// Equals steradian::load_scene of the file's bytes.
 LoadedScene load_scene(const GltfFile& file, const LoadOptions& options = {});
 
-// As load_scene_from_memory takes it, with file.path for the files beside it.
+// The bytes that load_scene_from_memory takes, with file.path for external files.
 std::string glb_bytes(const GltfFile& file);
 
-// As data URIs have it.
+// Base64 text as in data URIs.
 std::string base64(const Bytes& bytes);
 
-// By the name's ending: a .gltf holds the binary chunk as text. Names of other files are changed to be relative to the new place.
+// Chooses the format by the name's ending: a .gltf holds the binary chunk as text. Names of other files are made relative to the new place.
 void write_gltf_file(const GltfFile& file, const std::string& path);
 
 }  // namespace steradian::scene

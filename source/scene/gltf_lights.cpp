@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostIntensity = 1e30;
-// What the light's shape takes as a mesh of its own: an ellipsoid's rows, or a tube's, with its material.
+// Memory [bytes] of the largest mesh that shows a light: an ellipsoid's or a tube's rows, with the material.
 constexpr std::uint64_t kLargestLightMesh = 200'000;
 
-// Of an area light whose file says none, as the draft of EXT_lights_area has it [nits]; of a punctual one, 1.
+// Default intensity of area lights, from the draft of EXT_lights_area [nits]. The default of punctual lights is 1.
 constexpr double kNitsByDefault = 1000;
 
 Vec3d read_color(const JsonCursor& light) {
@@ -54,29 +54,30 @@ void for_each_light(const GltfDocument& document, const GltfNodes& nodes, const 
   }
 }
 
-// What a flat light takes of its node's transform, as the draft says: place, rotation, and one scale, the largest in size of the node's
-// three in the world. Where a parent's uneven scale shears, z and then x keep their directions. A visible node is flat nowhere.
+// The part of its node's transform that a flat light uses, as the draft demands: place, rotation, and one scale. The scale is the largest
+// in size of the node's three in the world. If a parent's unequal scale shears the node, z and then x keep their directions. No scale of a
+// visible node is zero.
 Affine evenly_scaled(const Affine& world) {
   const double scale = std::max({length(world.x), length(world.y), length(world.z)});
   const Vec3d z = normalized(world.z), x = normalized(world.x - z * dot(z, world.x));
   return {x * scale, cross(z, x) * scale, z * scale, world.t};
 }
 
-// Half axes of a flat light in the node's plane z = 0, x cross y along the node's -z after the transform.
+// Half axes of a flat light in the node's plane z = 0. After the transform x cross y points along the node's -z.
 Ellipse flat_axes(const Affine& world, double half_x, double half_y) {
   Ellipse e{world.t, world.x * -half_x, world.y * half_y};
   if (dot(cross(e.x, e.y), world.z) > 0) e.x = -e.x;
   return e;
 }
 
-// Knud Thomsen's formula, within 1.1 % of an ellipsoid's surface: good enough to rank lights by.
+// Knud Thomsen's formula, within 1.1 % of an ellipsoid's surface. That is accurate enough to rank lights.
 double ellipsoid_area(Vec3d x, Vec3d y, Vec3d z) {
   constexpr double p = 1.6075;
   const double a = std::pow(length(x), p), b = std::pow(length(y), p), c = std::pow(length(z), p);
   return 4 * std::numbers::pi * std::pow((a * b + a * c + b * c) / 3, 1 / p);
 }
 
-// "extras": {"steradian": ...}: what the draft has no word for (docs/lights.md, "EXT_lights_area").
+// Reads "extras": {"steradian": ...}, for properties that the draft does not have (docs/lights.md, "EXT_lights_area").
 std::optional<JsonCursor> extra_of_ours(const JsonCursor& light) {
   const auto extras = light.find("extras");
   if (!extras || !extras->value().is_object()) return {};
@@ -85,7 +86,7 @@ std::optional<JsonCursor> extra_of_ours(const JsonCursor& light) {
   return ours;
 }
 
-// "scale": "axes" has a flat light take all of its node's transform.
+// With "scale": "axes" a flat light uses all of its node's transform.
 Affine transform_of(const std::optional<JsonCursor>& ours, const Affine& world) {
   if (!ours || !ours->has("scale")) return evenly_scaled(world);
   const std::string scale = ours->at("scale").as_text();
@@ -119,7 +120,7 @@ AreaLight read_area_light(const JsonCursor& json, const JsonCursor& node, const 
     light.shape = e;
     area = ellipsoid_area(e.x, e.y, e.z);
   } else if (type == "capsule") {
-    // Along the node's x. Across it the tube stays round: with the geometric mean of the node's two scales there.
+    // The tube lies along the node's x. Its cross-section stays round: its scale is the geometric mean of the node's two other scales.
     const auto capsule = json.has("capsule") || !ours ? json.find("capsule") : ours->find("capsule");
     const double between = capsule ? capsule->number("length", 1, 0, 1e30) : 1;
     const Vec3d half_axis = world.x * (between / 2);
@@ -182,7 +183,7 @@ Mesh mesh_of(const Ellipsoid& ellipsoid) {
   return mesh;
 }
 
-// Two half balls and the wall between them.
+// Two hemispheres and the wall between them.
 Mesh mesh_of(const Capsule& capsule) {
   constexpr std::uint32_t kAround = 64, kRows = 34;  // two of the rows are the wall's rims
   const Vec3d axis = capsule.end_b - capsule.end_a;
@@ -223,7 +224,7 @@ std::shared_ptr<const LightProfile> read_profile(const GltfDocument& document, c
 
 constexpr const char* kProfiles = "EXT_lights_ies";
 
-// Each file of the extension is read once.
+// Reads each file of the extension once.
 class Profiles {
  public:
   explicit Profiles(const GltfDocument& document) : document_(document) {}
@@ -234,7 +235,7 @@ class Profiles {
     return profile;
   }
 
-  // Has the light shine by the profile that its extra names, if it does: candela times color and the extra's multiplier.
+  // Sets the profile that the light's extra names, if it names one: candela times color and the extra's multiplier.
   void give_to(AreaLight& light, const JsonCursor& json, const Affine& world) {
     const auto ours = extra_of_ours(json);
     if (!ours || !ours->has("profile")) return;
@@ -277,7 +278,8 @@ std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& 
     if (light.power > 0 && !(ours && !ours->flag("seen", true))) {
       Mesh mesh = mesh_of_light(light);
       for (const Vec3f& p : mesh.positions) check_reach(node, static_cast<Vec3d>(p), "the light");
-      // In front of what it lies on to the last bit, a ceiling; and still behind the face that lift_off_lights leaves of it.
+      // Lifts the mesh in front of a surface at exactly the same place, such as a ceiling. The mesh stays below the points that
+      // lift_off_lights lifts off the light.
       const float lift = light.two_sided ? 0 : 0.5f * roundings_of_plane(light);
       for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] += mesh.normals[i] * lift;
       mesh.material = static_cast<int>(scene.materials.size());
@@ -293,7 +295,7 @@ std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& 
 
 namespace {
 
-// Lights that a profile describes: candela times the node's multiplier and colour, aimed along its -z.
+// Adds the lights that a profile describes: candela times the node's multiplier and colour, aimed along the node's -z.
 void add_profile_lights(const GltfDocument& document, const GltfNodes& nodes, std::vector<PunctualLight>& lights) {
   Profiles profiles(document);
   for_each_light(document, nodes, kProfiles, [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {

@@ -6,11 +6,11 @@
 
 namespace steradian::scene {
 
-// Appends the area lights of the visible nodes, and for each the mesh and the material by which the camera
-// sees it. The nodes of these meshes, in order.
+// Appends the area lights of the visible nodes, and for each light the mesh and the material that make it visible to the camera. Returns
+// the nodes of these meshes, in order.
 std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& nodes, Scene& scene);
 
-// Of both extensions.
+// The punctual lights of KHR_lights_punctual and EXT_lights_ies.
 std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, const GltfNodes& nodes);
 
 // The triangles of a light's shape: a fan for flat ones, 64 x 32 quadrilaterals for an ellipsoid, 64 x 33 for a capsule.

@@ -1,4 +1,4 @@
-// EXT_lights_area as its draft says, and the extras of ours (docs/lights.md).
+// EXT_lights_area as its draft defines it, and the extras of this project (docs/lights.md).
 #include <cmath>
 #include <numbers>
 
@@ -41,7 +41,7 @@ TEST(AreaLightsOfFiles, ReadsRectLightsThatShineAlongMinusZ) {
     expect_near(p.centroid, {0, 0, 9}, 1e-12);
     expect_near(light.radiance, {10, 5, 0}, 1e-12);
     EXPECT_NEAR(light.power, 6 * (0.2126 * 10 + 0.7152 * 5), 1e-12);
-    // The camera sees it as a mesh of its own, facing the same way.
+    // The camera sees the light as a separate mesh that faces the same way.
     ASSERT_EQ(loaded.scene.meshes.size(), 2u);
     const Mesh& mesh = loaded.scene.meshes[1];
     EXPECT_TRUE(mesh.is_light_shape && mesh.is_emitter());
@@ -51,7 +51,7 @@ TEST(AreaLightsOfFiles, ReadsRectLightsThatShineAlongMinusZ) {
   }
 }
 
-// A light flush with a ceiling is seen, not noise: its face is before the ceiling's for every ray of a camera below it.
+// A light flush with a ceiling is visible without noise: for every ray of a camera below, its face lies in front of the ceiling.
 TEST(AreaLightsOfFiles, LightsThatLieOnASurfaceAreSeen) {
   for (const char* type : {"rect", "disk"})
     for (const double height : {0.3, 2.7, 131.7}) {
@@ -90,7 +90,7 @@ TEST(AreaLightsOfFiles, ReadsCapsulesAlongX) {
   EXPECT_NEAR(capsule.radius, 0.2, 1e-12) << "0.1 times the geometric mean of 4 and 1";
   const double area = 2 * std::numbers::pi * 0.2 * 6 + 4 * std::numbers::pi * 0.04;
   EXPECT_NEAR(light.power, 2 * area, 1e-12);
-  // Facing outwards, each triangle: 64 x 33 quadrilaterals inscribed lose (pi / 64)^2 * 2/3 of the area at most.
+  // Every triangle faces outwards. An inscribed mesh of 64 x 33 quadrilaterals loses at most (pi / 64)^2 * 2/3 of the area.
   EXPECT_NEAR(signed_area(loaded.scene.meshes[1]) / area, 1, 0.002);
   EXPECT_LT(signed_area(loaded.scene.meshes[1]), area);
 
@@ -115,14 +115,14 @@ TEST(AreaLightsOfFiles, ShineByTheDraftsDefaults) {
   const AreaLight disk = light_of({{"type", "disk"}, {"intensity", 0.5}}, json::object());
   expect_near(disk.radiance, {0.5, 0.5, 0.5}, 0);
   EXPECT_NEAR(length(std::get<Ellipse>(disk.shape).x), 0.5, 1e-15) << "size is the diameter";
-  // Of points and spots, KHR_lights_punctual says 1.
+  // KHR_lights_punctual defines the default 1 for points and spots.
   GltfTestFile f = GltfTestFile::square();
   f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   f.append("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   expect_near(load(f).scene.punctual_lights.at(0).intensity, {1, 1, 1}, 0);
 }
 
-// Size times the largest of the node's scales, whatever their signs; the aspect stays.
+// The size is multiplied by the largest of the node's scales, whatever their signs. The aspect stays.
 TEST(AreaLightsOfFiles, AreScaledByTheLargestOfTheNodesScales) {
   for (const json& scale : {json{3, 1, 1}, json{1, -3, 2}, json{0.5, 0.25, 3}, json{-3, -3, -3}}) {
     const json node = {{"scale", scale}, {"translation", {0, 0, 9}}};
@@ -139,7 +139,7 @@ TEST(AreaLightsOfFiles, AreScaledByTheLargestOfTheNodesScales) {
     EXPECT_NEAR(length(disk.y), 3, 1e-12) << scale;
     EXPECT_NEAR(dot(disk.x, disk.y), 0, 1e-12);
   }
-  // Under a parent: the scales in the world.
+  // Under a parent, the scales in the world count.
   GltfTestFile f = with_area_light({{"type", "disk"}, {"size", 1}}, {{"scale", {1, 2, 1}}});
   f.append("nodes", {{"children", {1}}, {"scale", {5, 5, 5}}});
   f.json["scenes"] = {{{"nodes", {0, 2}}}};
@@ -159,7 +159,7 @@ TEST(AreaLightsOfFiles, TakeAllOfTheTransformByAnExtra) {
   EXPECT_NEAR(length(wide.y), 1, 1e-12);
 }
 
-// Linear in the angle: 100 cd ahead, 60 at 90 degrees in the plane of the node's x, 20 in that of y.
+// The intensity is linear in the angle: 100 cd ahead, 60 at 90 degrees in the plane of the node's x, 20 in the plane of y.
 constexpr const char* kLamp = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 2 2 1 2 0 0 0\n1 1 10\n0 90\n0 90\n100 60\n100 20\n";
 
 GltfTestFile with_profile(const json& light, const json& node) {

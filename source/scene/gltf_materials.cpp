@@ -68,7 +68,7 @@ void read_extensions(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& t
   if (const auto x = find_extension(json, "KHR_materials_ior")) {
     const double ior = x->number("ior", 1.5, 0, std::numeric_limits<double>::infinity());
     if (ior > 0 && ior < 1) x->at("ior").fail("must be 0 or at least 1");
-    // The extension's special value: an infinite index, Fresnel 1.
+    // The extension's special value 0 means an infinite index: Fresnel 1.
     m.ior = ior == 0 ? std::numeric_limits<float>::max() : static_cast<float>(std::min(ior, 1e30));
   }
   if (const auto x = find_extension(json, "KHR_materials_specular")) {
@@ -111,7 +111,7 @@ const lobes::LobeRow& row_named(const JsonCursor& brdf) {
   brdf.fail("\"" + name + "\" is not a lobe", "known are " + known);
 }
 
-// A number stands for a grey.
+// A single number means grey.
 Vec3d grey_or_rgb(const JsonCursor& object, const char* key, Vec3d otherwise) {
   const auto member = object.find(key);
   if (!member) return otherwise;

@@ -1,4 +1,4 @@
-// glTF materials to SurfaceMaterial.
+// Converts glTF materials to SurfaceMaterial.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace steradian::scene {
 
 std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures);
 
-// A lobe as `steradian eval` takes it: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.
+// Reads a lobe in the form of `steradian eval`: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.
 Material read_lobe(const JsonCursor& lobe);
 
 }  // namespace steradian::scene

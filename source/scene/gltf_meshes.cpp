@@ -23,8 +23,7 @@ struct Context {
   int attribute(const JsonCursor& attributes, const char* name) const { return attributes.index(name, accessors, "accessor"); }
 };
 
-// Triangles of a list, strip or fan of `count` corners; every second one of a strip is turned so that all
-// face alike.
+// Triangles of a list, strip or fan of `count` corners. Every second triangle of a strip is reversed so that all face the same way.
 std::vector<std::uint32_t> triangulated(const std::vector<std::uint32_t>& corners, int mode) {
   if (mode == kTriangles) return corners;
   std::vector<std::uint32_t> result;
@@ -97,7 +96,7 @@ std::vector<double> morph_weights(const JsonCursor& node, const JsonCursor& mesh
   return weights;
 }
 
-// Everything of a primitive in the space of its mesh, morphs at their given weights.
+// Reads a primitive in the space of its mesh, with morph targets at the given weights.
 Mesh read_local(const Context& c, const JsonCursor& primitive, const std::vector<double>& weights, int mode) {
   const JsonCursor attributes = primitive.at("attributes");
   const int position = c.attribute(attributes, "POSITION");
@@ -126,7 +125,7 @@ Mesh read_local(const Context& c, const JsonCursor& primitive, const std::vector
   return mesh;
 }
 
-// One matrix per vertex: of its node, or blended from the joints of its skin.
+// Transforms each vertex by one matrix: the node's, or a blend of its skin's joints.
 template <class TransformOf>
 void to_world(Mesh& mesh, const JsonCursor& node, TransformOf transform_of) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -153,7 +152,7 @@ bool has_broken_tangents(const Mesh& mesh) {
   return false;
 }
 
-// Which set of texture coordinates the material's tangents follow; -1: it needs none.
+// The set of texture coordinates that the material's tangents follow; -1: it needs none.
 int tangent_set(const SurfaceMaterial& m) {
   if (m.normal_texture.present()) return m.normal_texture.texcoord;
   if (m.clearcoat_normal_texture.present()) return m.clearcoat_normal_texture.texcoord;
@@ -179,20 +178,21 @@ void check_texture_sets(const SurfaceMaterial& m, const Mesh& mesh, Warnings& wa
       return warnings.count("meshes with textures lack their coordinates; (0, 0) is used", "mesh \"" + mesh.name + "\"");
 }
 
-// A primitive that makes triangles: judged once, however many nodes place its mesh.
+// A primitive that yields triangles. It is checked once, however many nodes place its mesh.
 struct UsablePrimitive {
   JsonCursor json;
-  int number = 0;  // of its mesh
+  int number = 0;  // within its mesh
   int mode = kTriangles;
   int material = -1;
 };
 
 struct UsableMesh {
   std::vector<UsablePrimitive> primitives;
-  std::uint64_t bytes = 0;  // that one placement of it will take
+  std::uint64_t bytes = 0;  // memory of one placement
 };
 
-// Positions, normals and tangents are made where the file has none; what else a vertex has is what it names.
+// Memory of a primitive. Positions, normals and tangents exist even if the file has none. Other vertex attributes exist only if the
+// primitive names them.
 std::uint64_t bytes_of(const Context& c, const JsonCursor& primitive, int mode) {
   const JsonCursor attributes = primitive.at("attributes");
   const std::uint64_t vertices = checked_count(c.document, c.attribute(attributes, "POSITION"));
@@ -203,7 +203,7 @@ std::uint64_t bytes_of(const Context& c, const JsonCursor& primitive, int mode) 
   for (const char* set : {"TEXCOORD_0", "TEXCOORD_1"}) vertex += attributes.has(set) ? sizeof(Vec2f) : 0;
   if (attributes.has("COLOR_0")) vertex += sizeof(Vec4f);
   if (attributes.has("JOINTS_0")) vertex += sizeof(Affine);
-  // Flat normals give every corner a vertex of its own.
+  // With flat normals every corner becomes a separate vertex.
   const std::uint64_t made = attributes.has("NORMAL") ? vertices : std::max(vertices, corners);
   return sizeof(Mesh) + made * vertex + corners * sizeof(std::uint32_t);
 }
@@ -238,7 +238,7 @@ struct Placement {
   int mesh, skin;
 };
 
-// Everything that will be made is judged before anything is: a small file can place a large mesh many times.
+// The whole memory is checked before anything is allocated, because a small file can place a large mesh many times.
 std::vector<Placement> take_placements(const Context& c, const GltfNodes& nodes, std::size_t materials,
                                        std::unordered_map<int, UsableMesh>& meshes) {
   std::vector<Placement> result;

@@ -1,4 +1,4 @@
-// glTF meshes to triangle meshes in world space.
+// Converts glTF meshes to triangle meshes in world space.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,11 @@ namespace steradian::scene {
 
 struct PlacedMeshes {
   std::vector<Mesh> meshes;
-  std::vector<int> nodes;  // of each: whose node it is
+  std::vector<int> nodes;  // the node of each mesh
 };
 
-// Every mesh of every visible node, one Mesh per primitive that makes triangles. Appends a default material
-// to `materials` where a primitive has none. kept: of the last reading, which become those of this one; null: none.
+// Reads every mesh of every visible node, one Mesh per primitive that yields triangles. Appends a default material to `materials` if a
+// primitive has none. kept: cached meshes of the last reading, replaced by those of this one; null: no cache.
 PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials, Warnings& warnings,
                          KeptMeshes* kept = nullptr);
 

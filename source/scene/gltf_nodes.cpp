@@ -101,8 +101,7 @@ GltfNodes read_nodes(const GltfDocument& document) {
   std::vector<std::vector<int>> children(nodes.size());
   const std::vector<int> parent = read_parents(nodes, children);
 
-  // Parents before children; with one parent each, what is never reached from a root lies on or below a
-  // cycle.
+  // Parents come before children. Each node has one parent, so nodes not reached from a root lie on a cycle or below one.
   std::vector<int> order;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (parent[i] < 0) order.push_back(static_cast<int>(i));

@@ -13,8 +13,7 @@ struct Skin {
 
 Skin read_skin(const GltfDocument& document, const GltfNodes& nodes, int skin);
 
-// The matrix of each vertex from JOINTS_0 and WEIGHTS_0 (weights are normalised; all zero: the first
-// joint's).
+// The matrix of each vertex from JOINTS_0 and WEIGHTS_0. Weights are normalised; if all are zero, the first joint's matrix is used.
 std::vector<Affine> blend_joints(const GltfDocument& document, const Skin& skin, const JsonCursor& attributes, std::size_t vertices);
 
 }  // namespace steradian::scene

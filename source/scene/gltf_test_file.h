@@ -15,7 +15,7 @@
 
 namespace steradian::scene {
 
-// A folder for the running test alone (tests run in parallel as processes), removed when the process ends.
+// A folder for the running test alone (tests run in parallel as processes). It is removed when the process ends.
 class TestFolder {
  public:
   TestFolder() : path_(testing::TempDir() + "steradian_" + std::to_string(getpid())) { std::filesystem::create_directories(path_); }
@@ -76,7 +76,7 @@ struct GltfTestFile {
     return static_cast<int>(json[array].size()) - 1;
   }
 
-  // One mesh of one primitive with these attributes, and a node in the scene that shows it.
+  // Adds one mesh of one primitive with these attributes, and a node in the scene that shows it.
   nlohmann::json& add_mesh(const nlohmann::json& attributes, int indices = -1) {
     nlohmann::json primitive = {{"attributes", attributes}};
     if (indices >= 0) primitive["indices"] = indices;
@@ -85,7 +85,7 @@ struct GltfTestFile {
     return json["meshes"][static_cast<std::size_t>(mesh)]["primitives"][0];
   }
 
-  // The unit square in z = 0 that faces +z, texture coordinates with v down.
+  // The unit square in z = 0 that faces +z, with texture coordinates whose v points down.
   static GltfTestFile square() {
     GltfTestFile f;
     const int p = f.add_floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");

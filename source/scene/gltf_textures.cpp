@@ -9,7 +9,7 @@ namespace steradian::scene {
 namespace {
 
 constexpr int kNotLoaded = -2, kNotRead = -1;
-// 1 GiB of texels for all images together: compressed pictures can claim a million times their bytes.
+// The limit is 1 GiB of texels for all images together, because compressed pictures can claim a million times their size.
 constexpr std::size_t kMaxTexels = std::size_t{1} << 28;
 constexpr std::size_t kMaxImageTexels = std::size_t{1} << 26;  // 8192 x 8192
 
@@ -44,7 +44,7 @@ void GltfTextures::apply_sampler(TextureUse& use, const JsonCursor& sampler) con
   use.filter = filter == kNearest ? Filter::nearest : Filter::linear;
 }
 
-// uv' = translation * rotation * scale * uv, the rotation counter-clockwise as seen (v points down).
+// uv' = translation * rotation * scale * uv. The rotation is counter-clockwise in the picture (v points down).
 void GltfTextures::apply_transform(TextureUse& use, const JsonCursor& transform) const {
   const auto pair = [&](const char* key, double otherwise) {
     const auto member = transform.find(key);

@@ -12,14 +12,13 @@ namespace steradian::scene {
 
 class GltfTextures {
  public:
-  // kept: pictures of earlier readings, and of this one for the next; may be null.
+  // kept: cache of pictures between readings, used and filled by this one; may be null.
   GltfTextures(const GltfDocument& document, std::vector<Image>& images, Warnings& warnings, std::shared_ptr<DecodedPictures> kept = {});
 
-  // The texture that member `key` of `owner` refers to; not present() where there is none or its format is
-  // not read.
+  // The texture that member `key` of `owner` refers to. It is not present() if there is none or its format is not supported.
   TextureUse use(const JsonCursor& owner, const char* key, ColorSpace space);
 
-  // The picture that a cursor's number refers to, into images(); -1: its format is not read.
+  // The index into images() of the picture that a cursor's number refers to; -1: its format is not supported.
   int image(const JsonCursor& index) { return scene_image(index.as_index(document_.count("images"), "image")); }
   const std::vector<Image>& images() const { return images_; }
 
@@ -35,7 +34,7 @@ class GltfTextures {
   std::vector<Image>& images_;
   Warnings& warnings_;
   std::shared_ptr<DecodedPictures> kept_;
-  std::vector<int> loaded_;  // by glTF image: into images_, or one of the two states below
+  std::vector<int> loaded_;  // by glTF image: index into images_, or one of the two states below
   std::size_t texels_left_;
   double decoding_ms_ = 0;
 };

@@ -1,4 +1,4 @@
-// JsonCursor: a value of a JSON document that knows its place in the file, so that every wrong read names it.
+// JsonCursor: a value of a JSON document that knows its place in the file, so that every error message names the place.
 #pragma once
 
 #include <array>
@@ -26,19 +26,18 @@ class JsonCursor {
   const std::string& place() const { return place_; }
   [[noreturn]] void fail(const std::string& problem, const std::string& hint = {}) const { throw Error(place_, problem, hint); }
 
-  // Members. All but `is_object` throw where this is no object or the member is of another type than asked
-  // for.
+  // Members. All but `is_object` throw if this is no object or the member has another type than requested.
   bool has(std::string_view key) const { return find(key).has_value(); }
   std::optional<JsonCursor> find(std::string_view key) const;
   JsonCursor at(std::string_view key) const;                    // required
-  JsonElements elements(std::string_view key) const;            // none where it is absent
+  JsonElements elements(std::string_view key) const;            // none if absent
   double number(std::string_view key, double otherwise) const;  // finite
   double number(std::string_view key, double otherwise, double low, double high) const;
   std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t low, std::int64_t high) const;
   bool flag(std::string_view key, bool otherwise) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
   Vec3d vector(std::string_view key, Vec3d otherwise) const;
-  // An index of another object; -1 where it is absent. what: "mesh", for the message.
+  // An index of another object; -1 if absent. what: "mesh", for the message.
   int index(std::string_view key, std::size_t count, std::string_view what) const;
 
   // This value itself.
@@ -57,7 +56,7 @@ class JsonCursor {
   std::string place_;
 };
 
-// The elements of an array. A cursor is made when it is asked for: an array may have millions, and few are looked at twice.
+// The elements of an array. Each cursor is created on access, because an array may have millions of elements and few are read twice.
 class JsonElements {
  public:
   JsonElements() = default;
@@ -95,10 +94,10 @@ std::array<double, N> JsonCursor::as_numbers() const {
   return result;
 }
 
-// Whether `words`, separated by spaces, hold `word`.
+// True if `words`, separated by spaces, contains `word`.
 bool has_word(std::string_view words, std::string_view word);
 
-// The extension `name` of an object that may carry it.
+// The extension `name` of an object, if the object has it.
 std::optional<JsonCursor> find_extension(const JsonCursor& object, std::string_view name);
 
 }  // namespace steradian::scene

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-// Where a light is and which way it faces; zero: every way.
+// A light's centre and the direction that it faces; zero: all directions.
 struct Place {
   Vec3d center, facing;
 };
@@ -31,7 +31,7 @@ struct PlaceOf {
   Place operator()(const Line& l) const { return {(l.end_a + l.end_b) * 0.5, {}}; }
 };
 
-// By light: the mesh it is made of; lights without one are each their own.
+// The source of each light: the mesh that it comes from. Each light without a mesh is its own source.
 std::vector<std::size_t> sources(const Scene& scene) {
   std::vector<std::size_t> source(scene.area_lights.size());
   std::iota(source.begin(), source.end(), scene.meshes.size());
@@ -41,17 +41,17 @@ std::vector<std::size_t> sources(const Scene& scene) {
   return source;
 }
 
-constexpr std::size_t kFewest = 256, kMost = 65536;  // kept where nobody says how many
+constexpr std::size_t kFewest = 256, kMost = 65536;  // number kept by default
 
-// How many sources shine.
+// The number of sources that emit.
 std::size_t count_of(const std::vector<std::size_t>& source, const std::vector<std::size_t>& with_power) {
   std::set<std::size_t> shining;
   for (const std::size_t i : with_power) shining.insert(source[i]);
   return shining.size();
 }
 
-// Which lights of one source to keep, `count` of them: those that hold the middles of as many equal parts of its power, in the file's
-// order, which mostly is an order in space; then the strongest of the others.
+// Chooses `count` lights of one source to keep. It divides the source's power into `count` equal parts, in the file's order, which mostly
+// is an order in space. The lights that hold the middles of the parts stay, then the strongest of the others.
 void keep_of_source(const std::vector<AreaLight>& lights, const std::vector<std::size_t>& of_source, std::size_t count,
                     std::vector<bool>& keep) {
   double power = 0, before = 0;
@@ -70,8 +70,8 @@ void keep_of_source(const std::vector<AreaLight>& lights, const std::vector<std:
   for (std::size_t k = 0; kept < count && k < others.size(); ++k, ++kept) keep[others[k]] = true;
 }
 
-// Which lights to keep. Every source gets a place first, as far as they go, the strongest first; the others go to the sources by their
-// power, the k-th of a source for its power over k (d'Hondt's method).
+// Chooses the lights to keep. First every source gets one place, the strongest first, as far as the places go. The other places go to the
+// sources by power: the k-th place of a source counts its power over k (d'Hondt's method).
 std::vector<bool> choose(const std::vector<AreaLight>& lights, const std::vector<std::size_t>& source, std::size_t source_count,
                          const std::vector<std::size_t>& with_power, std::size_t most) {
   std::vector<std::vector<std::size_t>> of_source(source_count);
@@ -103,7 +103,7 @@ struct Candidate {
   Place place;
 };
 
-// The candidate to take a light's power.
+// The candidate that takes over a light's power.
 std::size_t nearest(const Place& at, const std::vector<Candidate>& candidates) {
   std::size_t best = kNone;
   bool best_faces = false;
@@ -127,7 +127,7 @@ void grow(AreaLight& light, double factor) {
   if (light.emission) light.emission->intensity = light.emission->intensity * factor;
 }
 
-// Gives the power of the lights that go to those that stay.
+// Adds the power of the removed lights to the lights that stay.
 void merge_into_kept(Scene& scene, const std::vector<std::size_t>& source, const std::vector<std::size_t>& with_power,
                      const std::vector<bool>& keep, Budget& budget, const std::string& path, KeptLights& result) {
   std::vector<AreaLight>& lights = scene.area_lights;
@@ -159,7 +159,7 @@ void merge_into_kept(Scene& scene, const std::vector<std::size_t>& source, const
     if (keep[i]) grow(lights[i], 1 + gained[i] / lights[i].power);
 }
 
-// Leaves only the lights that `keep` names.
+// Removes all lights but those that `keep` names.
 void remove_others(Scene& scene, const std::vector<bool>& keep) {
   std::vector<std::int32_t> renumbered(keep.size(), -1);
   std::vector<AreaLight> lights;

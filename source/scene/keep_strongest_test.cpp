@@ -13,7 +13,7 @@
 namespace steradian::scene::keep_strongest_test {
 namespace {
 
-// A hollow ribbon of n faces, 2 wide: no two in one plane, those at the ends the largest.
+// A hollow ribbon of n faces, 2 wide. No two faces share a plane; the faces at the ends are the largest.
 Mesh ribbon(int n, Vec3d at) {
   Mesh mesh;
   for (int i = 0; i <= n; ++i) {
@@ -64,15 +64,16 @@ TEST(KeepStrongest, KeepsAMeshesPowerAndNearlyItsLight) {
   EXPECT_EQ(kept.dropped, 0u);
   EXPECT_GT(kept.merged_share, 0.5);
   EXPECT_NEAR(power(scene), power(all), 1e-9 * power(all));
-  // Power moves by a face, a sixtieth of a unit, to either side alike, and turns by a fiftieth of a radian: from 1 to 3 units away, the
-  // squares of these.
+  // Power moves by one face, a sixtieth of a unit, equally to both sides, and turns by a fiftieth of a radian. At distances of 1 to 3 units
+  // the error is the square of these.
   const Vec3d down{0, -1, 0};
   for (const Vec3d position : {Vec3d{1, 3, 0.1}, Vec3d{0.2, 1.3, 0.1}, Vec3d{1.7, 1.3, -0.2}})
     EXPECT_NEAR(irradiance(scene, position, down), irradiance(all, position, down), 0.002 * irradiance(all, position, down));
 }
 
 TEST(KeepStrongest, AMeshOfManyWeakLightsStandsBeforeAStrongerSingleOne) {
-  // The ribbon's faces are each weaker than the square, all together stronger: one of the ribbon, with all of its power, and the square.
+  // Each face of the ribbon is weaker than the square, but all together are stronger. The test keeps one face, with the ribbon's whole
+  // power, and the square.
   Scene scene = emitting({ribbon(120, {0, 0, 0}), quad_mesh({0, 3, 0}, {0, 3, 0.3f}, {0.3f, 3, 0.3f}, {0.3f, 3, 0}, 0)}, 1);
   const double before = power(scene);
   const KeptLights kept = keep(scene, 2);

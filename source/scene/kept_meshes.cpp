@@ -20,7 +20,7 @@ const json* member(const json* object, const char* key) {
   return found != object->end() ? &*found : nullptr;
 }
 
-// Whether an index names the same thing in both documents.
+// True if an index refers to the same value in both documents.
 bool same(const json& a, const json& b, const char* array, const json* index) {
   const json *x = element(a, array, index), *y = element(b, array, index);
   return x != nullptr && y != nullptr && *x == *y;

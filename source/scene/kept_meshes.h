@@ -1,4 +1,4 @@
-// KeptMeshes: placed meshes from one reading of a file to the next.
+// KeptMeshes: a cache of placed meshes from one reading of a file to the next.
 #pragma once
 
 #include <map>
@@ -12,23 +12,23 @@
 namespace steradian {
 
 struct KeptMeshes {
-  // What a placed mesh was made of, beside its primitive's accessors and their bytes.
+  // The inputs of a placed mesh, besides its primitive's accessors and their bytes.
   struct Source {
     scene::Affine world;
     std::vector<double> weights;
     int mesh = 0, material = 0;
-    int tangent_set = -1;  // SurfaceMaterial's
+    int tangent_set = -1;  // texture set, see SurfaceMaterial
     std::string name;
     bool operator==(const Source&) const = default;
   };
 
-  // The mesh of a node's primitive as it stood, or null where something it was made of has changed. A skin moves its mesh from outside.
+  // The cached mesh of a node's primitive, or null if one of its inputs has changed. Skinned meshes are not cached: other nodes move them.
   const Mesh* find(int node, int primitive, const Source& source) const;
   void keep(int node, int primitive, Source source, const Mesh& mesh);
 
-  // Before the meshes are read: drops those of primitives whose JSON, accessors, views or buffers have changed.
+  // Called before the meshes are read. Drops the meshes of primitives whose JSON, accessors, views or buffers have changed.
   void begin(const scene::GltfDocument& document);
-  std::size_t found = 0;  // since begin
+  std::size_t found = 0;  // hits since begin
 
  private:
   struct Kept {
@@ -37,7 +37,7 @@ struct KeptMeshes {
   };
   bool unchanged(const nlohmann::json& now, int mesh, int primitive) const;
   std::map<std::pair<int, int>, Kept> kept_;
-  nlohmann::json before_;  // the arrays of the last document that meshes are made of
+  nlohmann::json before_;  // the last document's arrays that define meshes
 };
 
 }  // namespace steradian

@@ -40,7 +40,7 @@ std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& 
   return result;
 }
 
-// More than half: such a surface has no shadow rather than a black one.
+// True if more than half of the light passes. Such a surface casts no shadow instead of a black one.
 bool lets_light_through(const SurfaceMaterial& m) {
   if (!m.specular_override.empty()) return false;
   return (m.alpha_mode == AlphaMode::blend && m.base_color.w < 0.5f) || m.transmission > 0.5f;
@@ -66,13 +66,13 @@ void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, Warn
                  most);
 }
 
-// What Blender's exporter multiplies punctual lights by, but not emission: lumens a watt.
+// The factor by which Blender's exporter multiplies punctual lights, but not emission: lumens per watt.
 constexpr double kExportersFactor = 683;
 
 void scale_to_emission(Scene& scene, const std::string& generator, LightUnits units, Warnings& warnings) {
   if (scene.punctual_lights.empty() || units == LightUnits::candela) return;
   if (units == LightUnits::from_generator) {
-    // "Khronos glTF Blender I/O v3.4.50": from 3.4 on.
+    // The generator reads "Khronos glTF Blender I/O v3.4.50". The factor applies from 3.4 on.
     const std::size_t at = generator.find("Blender I/O v");
     int major = 0, minor = 0;
     if (at == std::string::npos || std::sscanf(generator.c_str() + at, "Blender I/O v%d.%d", &major, &minor) != 2) return;
@@ -84,8 +84,7 @@ void scale_to_emission(Scene& scene, const std::string& generator, LightUnits un
   for (PunctualLight& light : scene.punctual_lights) light.intensity = light.intensity / kExportersFactor;
 }
 
-// Below this extent the products of three lengths, in single precision, vanish. A scene of one point is no smaller than
-// its camera chooses.
+// Below this extent the products of three lengths vanish in single precision. For a scene of one point the camera chooses the extent.
 constexpr double kSmallest = 1e-12;
 
 void check_extent(const Scene& scene, const std::string& path) {
@@ -144,7 +143,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
           warnings.sentences(), std::move(placed.nodes), options.meshes != nullptr ? options.meshes->found : 0};
 }
 
-template <class Document>  // a function that makes it
+template <class Document>  // a function that returns the document
 LoadedScene read_within(Budget& budget, const LoadOptions& options, Document document) {
   if (options.max_lights && *options.max_lights < 1)
     throw Error("max_lights", "is " + std::to_string(*options.max_lights) + ", must be at least 1");

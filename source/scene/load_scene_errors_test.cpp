@@ -1,4 +1,4 @@
-// Bad input: every kind is an Error that names the file and the place in it.
+// Invalid input: every kind is an Error that names the file and the place in it.
 #include <functional>
 #include <random>
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// Loads and expects an Error whose place begins with the file and whose message holds `part`.
+// Loads and expects an Error whose place begins with the file and whose message contains `part`.
 void expect_error(const std::string& path, const std::string& part) {
   try {
     steradian::load_scene(path);
@@ -361,7 +361,7 @@ TEST(LoadSceneErrors, AsksForAtLeastOneLight) {
   EXPECT_THROW(steradian::load_scene(GltfTestFile::square().write(), {.max_lights = 0}), Error);
 }
 
-// A file with a bit of everything, so that mutations reach every part of the reader.
+// A file that uses every feature, so that mutations reach every part of the reader.
 std::string rich_glb() {
   GltfTestFile f = GltfTestFile::square();
   use_texture(f, image_of(small_png()));
@@ -407,7 +407,7 @@ TEST(LoadSceneErrors, LoadsOrRefusesMutatedFiles) {
     }
   }
   EXPECT_EQ(loaded + refused, kMutations);
-  EXPECT_GT(loaded, kMutations / 20);  // else the mutations do not reach beyond the container
+  EXPECT_GT(loaded, kMutations / 20);  // otherwise the mutations do not reach beyond the container
   EXPECT_GT(refused, kMutations / 20);
 }
 

@@ -133,7 +133,7 @@ TEST(LoadScene, PutsSkinsInRestPose) {
   f.primitive()["attributes"]["JOINTS_0"] = f.add_accessor(joints, "VEC4", 5121, 4);
   f.primitive()["attributes"]["WEIGHTS_0"] = f.add_floats(weights, "VEC4");
   f.node()["skin"] = 0;
-  f.node()["translation"] = {100, 0, 0};  // of no effect on a skinned mesh
+  f.node()["translation"] = {100, 0, 0};  // has no effect on a skinned mesh
   f.append("nodes", {{"translation", {0, 0, 5}}});
   f.append("nodes", {{"translation", {0, 3, 5}}});
   f.json["skins"] = {{{"joints", {1, 2}}}};
@@ -152,7 +152,7 @@ TEST(LoadScene, MakesTangentsAlongGrowingU) {
   const Mesh& mesh = loaded.scene.meshes[0];
   ASSERT_EQ(mesh.tangents.size(), mesh.positions.size());
   expect_near(Vec3f{mesh.tangents[0].x, mesh.tangents[0].y, mesh.tangents[0].z}, {1, 0, 0});
-  EXPECT_EQ(mesh.tangents[0].w, 1);  // the bitangent is +y: up the picture
+  EXPECT_EQ(mesh.tangents[0].w, 1);  // the bitangent is +y: up in the picture
   EXPECT_EQ(loaded.scene.materials[0].normal_texture.scale, 0.5f);
 }
 
@@ -172,8 +172,7 @@ TEST(LoadScene, ReadsTexturesWithSamplerAndTransform) {
   EXPECT_EQ(use.filter, Filter::nearest);
   ASSERT_EQ(scene.images.size(), 1u);
   EXPECT_EQ(scene.images[0].width, 2);
-  // sRGB 128 is ((128/255 + 0.055) / 1.055)^2.4 = 0.2158605; the transform moves u = 0.25 into the right
-  // texel.
+  // sRGB 128 is ((128/255 + 0.055) / 1.055)^2.4 = 0.2158605. The transform moves u = 0.25 into the right texel.
   EXPECT_NEAR(static_cast<double>(sample_texture(scene.images, use, {0.25f, 0.5f}).x), 0.2158605, 1e-6);
   EXPECT_NEAR(static_cast<double>(sample_texture(scene.images, use, {-0.75f, 0.5f}).y), 0.0, 1e-6);
 }
@@ -299,7 +298,7 @@ TEST(LoadScene, GivesATexturedEmitterItsMeanAndItsMap) {
   const Vec3d p{0.75, 0.25, 0};  // uv (0.75, 0.75)
   EXPECT_NEAR(dot(p - light.texture->origin, light.texture->du) + light.texture->u0, 0.75, 1e-6);
   EXPECT_NEAR(dot(p - light.texture->origin, light.texture->dv) + light.texture->v0, 0.75, 1e-6);
-  // Red is 1 on the left half, 0.21586 on the right; a triangle's mean is sampled at texel density only.
+  // Red is 1 on the left half, 0.21586 on the right. A triangle's mean is sampled at texel density only.
   EXPECT_NEAR(light.radiance.x, (1 + 0.2158605) / 2, 1e-6);
   EXPECT_NEAR(light.radiance.y, 0.2158605 / 2, 1e-6);
 }
@@ -315,7 +314,7 @@ TEST(LoadScene, KeepsTheStrongestLightsAndSaysWhatItDrops) {
   EXPECT_EQ(loaded.scene.area_lights[1].radiance.x, 2);
   EXPECT_TRUE(warns(loaded, "1 weakest area light dropped, 16.67 % of all power"));
   EXPECT_TRUE(warns(loaded, "1 area light without area"));
-  EXPECT_EQ(loaded.scene.meshes[1].triangle_lights[0], -1);  // the weakest, still visible
+  EXPECT_EQ(loaded.scene.meshes[1].triangle_lights[0], -1);  // the weakest light; its mesh stays visible
   EXPECT_EQ(loaded.scene.meshes[2].triangle_lights[0], 0);
 }
 
@@ -359,14 +358,14 @@ TEST(LoadScene, NamesUnsupportedFeaturesInOneWarning) {
 TEST(LoadScene, LoadsEveryValidModelOfOthers) {
   const std::filesystem::path folder = "/usr/share/assimp/models/glTF2";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "assimp-testmodels is not installed";
-  // Broken on purpose, or requiring what we do not support; all others must load.
+  // Files broken on purpose, or requiring unsupported features. All others must load.
   const std::vector<std::string> refused = {"techniqueWebGL",  "BoxWithInfinites", "IncorrectVertexArrays",
                                             "IndexOutOfRange", "MissingBin",       "RecursiveNodes",
                                             "SchemaFailures",  "NoScene.gltf",     "draco",
                                             "badArray",        "badExtension",     "badNumber",
                                             "badObject",       "badString",        "badUint"};
-  // What must come out of the others. The modes of primitives 4 to 6 and 11 to 15 are triangles, strips and fans; lines and points
-  // are left out.
+  // Expected triangle counts of the other files. The modes of primitives 4 to 6 and 11 to 15 are triangles, strips and fans; lines and
+  // points are skipped.
   const std::vector<std::pair<std::string, std::size_t>> whole = {
       {"BoxTextured", 12},         {"boxTexcoords", 12},     {"BoxBadNormals", 12},        {"AnimatedMorphCube", 12},
       {"2CylinderEngine", 121496}, {"ClearCoatTest", 37116}, {"TextureTransformTest", 24}, {"simple_skin", 8},

@@ -1,4 +1,4 @@
-// Coordinates of every magnitude: a scene that is accepted renders to finite numbers, and the same at every scale.
+// Coordinates of every magnitude: an accepted scene renders to finite numbers, and to the same picture at every scale.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace steradian::scene::magnitudes_test {
 namespace {
 
-// A floor of 2 x 2 under a light of 1 x 1 at a height of 2, below a node that carries both; `change` may move and scale any.
+// A floor of 2 x 2 under a light of 1 x 1 at a height of 2, below a node that holds both. Tests move and scale any of the three.
 struct Parts {
   double floor_scale = 1, light_scale = 1, scale = 1, vertex = -1;
   double light_size = 1, light_height = 2, floor_at = 0, at = 0;
@@ -40,7 +40,7 @@ std::string file_of(const Parts& p) {
   return f.text();
 }
 
-// The picture, or nothing and the reason where the scene is refused.
+// The picture; if the scene is refused, nothing and the reason.
 std::optional<Picture> rendered(const Parts& parts, const std::string& method, std::string& refusal) {
   try {
     const LoadedScene loaded = load_scene_from_memory(file_of(parts), "scene.gltf");
@@ -105,7 +105,7 @@ TEST(Magnitudes, EveryAcceptedSceneRendersToFiniteNumbers) {
   std::cout << "[ measured ] " << accepted << " rendered, " << refused << " refused\n";
 }
 
-// Light does not know metres: over 26 orders of magnitude the picture is the same, but for the rounding of coordinates.
+// Light does not depend on the unit of length. Over 26 orders of magnitude the picture is the same, up to the rounding of coordinates.
 TEST(Magnitudes, AreLeftOutOfThePicture) {
   std::string refusal;
   Parts parts;

@@ -17,13 +17,12 @@ namespace {
 using Contour = std::vector<Vec3d>;
 using Index = std::uint32_t;
 
-// Below this share of its longest edge's square a triangle's doubled area is rounding (floats have 2^-24 =
-// 6e-8).
+// Below this fraction of its longest edge's square, a triangle's doubled area is only rounding (floats have 2^-24 = 6e-8).
 constexpr double kThinnest = 1e-7;
-// prepare_polygon refuses 1e-5 of the light's size off the plane: half of it here, as the patch's plane may
-// tilt.
+// prepare_polygon refuses points that are off the plane by 1e-5 of the light's size. The limit here is half of that, as the patch's plane
+// may tilt.
 constexpr double kOffPlane = 5e-6;
-// Cosine between a triangle and its patch: 2.6 degrees, since thin triangles' own planes are uncertain.
+// Cosine of the angle between a triangle and its patch: 2.6 degrees, since the planes of thin triangles are uncertain.
 constexpr double kFacesAlike = 0.999;
 
 struct Welded {
@@ -45,7 +44,7 @@ Welded weld(const std::vector<Triangle>& triangles) {
   for (const Triangle& t : triangles) {
     std::array<Index, 3> corners{};
     for (std::size_t c = 0; c < 3; ++c) {
-      // Adding zero makes -0 and 0 one corner.
+      // Adding zero turns -0 into 0, so that both are one corner.
       const Vec3d p = t[c] + Vec3d{0, 0, 0};
       const std::array<std::uint64_t, 3> key{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
                                              std::bit_cast<std::uint64_t>(p.z)};
@@ -71,9 +70,9 @@ bool has_area(const Triangle& t) {
   return length(face_vector(t)) > kThinnest * edge * edge;
 }
 
-// What grows from one triangle. Its plane is known the better the larger it is, whatever one triangle's corners were rounded to.
+// A patch that grows from one triangle. The larger it is, the better its plane is known, whatever the rounding of one triangle's corners.
 struct Patch {
-  Vec3d point, area;  // of the plane; the sum of the face vectors
+  Vec3d point, area;  // a point of the plane; the sum of the face vectors
   Vec3d low, high;    // bounds
   std::vector<std::size_t> triangles;
 
@@ -100,7 +99,7 @@ struct Patch {
   }
 };
 
-// Corners that lie on the line between their neighbours are no corners.
+// Removes corners that lie on the line between their neighbours.
 Contour without_straight_corners(const Contour& contour) {
   Contour result;
   const auto straight = [](Vec3d a, Vec3d b, Vec3d c) {
@@ -121,7 +120,7 @@ double signed_area(const Contour& contour, Vec3d normal) {
   return dot(sum, normal) / 2;
 }
 
-// The closed contours of a patch's boundary; none where a corner is met twice.
+// The closed contours of a patch's boundary; none if a corner is visited twice.
 std::optional<std::vector<Contour>> trace_boundary(const Welded& mesh, const std::vector<std::size_t>& patch) {
   std::map<std::pair<Index, Index>, int> edges;  // ordered: the result does not depend on a hash
   for (const std::size_t t : patch)
@@ -150,7 +149,7 @@ std::optional<std::vector<Contour>> trace_boundary(const Welded& mesh, const std
   return contours;
 }
 
-// One outline, holes in it, and the area of the triangles: else the patch overlaps itself.
+// A valid patch has one outline, holes in it, and the area of its triangles. Otherwise it overlaps itself.
 std::optional<MergedPolygon> to_polygon(const Welded& mesh, const std::vector<Triangle>& triangles, const std::vector<std::size_t>& patch) {
   const auto contours = trace_boundary(mesh, patch);
   if (!contours) return {};
@@ -198,7 +197,7 @@ MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std:
     }
   }
 
-  // From the largest triangles, whose planes are known best.
+  // Patches grow from the largest triangles, whose planes are known best.
   std::vector<std::size_t> seeds;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (!taken[t]) seeds.push_back(t);

@@ -16,20 +16,20 @@ using Triangle = std::array<Vec3d, 3>;
 struct MergedPolygon {
   std::vector<Vec3d> outline;  // counter-clockwise as seen from the triangles' front
   std::vector<std::vector<Vec3d>> holes;
-  std::vector<std::size_t> triangles;  // what it was made of, the largest first
+  std::vector<std::size_t> triangles;  // the merged triangles, the largest first
 };
 
 struct MergedPolygons {
   std::vector<MergedPolygon> polygons;  // in the order of their first triangles
-  std::size_t without_area = 0;         // triangles left out: thinner than the rounding of their coordinates
+  std::size_t without_area = 0;         // triangles skipped: thinner than the rounding of their coordinates
 };
 
-// Triangles are adjacent where two corners are equal to the last bit. A patch grows from its largest triangle by those that face as it
-// does (to 2.6 degrees) and whose corners are off its plane by at most 5e-6 of its size and the rounding of single precision.
-// may_join(a, b): whether triangle b belongs to the patch that grows from a (the same texture map, say).
+// Triangles are adjacent if two corners are equal to the last bit. A patch grows from its largest triangle. It takes triangles that face
+// the same way (to 2.6 degrees). Their corners may be off its plane by at most 5e-6 of its size and the rounding of single precision.
+// may_join(a, b): true if triangle b belongs to the patch that grows from a, for example if both have the same texture map.
 //
-// A patch whose outline is ambiguous (it touches itself in a corner, overlaps itself, has an edge of three
-// triangles) stays triangles: more edges, the same light.
+// A patch with an ambiguous outline stays triangles: more edges, the same light. An outline is ambiguous if it touches itself in a corner,
+// overlaps itself or has an edge of three triangles.
 MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std::function<bool(std::size_t, std::size_t)>& may_join);
 
 }  // namespace steradian::scene

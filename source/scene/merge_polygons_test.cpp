@@ -16,7 +16,7 @@ MergedPolygons merge(const std::vector<Triangle>& t) {
 
 double area_of(const MergedPolygon& p) { return prepare_polygon({p.outline, p.holes, {1, 1, 1}, false}).area; }
 
-// n x n unit cells in z = 0 without those for which left_out(i, j) holds.
+// n x n unit cells in z = 0 without the cells for which left_out(i, j) is true.
 template <class LeftOut>
 std::vector<Triangle> grid(int n, LeftOut left_out) {
   std::vector<Triangle> result;
@@ -39,8 +39,8 @@ TEST(MergePolygons, MakesAGridOneRectangleWithFourCorners) {
 }
 
 TEST(MergePolygons, MakesATurnedFineGridOfSinglePrecisionOneRectangle) {
-  // A small triangle's own plane, known to a rounding of its corners over its size, misses the other end of the grid by more than a
-  // plane may be off: the plane is the patch's.
+  // A small triangle's own plane is known only to the rounding of its corners over its size. It misses the other end of the grid by more
+  // than the tolerance. So the plane must be the patch's.
   for (const int n : {16, 64, 200})
     for (const double scale : {0.001, 1.0, 50.0}) {
       const Frame frame = Frame::from_normal(normalized(Vec3d{0.3, 0.8, -0.5}));
@@ -65,7 +65,7 @@ TEST(MergePolygons, KeepsHoles) {
 }
 
 TEST(MergePolygons, LeavesAPatchThatTouchesItselfInACornerAsTriangles) {
-  // Two missing cells that share a corner: which hole is which is ambiguous.
+  // Two missing cells share a corner, so the assignment of the holes is ambiguous.
   const auto merged = merge(grid(5, [](int i, int j) { return (i == 1 && j == 1) || (i == 2 && j == 2); }));
   EXPECT_EQ(merged.polygons.size(), 46u);
   double area = 0;

@@ -1,4 +1,4 @@
-// Our own scenes: the files in scenes/ are what their script makes, and they load without a complaint.
+// The project's own scenes: the files in scenes/ are exactly the output of their script, and they load without warnings.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

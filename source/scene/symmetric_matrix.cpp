@@ -5,7 +5,7 @@
 namespace steradian::scene {
 namespace {
 
-using Entries = Eigen::Map<const Eigen::MatrixXd>;  // by columns, which are the rows of a symmetric matrix
+using Entries = Eigen::Map<const Eigen::MatrixXd>;  // column-major, which equals the rows of a symmetric matrix
 
 Entries entries_of(const SymmetricMatrix& matrix) {
   const auto n = static_cast<Eigen::Index>(matrix.n);

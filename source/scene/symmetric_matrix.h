@@ -1,5 +1,5 @@
-// Small symmetric matrices: linear systems and eigenvectors. Eigen stands behind them in one unit, because its decompositions take the
-// compiler half a minute in each unit that has them.
+// Small symmetric matrices: linear systems and eigenvectors. Only one unit includes Eigen, because its decompositions cost the compiler
+// half a minute in each unit.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace steradian::scene {
 
-// A symmetric matrix of n rows, by rows.
+// A symmetric matrix of n rows, stored by rows.
 struct SymmetricMatrix {
   explicit SymmetricMatrix(std::size_t rows) : n(rows), entries(rows * rows, 0.0) {}
   double& operator()(std::size_t row, std::size_t column) { return entries[row * n + column]; }
@@ -19,7 +19,7 @@ struct SymmetricMatrix {
   std::vector<double> entries;
 };
 
-// x with matrix * x = right, by LDL'. Not finite where the matrix is singular.
+// Solves matrix * x = right by LDL'. The result is not finite if the matrix is singular.
 std::vector<double> solve(const SymmetricMatrix& matrix, const std::vector<double>& right);
 
 struct EigenSystem {

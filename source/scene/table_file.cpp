@@ -14,7 +14,7 @@
 namespace steradian::scene {
 namespace {
 
-constexpr int kLargestSize = 1024;  // as fit writes them
+constexpr int kLargestSize = 1024;  // the limit of `fit`
 constexpr double kLargestValue = 1e6;
 
 std::vector<std::array<float, 4>> read_nodes(const nlohmann::json& table, const char* key, int size, const std::string& path) {

@@ -1,4 +1,4 @@
-// A fitted table in a file, as `steradian fit --layout classic -o FILE.json` writes it.
+// A fitted table in a file, in the format of `steradian fit --layout classic -o FILE.json`.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace steradian::scene {
 
-// Throws Error with the path for what is no whole table of finite numbers.
+// Throws Error with the path if the file is no complete table of finite numbers.
 ClassicTable read_classic_table(const std::string& path);
 
 }  // namespace steradian::scene

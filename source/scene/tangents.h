@@ -1,18 +1,18 @@
-// Normals and tangents for meshes that come without.
+// Computes normals and tangents for meshes without them.
 #pragma once
 
 #include "steradian/scene.h"
 
 namespace steradian::scene {
 
-// Gives every triangle vertices of its own with the face's normal, as glTF wants where normals are missing.
+// Gives every triangle separate vertices with the face's normal, as glTF demands if normals are missing.
 void make_flat_normals(Mesh& mesh);
 
-// Replaces normals that are zero by the area-weighted mean of the faces around; how many there were.
+// Replaces zero normals by the area-weighted mean of the adjacent faces. Returns the number of replacements.
 std::size_t repair_normals(Mesh& mesh);
 
-// Tangents along growing u of texture set `set`, which the mesh must have; w is the sign of the bitangent.
-// Where the texture coordinates span no area: any direction in the surface.
+// Tangents along growing u of texture set `set`, which the mesh must have; w is the sign of the bitangent. If the texture coordinates span
+// no area, the tangent is any direction in the surface.
 void make_tangents(Mesh& mesh, int set);
 
 }  // namespace steradian::scene

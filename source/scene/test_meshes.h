@@ -1,4 +1,4 @@
-// Meshes, cameras and floors that tests and benches put their scenes together from.
+// Meshes, cameras and floors for the scenes of tests and benches.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace steradian::scene {
 
-// Corners counter-clockwise as seen from the side of the normal.
+// The corners run counter-clockwise as seen from the side of the normal.
 inline Mesh quad_mesh(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
   Mesh mesh;
   mesh.material = material;
@@ -19,7 +19,7 @@ inline Mesh quad_mesh(Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
   return mesh;
 }
 
-// Area with the sign of agreement between the winding and the stored normals.
+// The area, negative where the winding disagrees with the stored normals.
 inline double signed_area(const Mesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -29,7 +29,7 @@ inline double signed_area(const Mesh& mesh) {
   return sum;
 }
 
-// A ball of facets with the ball's smooth normals: the shading and the geometric horizon differ.
+// A faceted ball with smooth normals: the shading and the geometric horizon differ.
 inline Mesh ball_mesh(Vec3f center, float radius, int material, unsigned columns, unsigned rows) {
   Mesh mesh;
   mesh.material = material;
@@ -52,7 +52,7 @@ inline Mesh ball_mesh(Vec3f center, float radius, int material, unsigned columns
   return mesh;
 }
 
-// A camera at a place that looks along +direction+, its picture's top upwards (y).
+// A camera at a place that looks along +direction+, with the top of its picture towards y.
 inline Camera camera_at(Vec3d position, Vec3d direction, double yfov = Camera{}.yfov) {
   Camera camera;
   camera.position = position;
@@ -63,7 +63,7 @@ inline Camera camera_at(Vec3d position, Vec3d direction, double yfov = Camera{}.
   return camera;
 }
 
-// A square floor of one material at y = 0, looked at from a place above towards its middle. Nothing lights it.
+// A square floor of one material at y = 0, and a camera above that looks at its middle. The scene has no light.
 inline Scene floor_scene(const SurfaceMaterial& material, float half, Vec3d eye, double yfov = Camera{}.yfov) {
   Scene scene;
   scene.materials = {material};

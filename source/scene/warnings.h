@@ -1,5 +1,4 @@
-// Warnings: what the reader collects while it reads, gathered by kind: a broken file says the same thing of thousands of
-// its parts.
+// Warnings: messages that the reader collects, grouped by kind. A broken file causes the same warning for thousands of its parts.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +11,16 @@ namespace steradian::scene {
 
 class Warnings {
  public:
-  // A whole sentence, once however often it is said.
+  // Adds a whole sentence; repeated sentences appear once.
   void say(const std::string& sentence) { kind(sentence); }
 
-  // The same of one part of the file; the sentence ends with how many there were and where the first is.
+  // Counts a warning about one part of the file. The sentence ends with the number of such parts and the place of the first.
   void count(const std::string& what, const std::string& place) {
     Kind& k = kind(what);
     if (k.count++ == 0) k.first_place = place;
   }
 
-  // A feature that is left out; all are named together in the last sentence.
+  // Adds an unsupported feature that is skipped. The last sentence names all of them together.
   void not_supported(const std::string& feature) {
     if (!features_.insert(feature).second || features_.size() > kMostNamed) return;
     features_in_order_.push_back(feature);
@@ -30,7 +29,7 @@ class Warnings {
 
   const std::vector<std::string>& features() const { return features_in_order_; }
 
-  // In the order in which their kinds were met.
+  // The sentences in the order in which their kinds first appeared.
   std::vector<std::string> sentences() const {
     std::vector<std::string> result;
     for (const Kind& k : kinds_)

@@ -9,7 +9,7 @@
 namespace steradian::shadow {
 namespace {
 
-// A vertex, or twice a midpoint: scale is 1 or 2.
+// A vertex (scale 1) or twice a midpoint (scale 2).
 struct Doubled {
   std::int64_t x, y, dx, dy;
 };
@@ -18,7 +18,7 @@ Doubled midpoint(const Segment& e) {
   return {std::int64_t{e.a.x} + e.b.x, std::int64_t{e.a.y} + e.b.y, std::int64_t{e.a.dx} + e.b.dx, std::int64_t{e.a.dy} + e.b.dy};
 }
 
-// The three orders of (f.b - f.a) x (p - f.a) in the displacement's e.
+// Terms of order 0, 1 and 2 of (f.b - f.a) x (p - f.a) in the displacement's e.
 struct Side {
   std::int64_t d0, d1, d2;
   int sign() const {
@@ -34,7 +34,7 @@ Side side(const Segment& f, const Doubled& p, int scale) {
   return {fx * py - fy * px, fx * qy - fy * qx + gx * py - gy * px, gx * qy - gy * qx};
 }
 
-// Whether a vertex lies above twice a midpoint's height.
+// Returns true if a vertex lies above twice a midpoint's height.
 bool above(const Cell& c, const Doubled& m) {
   const std::int64_t y = 2 * std::int64_t{c.y};
   return y > m.y || (y == m.y && 2 * std::int64_t{c.dy} > m.dy);
@@ -51,8 +51,8 @@ bool share_an_end(const Segment& e, const Segment& f) {
   return e.a.id == f.a.id || e.a.id == f.b.id || e.b.id == f.a.id || e.b.id == f.b.id;
 }
 
-// The segments that e may cross or that a ray to the left from its middle may: those whose heights it shares and that do not lie
-// to its right. Kept apart from the segments, so that the compiler compares several at once.
+// Segments that e or a left ray from its middle may cross: their heights overlap, and they do not lie to e's right. The bounds are stored
+// apart from the segments, so that the compiler compares several at once.
 class Neighbours {
  public:
   explicit Neighbours(const std::vector<Segment>& segments) : count_(segments.size()) {
@@ -65,7 +65,7 @@ class Neighbours {
     }
     found_.resize(count_);
   }
-  // Ascending.
+  // Indices in ascending order.
   std::span<const std::uint32_t> of(const Segment& e) {
     const std::int32_t low = std::min(e.a.y, e.b.y), high = std::max(e.a.y, e.b.y), right = std::max(e.a.x, e.b.x);
     std::size_t n = 0;
@@ -109,10 +109,10 @@ int side_of_midpoint(const Segment& f, const Segment& e) { return side(f, midpoi
 
 namespace {
 
-// What a segment adds to the count of a left ray; middle: on which side of it the ray starts.
+// Change that f adds to the count of a left ray. middle: side of f on which the ray starts.
 std::int32_t left_ray_crosses(const Segment& f, int middle, bool start_above, bool end_above) {
   if (start_above == end_above) return 0;
-  // Upwards with m on its right: the way from the left to m goes from its left to its right.
+  // f runs upwards with m on its right: the way from the left to m leads from f's left to its right.
   if (end_above && middle < 0) return -f.weight;
   if (start_above && middle > 0) return f.weight;
   return 0;
@@ -132,7 +132,7 @@ std::int32_t count_at_the_box(const SegmentSet& set, const Doubled& m) {
 
 bool has_pieces(const Segment& e) { return e.weight != 0 && (e.a.x != e.b.x || e.a.y != e.b.y); }
 
-// left: the count on the left at its start.
+// left: count on the left at e's start.
 void add_pieces(const Segment& e, std::uint32_t number, std::int32_t left, const Crossing* begin, const Crossing* end,
                 std::vector<Piece>& pieces) {
   const double fx = e.b.x - e.a.x, fy = e.b.y - e.a.y;
@@ -154,7 +154,7 @@ void add_pieces(const Segment& e, std::uint32_t number, std::int32_t left, const
   piece_to(1);
 }
 
-// The count on e's left at its start, of what the left ray from its middle counts: on the -x side, e's left if e runs up.
+// Count on e's left at its start, from the count of the left ray. The ray counts the -x side, which is e's left if e runs up.
 std::int32_t left_at_start(const Segment& e, std::int32_t count, const Crossing* begin, const Crossing* end) {
   std::int32_t left = runs_up(e) ? count : count + e.weight;
   for (const Crossing* c = begin; c != end; ++c)
@@ -209,7 +209,7 @@ void SegmentArrays::sort(const SegmentSet& set) {
     std::iota(place.begin(), place.end(), 0u);
     return;
   }
-  // Counted into rows of the box; row 0 is for the long ones.
+  // Counting sort into rows of the box; row 0 holds the long segments.
   std::array<std::uint32_t, kRows + 2> first{};
   const auto row_of = [&](const Segment& s) {
     const std::int32_t low = std::min(s.a.y, s.b.y), high = std::max(s.a.y, s.b.y);
@@ -252,7 +252,7 @@ void SegmentArrays::assign(const SegmentSet& set) {
 
 namespace {
 
-// Segments at vertices: at one that exactly two share, the counts on their sides go on from one to the other.
+// Segments by vertex. At a vertex that exactly two segments share, the counts on their sides carry over from one to the other.
 class Chains {
  public:
   void assign(const std::vector<Segment>& segments) {
@@ -266,7 +266,7 @@ class Chains {
           vertices_[static_cast<std::size_t>(place)].both ^= i;
         }
   }
-  // The other segment at a vertex, or none.
+  // The other segment at a vertex that exactly two share, else none.
   std::optional<std::uint32_t> other(std::int32_t place, std::uint32_t segment) const {
     if (place < 0 || vertices_[static_cast<std::size_t>(place)].degree != 2) return {};
     return vertices_[static_cast<std::size_t>(place)].both ^ segment;
@@ -274,16 +274,16 @@ class Chains {
 
  private:
   struct Vertex {
-    std::uint32_t degree = 0, both = 0;  // both: of two segments, the numbers' exclusive or
+    std::uint32_t degree = 0, both = 0;  // both: exclusive or of two segments' numbers
   };
   std::vector<Vertex> vertices_;
 };
 
-// A segment's crossings in a list, and its count.
+// A segment's range in the list of crossings, and its count.
 struct Along {
   std::size_t first = 0, count = 0;
-  std::int32_t change = 0;  // of all crossings
-  std::int32_t left = 0;    // at the start
+  std::int32_t change = 0;  // sum over all crossings
+  std::int32_t left = 0;    // count at the start
   bool known = false;
 };
 
@@ -316,7 +316,7 @@ void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arr
       found_crossings.push_back({j, pair.on_f});
     }
   }
-  // Into a list for each segment.
+  // Sort the crossings into one list per segment.
   for (const Found& f : found_crossings) ++along[f.segment].count;
   std::size_t first = 0;
   for (Along& a : along) {
@@ -335,7 +335,7 @@ void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arr
       std::sort(crossings.begin() + static_cast<std::ptrdiff_t>(a.first),
                 crossings.begin() + static_cast<std::ptrdiff_t>(a.first + a.count));
 
-  // Hands the count of a segment on along its chain, from its end or from its start.
+  // Passes the count of a segment on along its chain, from its end or from its start.
   const auto hand_on = [&](std::uint32_t i, bool from_end) {
     while (true) {
       const Segment& e = set.segments[i];
@@ -344,7 +344,7 @@ void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arr
       const Segment& g = set.segments[*next];
       const std::int32_t left = along[i].left + (from_end ? along[i].change : 0), right = left - e.weight;
       const bool at_start = g.place_a == (from_end ? e.place_b : e.place_a);
-      // The same walk goes on, or g runs against it: then its left is e's right.
+      // g goes on in the same direction, or it runs against it: then its left is e's right.
       const std::int32_t of_g = at_start == from_end ? left : right;
       along[*next].left = at_start ? of_g : of_g - along[*next].change;
       along[*next].known = true;

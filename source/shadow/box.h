@@ -1,4 +1,4 @@
-// Boxes along the axes of space, from which trees over triangles and lights are built.
+// Axis-aligned boxes, from which trees over triangles and lights are built.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Putting a point's segments together: what the scalar code and the packs share.
+// Assembly of a point's segments: code that the scalar version and the packs share.
 #pragma once
 
 #include "shadow/segments.h"
@@ -13,7 +13,7 @@ inline std::uint64_t clip_id(Source source, std::uint32_t index, int end) {
   return kClipId | static_cast<std::uint64_t>(source) << 56 | static_cast<std::uint64_t>(index) << 1 | static_cast<unsigned>(end);
 }
 
-// Adds a segment, with the events of what the left side cut.
+// Adds a segment, and an event for each end that the box's left side clipped.
 inline void add_cells(SegmentSet& result, const Cell& a, const Cell& b, bool from_left, bool to_left, std::int32_t weight, Source source,
                       std::uint32_t index) {
   if (from_left) result.events.push_back({a.y, a.dy, weight});
@@ -24,22 +24,22 @@ inline void add_cells(SegmentSet& result, const Cell& a, const Cell& b, bool fro
 // Adds the light's outline.
 void add_outline(const LightFrame& frame, SegmentSet& result);
 
-// Adds the half plane that a normal looks on, as a line of weight -H with what is above on its left. Returns H where the lower left
-// corner lies below, else 0.
+// Adds the half plane in front of a normal as a line of weight -H, with the part above on its left. Returns H if the lower left corner
+// lies below, else 0.
 //
 //   eye  (x, y, -z) of the point in the frame
 std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Source source, SegmentSet& result);
 
-// What stands at the base of all counts and the horizons of a point; `point` in the frame.
+// Adds the base of all counts and the horizons of a point; `point` is in the frame.
 void add_horizons(const LightFrame& frame, const Viewpoint& from, Vec3d point, SegmentSet& result);
 
-// Adds the section of a triangle by the light's plane, or, where a coincident triangle has it already, its weight.
+// Adds the section of a triangle by the light's plane. If a coincident triangle has added the section already, only its weight is added.
 template <class Add>
 void add_section(SegmentSet& result, std::size_t first_section, Add add) {
   const std::size_t before = result.segments.size();
   add();
   if (result.segments.size() == before) return;
-  // Two segments with the same ends could not tell who lies left of whom.
+  // Two segments with the same ends could not decide which one lies left of the other.
   const Segment last = result.segments.back();
   for (std::size_t i = first_section; i + 1 < result.segments.size(); ++i) {
     Segment& earlier = result.segments[i];

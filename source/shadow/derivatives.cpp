@@ -20,18 +20,18 @@ ByChannel each(const ByChannel& a, Change change) {
 }
 double largest(const ByChannel& a) { return std::max({length(a[0]), length(a[1]), length(a[2])}); }
 
-// The integral of density times direction along a great circle's arc.
+// Integral of density times direction along an arc of a great circle.
 class ArcMoment {
  public:
   ArcMoment(const Density& density, Vec3d from, Vec3d to) : density_(density), start_(normalized(from)) {
     const Vec3d end = normalized(to);
-    // The angle by its sine: arcs may be short.
+    // The angle is computed from its sine, since arcs may be short.
     const Vec3d across = end - start_ * dot(start_, end);
     side_ = normalized(across);
     angle_ = std::atan2(length(across), dot(start_, end));
   }
   ByChannel value() const {
-    constexpr double kLongest = 0.2;  // no lobe of a width worth the name hides between the nodes of a first interval
+    constexpr double kLongest = 0.2;  // no lobe of a relevant width lies between the nodes of a first interval
     const int count = 1 + static_cast<int>(angle_ / kLongest);
     ByChannel sum{};
     for (int i = 0; i < count; ++i) add(sum, within(angle_ * i / count, angle_ * (i + 1) / count, 0));
@@ -60,11 +60,11 @@ class ArcMoment {
   double angle_ = 0;
 };
 
-// A light's vertex by the number of its corner in a frame.
+// Index of the light's vertex at a corner of a frame.
 std::size_t vertex_of_corner(const PreparedPolygon& light, int side, std::size_t corner) {
   const auto next = std::upper_bound(light.contours.begin(), light.contours.end(), corner);
   const std::size_t first = *(next - 1), end = *next;
-  return side < 0 ? first + end - 1 - corner : corner;  // a frame behind the light walks the other way round
+  return side < 0 ? first + end - 1 - corner : corner;  // a frame behind the light has the corners in reverse order
 }
 
 std::size_t next_corner(const PreparedPolygon& light, std::size_t corner) {
@@ -72,7 +72,7 @@ std::size_t next_corner(const PreparedPolygon& light, std::size_t corner) {
   return corner + 1 == *next ? *(next - 1) : corner + 1;
 }
 
-// Where an edge cuts the plane that blockers end at, and its ends' heights above it.
+// Position where an edge cuts the plane at which blockers end, and the heights of its ends above that plane.
 struct Cut {
   std::uint32_t v0, v1;
   Vec3d place, along;
@@ -85,7 +85,7 @@ class Boundaries {
              BoundaryDerivatives& result)
       : light_(light), side_(side), mesh_(occluders.mesh), frame_(frame), from_(from), result_(result) {}
 
-  // A piece of the segment, with the part on the left of the segment's own way, or against it.
+  // Adds a piece of the segment. along: the visible part lies on the left of the segment's direction, else on its right.
   void add_piece(const Segment& segment, bool along, const ByChannel& moment) {
     switch (segment.source) {
       case Source::shading_horizon:
@@ -113,8 +113,8 @@ class Boundaries {
   struct Ends {
     ByChannel a, b;
   };
-  // By the ends of an edge on whose left, as it runs from a to b, the part lies: (B x K)/|A x B| and (K x A)/|A x B|. By the point all
-  // of them move the other way.
+  // Derivatives by the ends of an edge that runs from a to b with the part on its left: (B x K)/|A x B| and (K x A)/|A x B|. The
+  // derivative by the point is minus their sum.
   Ends move(Vec3d a, Vec3d b, bool along, const ByChannel& moment) {
     if (!along) std::swap(a, b);
     a -= from_.position;
@@ -134,7 +134,7 @@ class Boundaries {
     const Vec3d along = mesh_.vertices[e.v1] - mesh_.vertices[e.v0];
     return {e.v0, e.v1, mesh_.vertices[e.v0] + along * (h0 / (h0 - h1)), along, h0, h1};
   }
-  // The cut slides along its edge as well.
+  // The cut also slides along its edge.
   void add_cut(const Cut& c, const ByChannel& by_place) {
     const double apart = c.height0 - c.height1, t = c.height0 / apart;
     const auto slide = [&](double change) {

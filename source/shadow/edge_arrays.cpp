@@ -9,7 +9,7 @@
 namespace steradian::shadow {
 namespace {
 
-// Numbers things in the order in which they are first asked for. Memory of one thread.
+// Numbers items in the order in which they are first requested. Each thread has its own memory.
 class Renumbering {
  public:
   void begin(std::size_t size) {
@@ -19,7 +19,7 @@ class Renumbering {
       now_ = 1;
     }
   }
-  // add() is called for a new number and says its place.
+  // add() is called for a new item and returns its place.
   template <class Add>
   std::uint32_t of(std::uint32_t number, Add add) {
     Known& known = known_[number];
@@ -40,20 +40,20 @@ Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.
 
 using K = ShadowKernels<float>;
 
-// An end of an edge as the point sees it.
+// An end of an edge as seen from the point.
 struct End {
   K::vec3 homogeneous;
-  std::int32_t x, y;  // in cells, where it is not outside
+  std::int32_t x, y;  // in cells; valid if not outside
   int outside;
 };
 
-// What is left of an edge in the box.
+// The part of an edge inside the box.
 struct Clipped {
   std::int32_t ax, ay, bx, by;
   int side_a, side_b;  // 0 not clipped, 1 left, 2 right, 3 bottom, 4 top
 };
 
-// Follows what `outside` says of the ends: all edges of a vertex agree.
+// Relies on `outside` for the ends, so that all edges of a vertex agree.
 bool clip(const End& a, const End& b, K::vec2 box, Clipped& result) {
   if ((a.outside & b.outside & kBoxOut) != 0) return false;
   K k;
@@ -79,7 +79,7 @@ bool clip(const End& a, const End& b, K::vec2 box, Clipped& result) {
     };
     span = k.shadow_clip_side(span, distance(a), distance(b), side + 1.0);
   }
-  // An end inside is not lost where the other lies a rounding beyond its side: its chain would break.
+  // An end inside is not lost if the other lies a rounding beyond its side; otherwise its chain would break.
   if (!(span.t0 < span.t1).m && span.sides.x.v > 0.5f && span.sides.y.v > 0.5f) return false;
   const K::vec3 d = b.homogeneous - a.homogeneous;
   const auto cell = [](K::real v) { return static_cast<std::int32_t>(v.v); };
@@ -94,7 +94,7 @@ bool clip(const End& a, const End& b, K::vec2 box, Clipped& result) {
   return true;
 }
 
-// A vertex that no array holds: where the light's plane cuts an edge.
+// A vertex that no array holds: the cut of an edge by the light's plane.
 End end_at(const K::vec3& h, K::vec2 box) {
   const K::vec2 c = K().shadow_cell(h, box, 0.0);
   const auto out = [](K::real d, int bit) { return d.v <= 0 ? bit : 0; };
@@ -140,7 +140,7 @@ void EdgeArrays::pad() {
   turned_.resize(vertices_.size());
   homogeneous_.resize(vertices_.size());
   for (auto* v : {&cell_x_, &cell_y_, &outside_}) v->resize(vertices_.size());
-  facing_.resize(padded(plane_count_) + kPadding);  // never empty: edges of no triangle ask for the first
+  facing_.resize(padded(plane_count_) + kPadding);  // never empty: edges without a triangle read the first entry
   found_.resize(edges + more_.size());
   weights_.resize(edges + more_.size());
 }
@@ -287,7 +287,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
   std::size_t count = packs.contours(view(), facing_.data(), outside_.data(), found_.data(), weights_.data());
 
   if (!more_.empty()) {
-    // Edges of more than two triangles take their places among the others.
+    // Insert edges of more than two triangles at their places among the others.
     for (const LaneEdges::More& m : more_) {
       std::int32_t weight = 0;
       for (std::uint32_t i = m.first; i < m.first + m.count; ++i)
@@ -338,7 +338,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
 
   const std::size_t sections = result.segments.size();
   for (const Triangle& t : crossing_) {
-    // From where the triangle's walk leaves the space below the plane to where it comes back.
+    // The section runs from where the triangle's outline leaves the space below the plane to where it comes back.
     int leaving = -1, returning = -1;
     const auto below = [&](std::uint32_t v) { return (static_cast<int>(outside_[v]) & kAbove) == 0; };
     for (int c = 0; c < 3; ++c) {
@@ -364,7 +364,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
   result.occluders = result.segments.size();
   if (result.occluders == 0) return;
   add_surroundings(frame, from, outline, result);
-  // Corners stand behind the vertices.
+  // The outline's corners follow the vertices.
   for (std::size_t i = result.occluders; i < result.occluders + outline.size(); ++i)
     for (std::int32_t* place : {&result.segments[i].place_a, &result.segments[i].place_b})
       *place += static_cast<std::int32_t>(vertex_count_);

@@ -1,5 +1,5 @@
-// EdgeArrays: the edges that a tile or a group of points needs, as packs read them, and what a point sees of them. Positions in
-// float; from cells on the same whole numbers as in segments.h.
+// EdgeArrays: the edges that a tile or a group of points needs, in the layout of packs, and the segments that a point sees. Positions are
+// in float. From cells on, the whole numbers are the same as in segments.h.
 #pragma once
 
 #include <array>
@@ -15,23 +15,24 @@ namespace steradian::shadow {
 
 class EdgeArrays {
  public:
-  // Edges and crossing triangles with these numbers, ascending, in the coordinates of a frame.
+  // Takes edges and crossing triangles with these numbers, ascending, in the coordinates of a frame.
   void assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
               const std::vector<std::uint32_t>& crossing_triangles);
-  // Of a tile's, what a shaft needs. The shaft is in the tile's frame's world.
+  // Takes the edges of a tile that a shaft needs. The shaft is in the world of the tile's frame.
   void assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, const EdgeArrays& tile, const LightFrame& frame, const Shaft& shaft);
 
   bool empty() const { return edge_.empty() && crossing_.empty(); }
   std::size_t edge_count() const { return edge_.size(); }
   std::size_t vertex_count() const { return vertex_count_; }
   std::size_t plane_count() const { return plane_count_; }
-  // Triangles that cross the light's plane: places of plane and corners here, numbers of the edges that begin at those in the mesh.
+  // Triangles that cross the light's plane. plane and corners: places in these arrays; edges: mesh numbers of the edges that begin at the
+  // corners.
   struct Triangle {
     std::uint32_t number, plane, corners[3], edges[3];
   };
   const std::vector<Triangle>& crossing() const { return crossing_; }
 
-  // For lanes: the edges, and what the ends of one of them are where its point sees them in some cell.
+  // For lanes: the edges, and the cell of an edge's end as its point sees it.
   LaneEdges lane_edges() const;
   std::uint32_t edge_number(std::size_t row) const { return edge_[row]; }
   std::uint32_t vertex_number(std::size_t place) const { return vertex_[place]; }
@@ -39,8 +40,8 @@ class EdgeArrays {
     return vertex_cell(static_cast<std::size_t>(end == 0 ? v0_[row] : v1_[row]), x, y);
   }
 
-  // All segments that the point sees, in the frame of assign (`base`), or in another one. Nothing at all where no occluder is among
-  // them: see add_surroundings.
+  // All segments that the point sees, in the frame of assign (`base`) or in another one. The result is empty if no occluder is among them;
+  // see add_surroundings.
   //
   //   outline  of the frame (outline_segments)
   void see(const ShadowTable& packs, const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline,
@@ -75,20 +76,20 @@ class EdgeArrays {
   std::vector<std::uint32_t> edge_;   // numbers in the mesh
   std::vector<std::int32_t> v0_, v1_, plane0_, plane1_;
   std::vector<float> walks0_, walks1_;
-  std::vector<std::uint8_t> has_more_;  // than two triangles: then all of them are in `more_`
+  std::vector<std::uint8_t> has_more_;  // true: more than two triangles, all of them in `more_`
   std::vector<LaneEdges::More> more_;
   std::vector<LaneEdges::Incidence> incidences_;
   std::vector<Triangle> crossing_;
 
-  // Of a point.
+  // Buffers for one point.
   Vectors turned_, homogeneous_;
   std::vector<float> cell_x_, cell_y_, outside_, facing_;
   std::vector<std::uint32_t> found_;
   std::vector<std::int32_t> weights_;
 };
 
-// What bounds the light beside its occluders: its outline and the point's horizons. After occluders, in which `see` left them out since
-// there were none.
+// Adds the other bounds of the light: its outline and the point's horizons. They follow the occluders. `see` leaves them out if there are
+// no occluders.
 void add_surroundings(const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline, SegmentSet& result);
 
 // The outline of a light as segments.

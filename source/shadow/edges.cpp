@@ -7,7 +7,7 @@
 namespace steradian::shadow {
 namespace {
 
-// The order of positions by their bits; -0 and 0 are one.
+// Key that orders positions by their bits; -0 and 0 are equal.
 struct Key {
   std::uint64_t x, y, z;
   auto operator<=>(const Key&) const = default;
@@ -16,7 +16,7 @@ Key key_of(Vec3d p) {
   return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)};
 }
 
-// The number of the first vertex that stands where vertex i stands, for every i.
+// For every vertex i, the number of the first vertex at the same position.
 std::vector<std::uint32_t> welded(const std::vector<Vec3d>& positions) {
   std::vector<std::pair<Key, std::uint32_t>> order(positions.size());
   for (std::uint32_t i = 0; i < positions.size(); ++i) order[i] = {key_of(positions[i]), i};
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> welded(const std::vector<Vec3d>& positions) {
   return result;
 }
 
-// Starts at the smallest corner, so that coincident triangles, whichever corner they name first, have one plane to the bit.
+// Starts at the smallest corner, so that coincident triangles have the same plane bit for bit, whichever corner they list first.
 Plane plane_of(const std::vector<Vec3d>& vertices, std::array<std::uint32_t, 3> t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   const Vec3d a = vertices[t[0]];
@@ -37,7 +37,7 @@ Plane plane_of(const std::vector<Vec3d>& vertices, std::array<std::uint32_t, 3> 
   return {normal, dot(normal, a)};
 }
 
-// Halves a range of edges by their middles, again and again.
+// Recursive halving of a range of edges by their midpoints.
 struct Middle {
   double at[3];
   std::uint32_t edge;
@@ -62,7 +62,7 @@ void split(Middle* all, std::uint32_t begin, std::uint32_t end) {
   split(all, half, end);
 }
 
-// Puts edges, which are sorted, in the order of leaves. The numbers of edges settle ties, so that the order is one.
+// Reorders sorted edges by leaves. The numbers of edges settle ties, so that the order is unique.
 void sort_into_leaves(EdgeMesh& mesh) {
   std::vector<Middle> order(mesh.edges.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) {

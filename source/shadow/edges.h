@@ -1,4 +1,4 @@
-// EdgeMesh: the triangles that can block light, and their edges, welded over all meshes. Made once per scene.
+// EdgeMesh: the triangles that can block light, and their edges, welded over all meshes. Built once per scene.
 #pragma once
 
 #include <array>
@@ -16,14 +16,13 @@ struct Plane {
   double offset = 0;
 };
 
-// A triangle at an edge: walks is +1 where it walks the edge from v0 to v1, -1 where the other way.
+// A triangle at an edge. walks: +1 if it traverses the edge from v0 to v1, -1 in the other direction.
 struct EdgeTriangle {
   std::uint32_t triangle = 0;
   std::int32_t walks = 1;
 };
 
-// v0 < v1. Its triangles: edge_triangles[first], ..., as many as there are: one at a border, two inside a surface, any
-// number where surfaces meet.
+// v0 < v1. Its `count` triangles start at edge_triangles[first]: one at a border, two inside a surface, any number where surfaces meet.
 struct Edge {
   std::uint32_t v0 = 0, v1 = 0;
   std::uint32_t first = 0, count = 0;
@@ -32,24 +31,24 @@ struct Edge {
 struct EdgeMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Plane> planes;                                 // of the triangles
-  std::vector<Edge> edges;                                   // leaf after leaf of EdgeTree: neighbours stand together
+  std::vector<Plane> planes;                                 // planes of the triangles
+  std::vector<Edge> edges;                                   // in the order of EdgeTree's leaves: neighbours are stored together
   std::vector<EdgeTriangle> edge_triangles;                  // in the order of edges
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
 };
 
-// Edges of a leaf of EdgeTree; the last one may have fewer.
+// Number of edges in a leaf of EdgeTree; the last leaf may have fewer.
 inline constexpr std::uint32_t kLeafEdges = 16;
-// Where a range of edges is halved: between leaves.
+// Position at which a range of edges is halved, always between leaves.
 constexpr std::uint32_t middle_of(std::uint32_t begin, std::uint32_t end) {
   return begin + (end - begin + 2 * kLeafEdges - 1) / (2 * kLeafEdges) * kLeafEdges;
 }
 
-// Nothing asks whether surfaces are closed, oriented or manifold. Equal positions become one vertex; triangles with two
-// equal corners or a coordinate that is not finite are dropped.
+// Surfaces need not be closed, oriented or manifold. Equal positions become one vertex. Triangles with two equal corners or a coordinate
+// that is not finite are dropped.
 EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices);
 
-// Of everything that blocks the light of a scene exactly: not the shapes that stand for lights, not cut-outs.
+// Builds the edges of everything that blocks a scene's light exactly: no shapes that stand for lights, no cut-outs.
 EdgeMesh build_edges(const Scene& scene);
 
 }  // namespace steradian::shadow

@@ -32,7 +32,7 @@ Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up
   const Frame around = has_up ? Frame::from_normal(normalized(up)) : frame.axes;
   const double lowest = enclose(points, around);
   double deep = 0;
-  // The slanted sides through the light's box at z = 0: the least slopes that leave all points inside.
+  // Slanted sides through the light's box at z = 0: the least slopes that leave all points inside.
   double slopes[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
   for (const Vec3d& p : points) {
     const Vec3d local = frame.to_local(p);
@@ -176,7 +176,7 @@ EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint3
     for (std::uint32_t k = 0; k < e.count && e.count <= 2; ++k) {
       const EdgeTriangle& t = mesh.edge_triangles[e.first + k];
       const Plane& plane = mesh.planes[t.triangle];
-      // Of unit normals: small triangles' own would leave the range of floats.
+      // Normals have unit length here: those of small triangles would leave the range of floats.
       const double size = length(plane.normal), scale = size > 0 ? 1 / size : 0;
       put(k == 0 ? leaf.normal0 : leaf.normal1, i, plane.normal * scale);
       (k == 0 ? leaf.offset0 : leaf.offset1)[i] = static_cast<float>((plane.offset - dot(plane.normal, middle_)) * scale);
@@ -217,7 +217,7 @@ void EdgeTree::gather(const ShadowTable& packs, const Shaft& shaft, std::vector<
   here.origin = middle_;
   here.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const ShaftView view = shaft.view_from(here);
-  // The same margins as for edges, all of a box's.
+  // The margins are those of edges, for the whole box.
   const auto meets = [&view](const Vec3f& low, const Vec3f& high) {
     const Vec3f c = (low + high) * 0.5f, h = (high - low) * 0.5f;
     const float margin = 4e-6f * (std::fabs(c.x) + std::fabs(c.y) + std::fabs(c.z) + h.x + h.y + h.z + view.reach);

@@ -1,4 +1,4 @@
-// Gathering: which edges a group of points need look at before a light. Section "A picture" of docs/shadows.md.
+// Gathering: the edges that a group of points needs to test for a light. See section "A picture" of docs/shadows.md.
 #pragma once
 
 #include <array>
@@ -11,45 +11,44 @@
 
 namespace steradian::shadow {
 
-// Where triangles cross the plane of a light: that of the shaft's frame, or planes of the points' own.
+// Planes by which triangles are cut: the plane of the shaft's frame, or a plane of each point's own.
 enum class Sections { in_plane, anywhere };
 
-// The hull of a group of points and a light, and what of the points' box its tests need.
+// The hull of a group of points and a light, and the parts of the points' box that its tests need.
 class Shaft {
  public:
-  // All points below the light's plane (in its frame, z < 0). up: where most of the points' surfaces look, if that is known; what lies
-  // behind all of them is then left out.
+  // All points are below the light's plane (in its frame, z < 0). up: direction that most of the points' surfaces face, if known.
+  // Everything behind all of them is then left out.
   Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up = {}, Sections sections = Sections::in_plane);
-  // A box along the axes around points and a light that lies in a cube about `light`, however near they are.
+  // An axis-aligned box around points and a light that lies in a cube about `light`, however near they are.
   Shaft(Vec3d light, double half_side, const std::vector<Vec3d>& points, Vec3d up = {});
 
   bool may_meet_box(Vec3d low, Vec3d high) const;
-  bool may_meet(const Vec3d* corners, int count) const;  // their hull
+  bool may_meet(const Vec3d* corners, int count) const;  // tests their hull
   bool may_meet_segment(Vec3d a, Vec3d b) const;
 
-  // Whether the section of a triangle by the light's plane can be one.
+  // Returns true if a triangle's section by the light's plane may be a segment.
   bool needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const;
 
-  // In a frame's coordinates, for packs.
+  // The shaft in a frame's coordinates, for packs.
   ShaftView view_from(const LightFrame& frame) const;
 
  private:
   struct Bound {  // inside: dot(normal, x) <= offset
     Vec3d normal;
-    double offset, length;  // of the normal
+    double offset, length;  // length: of the normal
   };
   static Bound bound_of(Vec3d normal, double offset) { return {normal, offset, length(normal)}; }
-  // Puts the box around the points; returns how low they lie along its z.
+  // Puts the box around the points; returns their least coordinate along its z axis.
   double enclose(const std::vector<Vec3d>& points, const Frame& axes);
-  // How far off a place may be: points look at positions in float, and a vertex that one of them sees inside the box must not lose
-  // its edges.
+  // Bound on a position's error. Points use positions in float, and a vertex that a point sees inside the box must not lose its edges.
   double rounding(Vec3d p) const;
-  std::array<Bound, kShaftSides> bounds_;  // the second: before the light's plane
+  std::array<Bound, kShaftSides> bounds_;  // the second one is the light's plane
   Sections sections_;
-  Vec3d origin_;    // of the light
+  Vec3d origin_;    // the light's origin
   double far_ = 0;  // distance of the farthest point from its plane
-  Vec3d center_;    // of the points' box, in the world
-  Vec3d half_[3];   // its half sides, as vectors
+  Vec3d center_;    // center of the points' box, in world space
+  Vec3d half_[3];   // half sides of that box, as vectors
 };
 
 // A bounding volume hierarchy of edges.
@@ -57,19 +56,19 @@ class EdgeTree {
  public:
   explicit EdgeTree(const EdgeMesh& mesh);
 
-  // Ascending numbers of the edges that the shaft needs: those that can be a segment for one of its points, since they may be contours
-  // and may meet it.
+  // Ascending numbers of the edges that the shaft needs: edges that may be contours and may meet the shaft. Each can be a segment for one
+  // of its points.
   void gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const;
 
  private:
   struct Node {
     Vec3f low, high;
-    std::uint32_t leaf = 0, children = 0;  // children 0: a leaf; else there and next to it
+    std::uint32_t leaf = 0, children = 0;  // children 0: a leaf; else index of two adjacent children
   };
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   EdgeLeaf leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint32_t end) const;
 
-  Vec3d middle_;  // of all: coordinates count from here
+  Vec3d middle_;  // middle of all edges, origin of the coordinates
   std::vector<Node> nodes_;
   std::vector<EdgeLeaf> leaves_;
 };

@@ -10,7 +10,7 @@ using namespace shadow;
 
 constexpr float kFar = 1e9f;
 
-// What a ray to the left from e's middle counts, in some lanes.
+// Count of a ray to the left from e's middle, in some lanes.
 LaneInts left_ray(const LaneWork& work, const LaneView& view, std::size_t event_count, std::uint32_t number, std::uint32_t lanes) {
   const SegmentLanes& e = work.segments[number];
   LaneReals mx, my;
@@ -68,13 +68,13 @@ LaneInts left_ray(const LaneWork& work, const LaneView& view, std::size_t event_
   return result;
 }
 
-// What the count on the left of a segment has changed by at places t on it, and where another crossing is too near to say.
+// Change of the count on a segment's left up to positions t on it. unsure: lanes where another crossing is too near to decide.
 struct Before {
   LaneInts change;
   std::uint32_t unsure;
 };
 Before before(const LaneWork& work, std::uint32_t number, const LaneReals& t) {
-  const PackReal apart = broadcast(1e-6f);  // numbers below 1 in float are 6e-8 off
+  const PackReal apart = broadcast(1e-6f);  // floats below 1 are 6e-8 off
   Before result;
   LaneInts close;
   each_pack([&](std::size_t i) {
@@ -91,7 +91,7 @@ Before before(const LaneWork& work, std::uint32_t number, const LaneReals& t) {
   return result;
 }
 
-// Takes counts of a segment from those that it crosses, where they are known.
+// Takes counts of a segment from the segments that it crosses, if those are known.
 void take_across(const LaneWork& work, std::uint32_t number) {
   SegmentLanes& g = work.segments[number];
   for (std::uint32_t k = work.crossing_first[number]; k < work.crossing_first[number + 1] && g.known != g.present; ++k) {
@@ -105,7 +105,7 @@ void take_across(const LaneWork& work, std::uint32_t number) {
     lanes &= ~(on_e.unsure | on_g.unsure);
     const std::uint32_t from_right = as_f ? c.e_to_left : c.f_to_left;  // e comes from g's right
     each_pack([&](std::size_t i) {
-      // On e's left, before the crossing: that is before g's too, on its right, or behind it, on its left.
+      // The count on e's left before the crossing is on g's right before g's crossing, or on g's left after it.
       const PackInt count = get(e.left, i) + get(on_e.change, i);
       const PackInt left_of_g = select(mask_at(from_right, i), count + get(g.weight, i), count - get(e.weight, i));
       put(g.left, i, select(mask_at(lanes, i), left_of_g - get(on_g.change, i), get(g.left, i)));
@@ -114,7 +114,7 @@ void take_across(const LaneWork& work, std::uint32_t number) {
   }
 }
 
-// Finds the counts of segments that others do not hand on.
+// Finds the counts of segments that receive none from others.
 void start_counts(const LaneWork& work, const LaneView& view, std::size_t event_count, std::uint32_t number) {
   SegmentLanes& e = work.segments[number];
   const std::uint32_t lanes = static_cast<std::uint32_t>(e.present) & ~static_cast<std::uint32_t>(e.known);
@@ -128,14 +128,14 @@ void start_counts(const LaneWork& work, const LaneView& view, std::size_t event_
     if (work.exact.runs_up(work.exact.self, number, lane)) up |= 1u << lane;
   });
   each_pack([&](std::size_t i) {
-    // The count is on the -x side: e's left if it runs up.
+    // The count is on the -x side, which is e's left if e runs up.
     const PackInt at_middle = get(count, i) + where(mask_at(~up, i), get(e.weight, i));
     put(e.left, i, select(mask_at(lanes, i), at_middle - get(e.change_to_middle, i), get(e.left, i)));
   });
   e.known = e.present;
 }
 
-// Hands counts of e on to what goes on from one of its ends.
+// Passes counts of e on to the segments that continue from one of its ends.
 void hand_on(const LaneWork& work, std::uint32_t number, int end, std::size_t& depth) {
   const SegmentLanes& e = work.segments[number];
   const std::int32_t place = place_at(e, end);
@@ -152,7 +152,7 @@ void hand_on(const LaneWork& work, std::uint32_t number, int end, std::size_t& d
     each_pack([&](std::size_t i) {
       PackInt count = get(e.left, i);
       if (end == 1) count = count + get(e.change, i);
-      // The same walk goes on, or g runs against it: then its left is e's right.
+      // g goes on in the same direction, or it runs against it: then its left is e's right.
       if (end == at) count = count - get(e.weight, i);
       if (at == 1) count = count - get(g.change, i);
       put(g.left, i, select(mask_at(lanes, i), count, get(g.left, i)));
@@ -170,7 +170,7 @@ void list_crossings(const LaneWork& work) {
     ++first[c.e];
     ++first[c.f];
   }
-  // To the lists' ends, from where filling goes back to their beginnings.
+  // Sum up to the lists' ends, from which filling goes back to their beginnings.
   for (std::size_t s = 1; s <= work.count; ++s) first[s] += first[s - 1];
   for (std::size_t k = work.crossings.size; k-- > 0;) {
     const CrossingLanes& c = work.crossings.data[k];
@@ -195,7 +195,7 @@ void list_crossings(const LaneWork& work) {
   }
 }
 
-// Sorts numbers with what belongs to them, each lane by itself.
+// Sorts numbers with their associated values, each lane by itself.
 // Source: Batcher's merge exchange; Knuth, The Art of Computer Programming, volume 3, section 5.2.2, algorithm M.
 void sort(LaneReals* t, LaneInts* change, std::size_t n) {
   std::size_t top = 1;
@@ -272,7 +272,7 @@ __attribute__((flatten)) void count_in_lanes(LaneWork& work, const LaneView& vie
     }
   };
   const auto is_known = [&](std::uint32_t s) { return work.segments[s].known == work.segments[s].present; };
-  // From the light's outline on, which much crosses; where no crossing leads, by rays.
+  // Start from the light's outline, which many segments cross. Use rays where no crossing leads.
   for (const int by_rays : {0, 1})
     for (std::uint32_t k = 0, s = work.outline; k < work.count; ++k, s = s + 1 < work.count ? s + 1 : 0) {
       if (is_known(s)) continue;

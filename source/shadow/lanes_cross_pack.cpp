@@ -1,4 +1,4 @@
-// Which segments cross, for sixteen points at once.
+// Finds the segments that cross, for sixteen points at once.
 #include "shadow/lanes_pack.h"
 
 STERADIAN_BEGIN_ISA
@@ -15,7 +15,7 @@ STERADIAN_INLINE std::uint32_t shared_ends(const SegmentLanes& e, const SegmentL
   return shared;
 }
 
-// In which lanes e and f may cross, as far as floats tell.
+// Lanes in which e and f may cross, as far as floats tell.
 STERADIAN_INLINE std::uint32_t may_cross(const SegmentLanes& e, const SegmentLanes& f) {
   return lane_bits([&](std::size_t i) {
     const PackReal fx = get(f.bx, i) - get(f.ax, i), fy = get(f.by, i) - get(f.ay, i);
@@ -36,10 +36,10 @@ STERADIAN_INLINE std::uint32_t may_cross(const SegmentLanes& e, const SegmentLan
   });
 }
 
-// Adds the crossing of e and f in some lanes; false: in none of them.
+// Adds the crossing of e and f in some lanes; returns false if they cross in none.
 bool cross_pair(const LaneWork& work, std::uint32_t number_e, std::uint32_t number_f, std::uint32_t lanes, CrossingLanes& to) {
   const SegmentLanes &e = work.segments[number_e], &f = work.segments[number_f];
-  // In double all is exact: differences below 2^24, products below 2^48. Floats keep the signs.
+  // Everything is exact in double: differences below 2^24, products below 2^48. Floats keep the signs.
   LaneReals ea, eb, fa, fb, middle_e, middle_f;
   for (std::size_t i = 0; i < kPoints; ++i) {
     const double fx = static_cast<double>(f.bx.at[i]) - static_cast<double>(f.ax.at[i]),
@@ -68,10 +68,10 @@ bool cross_pair(const LaneWork& work, std::uint32_t number_e, std::uint32_t numb
     const auto apart = [&](const LaneReals& a, const LaneReals& b, const LaneReals& c, const LaneReals& d) {
       return max(is(a), is(b)) < min(is(c), is(d)) || max(is(c), is(d)) < min(is(a), is(b));
     };
-    // Nothing infinitely small brings these together: of edges along one line, which buildings have, most are apart.
+    // No infinitely small displacement brings these together. Most edges along one line, as buildings have them, are apart.
     const PackMask misses =
         on_one_side(is(ea), is(eb)) || on_one_side(is(fa), is(fb)) || apart(e.ax, e.bx, f.ax, f.bx) || apart(e.ay, e.by, f.ay, f.by);
-    // The least of six sizes is 0 where any is.
+    // The least of six absolute values is 0 if any of them is.
     add(tied, !misses && min(min(min(abs(is(ea)), abs(is(eb))), min(abs(is(fa)), abs(is(fb)))),
                              min(abs(is(middle_e)), abs(is(middle_f)))) <= zero);
     add(e_to_left, is(eb) > zero);

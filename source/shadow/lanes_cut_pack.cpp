@@ -1,4 +1,4 @@
-// The lowest level and what bounds it, for sixteen points at once.
+// The lowest level and its boundary, for sixteen points at once.
 #include <climits>
 
 #include "shadow/lanes_pack.h"
@@ -58,7 +58,7 @@ void find_levels(const LaneWork& work, LaneInts& level) {
   }
 }
 
-// The pieces of a segment that bound the level, in some lanes; false: no room.
+// Adds the pieces of a segment that bound the level, in some lanes; returns false if the capacity is too small.
 bool cut(LaneWork& work, std::uint32_t number, std::uint32_t lanes, const LaneInts& level) {
   const SegmentLanes& e = work.segments[number];
   const std::size_t most = kPoints * (work.crossing_first[number + 1] - work.crossing_first[number] + 1);
@@ -76,7 +76,7 @@ bool cut(LaneWork& work, std::uint32_t number, std::uint32_t lanes, const LaneIn
       for_each_bit(bounds, [&](std::size_t k) {
         const std::size_t lane = i + k;
         CrossedPiece& p = work.pieces.data[work.pieces.size++];
-        const bool backwards = e.weight.at[lane] > 0;  // less on the right
+        const bool backwards = e.weight.at[lane] > 0;  // the right side has the lower count
         p = {x.at[lane], y.at[lane], to_x.at[lane], to_y.at[lane], number, static_cast<std::uint16_t>(lane)};
         if (backwards) p = {p.bx, p.by, p.ax, p.ay, p.segment, p.lane};
       });

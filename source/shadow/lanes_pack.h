@@ -1,4 +1,4 @@
-// Sixteen lanes in packs, and what the units of the lanes' table share.
+// Sixteen lanes in packs, and helpers that the units of the lanes' table share.
 #pragma once
 
 #include "core/pack_bits.h"
@@ -10,12 +10,12 @@ STERADIAN_BEGIN_ISA
 using ShadowPack = ShadowKernels<Pack>;
 using PackMask = PackKernels::mask;
 
-// use(i) for the first lane of each pack.
+// Calls use(i) for the first lane of each pack.
 template <class Use>
 STERADIAN_INLINE void each_pack(Use use) {
   for (std::size_t i = 0; i < shadow::kPoints; i += kLanes) use(i);
 }
-// The bits of masks of(i).
+// Bits of the masks of(i).
 template <class Of>
 STERADIAN_INLINE std::uint32_t lane_bits(Of of) {
   std::uint32_t bits = 0;
@@ -53,7 +53,7 @@ STERADIAN_INLINE std::uint32_t free_at(const shadow::SegmentLanes& s, int end) {
 }
 STERADIAN_INLINE std::int32_t place_at(const shadow::SegmentLanes& s, int end) { return end == 0 ? s.place_a : s.place_b; }
 
-// Over the lanes of a mask: of values at(i).
+// Least and largest of the values at(i) over the lanes of a mask.
 template <class At>
 STERADIAN_INLINE float least(std::uint32_t lanes, At at) {
   PackReal result(1e9);
@@ -65,8 +65,8 @@ STERADIAN_INLINE float largest(std::uint32_t lanes, At at) {
   return -least(lanes, [&](std::size_t i) { return -at(i); });
 }
 
-// Calls use(segment) for those whose boxes may meet a range, from the place `first` on: first blocks by their boxes, then what is in
-// them.
+// Calls use(segment) for segments whose boxes may meet a range, from the place `first` on. It tests the boxes of blocks first, then those
+// of their segments.
 template <class Use>
 STERADIAN_INLINE void near(const shadow::BoxArrays& b, std::size_t count, std::size_t first, float low_x, float high_x, float low_y,
                            float high_y, Use use) {

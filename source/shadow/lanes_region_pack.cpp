@@ -1,4 +1,4 @@
-// The region that shows, for sixteen points at once: whether it is thin, a place well inside, the edges that bound it.
+// The visible region, for sixteen points at once: whether it is thin, a position well inside, and the edges that bound it.
 #include "shadow/lanes_pack.h"
 #include "shadow/segments.h"
 
@@ -8,10 +8,10 @@ namespace {
 using namespace shadow;
 
 constexpr float kFar = 1e30f;
-constexpr float kThin = 1.0f / 4096;             // narrower than this share of its length, a region proves nothing by a ray
+constexpr float kThin = 1.0f / 4096;             // narrower than this fraction of its length, a region proves nothing by a ray
 constexpr float kCellSize = 1.0f / kCells;       // in half sides of the box
-constexpr float kRoomEnough = kCells / 1024.0f;  // around a place: a ray's rounding is a thousand times less
-constexpr float kLeastRoom = kCells / 8192.0f;   // else the point looks for one by itself
+constexpr float kRoomEnough = kCells / 1024.0f;  // around a position: a ray's rounding is a thousand times less
+constexpr float kLeastRoom = kCells / 8192.0f;   // below it, the point searches for a position by itself
 constexpr int kTrials = 4;
 
 // Lanes where the region is not thin, by its area and perimeter in half sides.
@@ -24,7 +24,7 @@ std::uint32_t find_wide(const LaneWork& work) {
     each_pack([&](std::size_t i) {
       const PackReal ax = size * get(e.ax, i), ay = size * get(e.ay, i), dx = size * get(e.bx, i) - ax, dy = size * get(e.by, i) - ay;
       const PackMask here = mask_at(e.bounds, i);
-      const std::uint32_t backwards = bits_of(get(e.weight, i) > PackInt(0)) << i;  // less on the right
+      const std::uint32_t backwards = bits_of(get(e.weight, i) > PackInt(0)) << i;  // the right side has the lower count
       const PackReal twice = ax * dy - ay * dx;
       put(area, i, get(area, i) + select(here, select(mask_at(backwards, i), -twice, twice), zero));
       put(perimeter, i, get(perimeter, i) + select(here, sqrt(dx * dx + dy * dy), zero));
@@ -39,14 +39,14 @@ std::uint32_t find_wide(const LaneWork& work) {
   return lane_bits([&](std::size_t i) { return get(area, i) > PackReal(2.0) * broadcast(kThin) * get(perimeter, i); });
 }
 
-// A piece of every lane: its middle, the unit normal into the region, its length squared.
+// A piece in every lane: its middle, the unit normal into the region, its squared length.
 struct Longest {
   LaneReals x, y, nx, ny, length2;
-  LaneInts number;   // by which the search goes on
-  LaneInts segment;  // it is of
+  LaneInts number;   // the search continues from it
+  LaneInts segment;  // segment of the piece
 };
 
-// The longest pieces that bound the region after those of `before`.
+// Finds the longest pieces that bound the region after those of `before`.
 void find_longest(const LaneWork& work, std::uint32_t lanes, const Longest& before, Longest& found) {
   each_pack([&](std::size_t i) {
     put(found.length2, i, PackReal(0.0));
@@ -99,7 +99,7 @@ void find_longest(const LaneWork& work, std::uint32_t lanes, const Longest& befo
   });
 }
 
-// From middles along the normals, half way to the next segment.
+// Steps from middles along the normals, half way to the next segment.
 void step_inside(const LaneWork& work, const Longest& from, LaneReals& x, LaneReals& y) {
   const PackReal zero(0.0), one(1.0), far = broadcast(kFar);
   LaneReals distance;
@@ -124,7 +124,7 @@ void step_inside(const LaneWork& work, const Longest& from, LaneReals& x, LaneRe
   });
 }
 
-// The distance of places from all segments, 0 where their counts are not at most the level.
+// Distance of positions from all segments; 0 where the count exceeds the level or is uncertain.
 void find_room(const LaneWork& work, const LaneView& view, const LaneInts& level, const LaneReals& x, const LaneReals& y, LaneReals& room) {
   const PackReal zero(0.0), one(1.0);
   LaneReals least2;
@@ -143,7 +143,7 @@ void find_room(const LaneWork& work, const LaneView& view, const LaneInts& level
       const PackReal t = clamp((px * fx + py * fy) / max(fx * fx + fy * fy, one), zero, one);
       const PackReal rx = px - t * fx, ry = py - t * fy;
       put(least2, i, min(get(least2, i), select(here, rx * rx + ry * ry, broadcast(kFar))));
-      // The left ray. The place is no whole number: differences round as well.
+      // The left ray. The position is no whole number, so differences round as well.
       const PackMask start = ay > qy, end = get(f.by, i) > qy, rises = here && end && !start, falls = here && start && !end;
       const PackReal p = fx * py, q = fy * px, d = p - q;
       uncertain |= bits_of((rises || falls) && abs(d) <= PackReal(1e-6) * (abs(p) + abs(q))) << i;
@@ -168,7 +168,7 @@ struct Writer {
   const LaneView& view;
   std::uint32_t lanes;
 
-  // The ends of an edge, in cells, as vectors from the points, on or above their horizons.
+  // Writes an end of an edge, given in cells, as vectors from the points, on or above their horizons.
   STERADIAN_INLINE void corner(const PackReal& cell_x, const PackReal& cell_y, std::size_t i, float* to) const {
     const PackReal size = broadcast(kCellSize), zero(0.0), one(1.0);
     const PackReal x = cell_x * (get(view.box_x, i) * size) - get(view.eye[0], i);
@@ -241,7 +241,7 @@ static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, 
     const std::uint32_t bits = e.bounds & lanes;
     if (bits == 0) continue;
     each_pack([&](std::size_t i) {
-      // Of no length where it does not bound the region, which lies on the left.
+      // The edge has no length where it does not bound the region, which lies on the left.
       const PackMask here = mask_at(bits, i);
       const std::uint32_t less_right = bits_of(get(e.weight, i) > PackInt(0)) << i;
       const PackMask backwards = mask_at(less_right, i);
@@ -252,7 +252,7 @@ static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, 
     });
     to += kEdge;
   }
-  // Of the crossed ones, a row holds the k-th of every lane: first in cells.
+  // Row k of the crossed pieces holds the k-th piece of every lane, at first in cells.
   std::size_t crossed[kPoints] = {}, rows = 0;
   for (std::size_t k = 0; k < work.pieces.size; ++k) {
     const CrossedPiece& p = work.pieces.data[k];

@@ -1,4 +1,4 @@
-// Edges as sixteen points see them: which are contours, where they lie, what the light's box leaves of them.
+// Edges as seen from sixteen points: which are contours, where they lie, and their parts inside the light's box.
 #include <cstring>
 
 #include "shadow/lanes_pack.h"
@@ -9,7 +9,7 @@ namespace {
 using namespace shadow;
 using K = ShadowPack;
 
-// An end of an edge as the lanes see it.
+// An end of an edge as seen from the lanes.
 struct Ends {
   LaneReals x, y, z, cell_x, cell_y;
   std::uint32_t out[4];  // left, right, bottom, top
@@ -28,7 +28,7 @@ class View {
   }
   STERADIAN_INLINE K::vec2 box(std::size_t i) const { return {get(view_.box_x, i), get(view_.box_y, i)}; }
 
-  // What a projected place is to the four sides and in cells.
+  // Projects a position; computes its cell and the bits of the four sides that it lies beyond.
   template <class To>
   STERADIAN_INLINE void look(const PackVec3& v, std::size_t i, To& to, std::uint32_t out[4]) const {
     K k;
@@ -60,7 +60,7 @@ class View {
     to.above = narrow(above);
   }
 
-  // Where the light's plane cuts the edge, in the lanes of `cut`.
+  // Cuts the edge by the light's plane, in the lanes of `cut`.
   __attribute__((flatten, noinline)) void cut(std::size_t v0, std::size_t v1, std::uint32_t cut, Ends& end) const {
     K k;
     Ends at;
@@ -93,8 +93,8 @@ STERADIAN_INLINE void take(const VertexLanes& v, Ends& to) {
   to.out[3] = v.top;
 }
 
-// Clips by the box, following what `out` says of the ends: all edges of a vertex agree (clip of edge_arrays.cpp). The cells are in
-// `to` already.
+// Clips by the box. It relies on `out` for the ends, so that all edges of a vertex agree (clip of edge_arrays.cpp). The cells are in `to`
+// already.
 __attribute__((flatten, noinline)) void clip(const View& view, const Ends& a, const Ends& b, SegmentLanes& to) {
   K k;
   std::uint32_t lost = 0, clipped_a = 0, clipped_b = 0, left_a = 0, left_b = 0;
@@ -118,7 +118,7 @@ __attribute__((flatten, noinline)) void clip(const View& view, const Ends& a, co
     side(2, box.y * ha.z + ha.y, box.y * hb.z + hb.y);
     side(3, box.y * ha.z - ha.y, box.y * hb.z - hb.y);
     const PackMask at_a = span.sides.x > half, at_b = span.sides.y > half;
-    // An end inside is not lost where the other lies a rounding beyond its side: its chain would break.
+    // An end inside is not lost if the other lies a rounding beyond its side; otherwise its chain would break.
     lost |= bits_of(!(span.t0 < span.t1) && at_a && at_b) << i;
     clipped_a |= bits_of(at_a) << i;
     clipped_b |= bits_of(at_b) << i;
@@ -141,7 +141,7 @@ __attribute__((flatten, noinline)) void clip(const View& view, const Ends& a, co
   to.left_b = narrow(left_b & present);
 }
 
-// The weights of an edge of more than two triangles; returns where they are not 0.
+// Computes the weights of an edge of more than two triangles; returns the lanes where they are not 0.
 std::uint32_t weigh(const LaneEdges& edges, const LaneEdges::More& more, const std::uint16_t* front, LaneInts& weight) {
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < kPoints; ++lane) {
@@ -192,7 +192,7 @@ __attribute__((flatten)) std::size_t see_in_lanes(const LaneEdges& edges, const 
     if (bits == 0) continue;
     const std::int32_t place_a = place(all.v0[e]), place_b = place(all.v1[e]);
     const VertexLanes &v0 = vertices[place_a], &v1 = vertices[place_b];
-    // Where an edge is cut by the plane, its upper end says nothing of the box.
+    // If the plane cuts an edge, its upper end is not tested against the box.
     const std::uint32_t cut_a = v0.above & ~v1.above, cut_b = v1.above & ~v0.above;
     const auto beyond = [](const auto& a, const auto& b) { return (a[0] & b[0]) | (a[1] & b[1]) | (a[2] & b[2]) | (a[3] & b[3]); };
     const std::uint32_t out0[4] = {v0.left, v0.right, v0.bottom, v0.top}, out1[4] = {v1.left, v1.right, v1.bottom, v1.top};

@@ -11,7 +11,7 @@ struct Rectangle {
   double area() const { return (x1 - x0) * (y1 - y0); }
 };
 
-// Of the first contour, the outline; holes lie within.
+// Bounding rectangle of the first contour, the outline; holes lie within.
 Rectangle bounds(const PreparedPolygon& light, Vec3d x, Vec3d y) {
   Rectangle r;
   for (std::size_t i = light.contours[0]; i < light.contours[1]; ++i) {

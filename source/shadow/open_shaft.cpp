@@ -6,8 +6,8 @@
 
 namespace steradian::shadow {
 
-// The hull's shadow along an axis is the hull of two rectangles. In each of its four quadrants it has a slanted side if one rectangle
-// reaches further along one coordinate and the other along the other.
+// The hull's projection along an axis is the hull of two rectangles. In each of its four quadrants it has a slanted side if one rectangle
+// reaches further in one coordinate and the other in the second.
 HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
   all_.add(b);
   for (int axis = 0; axis < 3; ++axis) {
@@ -104,7 +104,7 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   build(children + 1, half, end);
 }
 
-// Whether all points and all of the light lie on one side of the triangle's plane.
+// Returns true if all points and the whole light lie on one side of the triangle's plane.
 bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box& light, double margin) const {
   const Plane& plane = mesh_.planes[triangle];
   const Vec3d c = (light.low + light.high) * 0.5, h = (light.high - light.low) * 0.5, n = plane.normal;

@@ -1,4 +1,4 @@
-// Open shafts: whether anything at all can stand between a group of points and lights, as a whole. Section "Open shafts" of
+// Open shafts: a test whether anything at all can lie between a group of points and lights, as a whole. See section "Open shafts" of
 // docs/shadows.md.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace steradian::shadow {
 
-// Half spaces that hold the hull of two boxes: its sides, or fewer.
+// Half spaces that contain the hull of two boxes: its sides, or fewer.
 class HullOfBoxes {
  public:
   HullOfBoxes(const Box& a, const Box& b);
@@ -20,7 +20,7 @@ class HullOfBoxes {
   bool may_meet(const Vec3d (&corners)[3]) const;
 
  private:
-  // A side along an axis of space, through an edge of each box. inside: u x + v y <= offset, in the two other coordinates.
+  // A side parallel to an axis of space, through an edge of each box. Inside: u x + v y <= offset, in the two other coordinates.
   struct Slant {
     double u, v, offset;
     int x, y;
@@ -35,7 +35,7 @@ class TriangleTree {
  public:
   explicit TriangleTree(const EdgeMesh& mesh);
 
-  // Points that look through shafts, one group after another. Keeps what it finds of triangles.
+  // Points that look through shafts, one group after another. Caches what it finds about triangles.
   class Viewers {
    public:
     void take(const std::vector<Vec3d>& points);
@@ -43,7 +43,7 @@ class TriangleTree {
 
    private:
     friend class TriangleTree;
-    // How far before a plane the points are, at least and at most.
+    // Least and largest distance of the points in front of a plane.
     struct Range {
       double low, high;
     };
@@ -51,18 +51,18 @@ class TriangleTree {
     Box box_;
     std::vector<double> x_, y_, z_;
     std::vector<Range> ranges_;          // by triangle
-    std::vector<std::uint32_t> stamps_;  // of the group for which the range is
+    std::vector<std::uint32_t> stamps_;  // group for which the range is valid
     std::uint32_t stamp_ = 0;
   };
 
-  // False where some triangle may come between a point and a place of the light's box. True is certain, up to what stands less than
-  // `margin` out of the light's box.
+  // Returns false if some triangle may lie between a point and the light's box. True is certain, except for occluders less than `margin`
+  // out of the light's box.
   bool is_open(Viewers& viewers, const Box& light, double margin) const;
 
  private:
   struct Node {
     Box box;
-    std::uint32_t first = 0, count = 0;  // of a leaf's triangles; count 0: its children stand at first and next to it
+    std::uint32_t first = 0, count = 0;  // range of a leaf's triangles; count 0: its children are at first and first + 1
   };
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   bool separates(std::uint32_t triangle, Viewers& viewers, const Box& light, double margin) const;

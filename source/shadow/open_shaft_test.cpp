@@ -1,4 +1,4 @@
-// Open shafts against segments between the points and the lights: what is called open, no triangle may cut.
+// Open shafts against segments between the points and the lights: no triangle may cut a segment of an open shaft.
 #include "shadow/open_shaft.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct Group {
   Box light;
 };
 
-// Points in the plane y = 0, on top of a triangle, or anywhere in a box; a light above.
+// Points in the plane y = 0, on top of a triangle, or anywhere in a box, with a light above.
 Group group(Random& random) {
   const bool flat = uniform(random, 0, 1) < 0.5;
   const Vec3d at{uniform(random, -3, 3), flat ? 1e-5 : uniform(random, 0.1, 1), uniform(random, -3, 3)};
@@ -79,10 +79,10 @@ TEST(OpenShaft, NoTriangleCutsASegmentOfAnOpenOne) {
   }
   std::printf("%d groups: %d open, %d of which no segment was cut, %d cut\n", groups, open, clear, cut);
   EXPECT_GT(cut, groups / 10);
-  EXPECT_GT(open, clear / 2);  // of the shafts that rays call free, at least half are known to be
+  EXPECT_GT(open, clear / 2);  // at least half of the shafts that rays call free are known to be open
 }
 
-// A floor on which the points stand, and a ceiling that a light touches, do not stand between.
+// A floor on which the points stand, and a ceiling that a light touches, are no occluders.
 TEST(OpenShaft, SurfacesThatTouchItAreNoBlockers) {
   std::vector<Vec3d> positions = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {-5, 3, -5}, {5, 3, 5}, {-5, 3, 5}};
   const EdgeMesh mesh = build_edges(positions, {0, 1, 2, 3, 4, 5});
@@ -90,10 +90,10 @@ TEST(OpenShaft, SurfacesThatTouchItAreNoBlockers) {
   TriangleTree::Viewers viewers;
   viewers.take({{-2, 1e-5, 2}, {-1, 1e-5, 3}, {-3, 1e-5, 3.5}});
   EXPECT_TRUE(tree.is_open(viewers, {{-3, 3, 2}, {-2, 3, 3}}, 0));
-  // Out of the ceiling by less than the margin, and by more.
+  // The light's box extends above the ceiling by less than the margin, and by more.
   EXPECT_TRUE(tree.is_open(viewers, {{-3, 3, 2}, {-2, 3 + 1e-6, 3}}, 1e-5));
   EXPECT_FALSE(tree.is_open(viewers, {{-3, 3, 2}, {-2, 3 + 1e-4, 3}}, 1e-5));
-  // Points on both sides of the floor.
+  // These points lie on both sides of the floor.
   viewers.take({{-2, 1e-5, 2}, {-1, -1e-5, 3}});
   EXPECT_FALSE(tree.is_open(viewers, {{-3, 3, 2}, {-2, 3, 3}}, 0));
 }

@@ -1,5 +1,5 @@
-// What packs do for shadows: the loops over vertices, planes, edges and segments. Plain arrays in, plain arrays out; what they
-// cannot decide in float they name, and the scalar code decides it.
+// Pack functions for shadows: the loops over vertices, planes, edges and segments. Input and output are plain arrays. They name the cases
+// that float cannot decide, and the scalar code decides those.
 #pragma once
 
 #include <cstddef>
@@ -20,30 +20,30 @@ struct VectorSpan {
   float *x = nullptr, *y = nullptr, *z = nullptr;
 };
 
-// Where a vertex lies outside of the box, bit by bit; kAbove: it does not block, since it lies beyond the plane.
+// Bits of the sides on which a vertex lies outside of the box. kAbove: it lies beyond the plane and does not block.
 enum OutsideBits { kLeftOut = 1, kRightOut = 2, kBottomOut = 4, kTopOut = 8, kBoxOut = 15, kAbove = 16 };
 
-// How a point looks at a light's plane.
+// A point's view of a light's plane.
 struct Projection {
-  float eye_x = 0, eye_y = 0, eye_z = 0;  // the point stands at (eye_x, eye_y, -eye_z)
+  float eye_x = 0, eye_y = 0, eye_z = 0;  // (eye_x, eye_y, -eye_z) is the point
   float box_x = 0, box_y = 0;
-  float height = 0;  // only what lies below blocks
+  float height = 0;  // only geometry below it blocks
 };
 struct ProjectedView {
-  VectorSpan homogeneous;                      // shadow_project
-  float *cell_x = nullptr, *cell_y = nullptr;  // where it lies in the box
+  VectorSpan homogeneous;                      // result of shadow_project
+  float *cell_x = nullptr, *cell_y = nullptr;  // position in the box
   float* outside = nullptr;                    // OutsideBits
 };
 
-// Edges by their places in the arrays of vertices and planes. walks are 0 where an edge has fewer triangles.
+// Edges by their places in the arrays of vertices and planes. A `walks` entry is 0 if an edge has fewer triangles.
 struct EdgeView {
   std::size_t count = 0;
   const std::int32_t *v0 = nullptr, *v1 = nullptr, *plane0 = nullptr, *plane1 = nullptr;
   const float *walks0 = nullptr, *walks1 = nullptr;
 };
 
-// A shaft in float: a vertex x is inside where dot(normal, x) <= offset for all sides; the box of points by its middle and half
-// sides. reach: how far the light and the points lie from where coordinates count, which is what their roundings go by.
+// A shaft in float. A vertex x is inside if dot(normal, x) <= offset for all sides. The box of points is given by its middle and half
+// sides. reach: distance of the light and the points from the coordinates' origin, which scales their rounding.
 inline constexpr std::size_t kShaftSides = 7;
 struct ShaftView {
   float normal[kShaftSides][3], offset[kShaftSides];
@@ -51,16 +51,16 @@ struct ShaftView {
   float reach;
 };
 
-// Edges side by side, with the planes of their triangles; walks are 0 where an edge has fewer than two.
+// Edges side by side, with the planes of their triangles. A `walks` entry is 0 if an edge has fewer than two.
 struct EdgeLeaf {
   float a[3][kPadding], b[3][kPadding];
   float normal0[3][kPadding], offset0[kPadding], walks0[kPadding];
   float normal1[3][kPadding], offset1[kPadding], walks1[kPadding];
-  std::uint32_t valid, many;  // bits of edges; of those of more than two triangles, whose planes are not here
+  std::uint32_t valid, many;  // valid: bits of edges; many: bits of edges of more than two triangles, whose planes are not here
 };
 
-// Segments in cells, which floats hold exactly, padded by segments above all others. Blocks of kPadding: none of a block's segments
-// reaches beyond its low, high, left and right.
+// Segments in cells, which floats hold exactly, padded by segments above all others. No segment of a block of kPadding reaches beyond the
+// block's low, high, left and right.
 struct SegmentView {
   std::size_t count = 0;  // padded
   const float *ax = nullptr, *ay = nullptr, *bx = nullptr, *by = nullptr;
@@ -70,8 +70,8 @@ struct SegmentView {
 
 // The left ray from a segment's middle.
 struct LeftRay {
-  std::int32_t count = 0;     // what it counts for sure, events and base left out
-  std::size_t uncertain = 0;  // segments of which only whole numbers can tell
+  std::int32_t count = 0;     // certain part of the count, without events and base
+  std::size_t uncertain = 0;  // segments that only whole numbers can decide
 };
 
 struct ShadowTable {
@@ -80,23 +80,23 @@ struct ShadowTable {
   void (*project)(const VectorView& vertices, std::size_t count, const Projection& projection, const ProjectedView& to);
   // 1 where the point sees the front of a plane, -1 elsewhere.
   void (*facing)(const VectorView& normals, const float* offsets, std::size_t count, const float at[3], float* to);
-  // The edges that are contours and may lie in the box, ascending, with their weights; returns how many.
+  // Finds the edges that are contours and may lie in the box, ascending, with their weights; returns their number.
   std::size_t (*contours)(const EdgeView& edges, const float* facing, const float* outside, std::uint32_t* found, std::int32_t* weights);
-  // The edges that a shaft may need, ascending. Edges of more than two triangles are kept where they may meet it.
+  // Finds the edges that a shaft may need, ascending. Edges of more than two triangles remain if they may meet it.
   std::size_t (*filter)(const EdgeView& edges, const VectorView& vertices, const VectorView& normals, const float* offsets,
                         const ShaftView& shaft, const std::uint8_t* has_more, std::uint32_t* found);
-  // The edges of a leaf that a shaft may need, bit by bit.
+  // Bits of a leaf's edges that a shaft may need.
   std::uint32_t (*needed)(const EdgeLeaf& leaf, const ShaftView& shaft);
 
-  // Lists must have room for all segments; segment e itself may be among them.
+  // Lists must have capacity for all segments; segment e itself may be among them.
   LeftRay (*left_ray)(const SegmentView& segments, std::size_t e, std::uint32_t* uncertain);
-  // The segments behind e that may cross it; returns how many.
+  // Finds the segments behind e that may cross it; returns their number.
   std::size_t (*may_cross)(const SegmentView& segments, std::size_t e, std::uint32_t* found);
-  // How far it is from a place along a unit direction to the next segment but one; infinite where there is none.
+  // Distance from a position along a unit direction to the next segment other than `but`; infinite if there is none.
   float (*distance_to_next)(const SegmentView& segments, float x, float y, float dx, float dy, std::size_t but);
-  // What a ray to the left from a place counts, events and base left out; kUncertain where float cannot tell.
+  // Count of a ray to the left from a position, without events and base; kUncertain if float cannot decide.
   std::int32_t (*count_at)(const SegmentView& segments, float x, float y);
-  // Square of the distance to the nearest segment.
+  // Squared distance to the nearest segment.
   float (*clearance2)(const SegmentView& segments, float x, float y);
 };
 

@@ -16,7 +16,7 @@ void put(LaneReals to[3], std::size_t lane, Vec3d v) {
   to[2].at[lane] = static_cast<float>(v.z);
 }
 
-// A segment that only some lanes see, or all in the same cells.
+// Writes a segment that only some lanes see, or that all lanes see in the same cells.
 void put_cells(SegmentLanes& to, std::size_t lane, const Segment& s) {
   to.ax.at[lane] = static_cast<float>(s.a.x);
   to.ay.at[lane] = static_cast<float>(s.a.y);
@@ -56,7 +56,7 @@ void PointLanes::take_points(const LightFrame& base, bool turned) {
   }
 }
 
-// The outline, and the horizons of points whose light they cut.
+// Adds the outline, and the horizons of the points whose light they cut.
 void PointLanes::add_surroundings(LaneBits lanes) {
   for (std::size_t k = 0; k < outline_->size(); ++k) {
     const Segment& of = (*outline_)[k];
@@ -154,7 +154,7 @@ ExactLanes PointLanes::exact() const {
   return result;
 }
 
-// For all that comes of the segments.
+// Allocates memory for all results that depend on the segments.
 void PointLanes::make_room() {
   const std::size_t n = segments_.size(), room = padded(n);
   if (order_.size() < room) {
@@ -184,7 +184,7 @@ void PointLanes::sort_boxes(const LaneTable& packs) {
   packs.bound(segments_.data(), n, b);
   std::iota(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(room), 0u);
   if (n > kFew) {
-    // By height, the long ones first, so that each meets few blocks.
+    // Sort by height, the long ones first, so that each meets few blocks.
     constexpr float kRow = kCells / 32.0f, kLong = 2 * kRow;
     const auto row_of = [&](std::uint32_t s) { return high_y_[s] - low_y_[s] > kLong ? -kFar : std::floor(low_y_[s] / kRow); };
     std::sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(n), [&](std::uint32_t s, std::uint32_t t) {
@@ -228,7 +228,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
     if (v.size() < n) v.resize(n + n / 2);
   };
   grow(front_, edges.plane_count() + 1);
-  if (edges.plane_count() == 0) front_[0] = 0;  // edges of no triangle ask for the first
+  if (edges.plane_count() == 0) front_[0] = 0;  // edges without a triangle read the first entry
   grow(place_of_, edges.vertex_count());
   grow(vertices_, edges.vertex_count());
   grow(segments_, edges.edge_count() + outline.size() + 2);

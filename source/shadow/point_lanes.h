@@ -1,5 +1,6 @@
-// PointLanes: what up to sixteen neighbouring points see of a light, all at once. The same as segments, arrangement and region of each by
-// itself; where that needs more than the lowest level and a place well inside it, a point is left to find out by itself.
+// PointLanes: the parts of a light that up to sixteen neighbouring points see, computed at once. The result equals each point's own
+// segments, arrangement and region. If that needs more than the lowest level and a position well inside it, the point falls back to its
+// own search.
 #pragma once
 
 #include <array>
@@ -17,27 +18,27 @@ class PointLanes {
   struct Point {
     const LightFrame* frame = nullptr;
     const Viewpoint* at = nullptr;
-    bool arranged = false;  // even if it sees no occluder
+    bool arranged = false;  // true: also if it sees no occluder
   };
 
-  // edges: in the coordinates of `base`, without triangles that cross the light's plane. base: the points' frame, or where `turned`
-  // another one. outline: of all of the frames, in their cells.
+  // edges: in the coordinates of `base`, without triangles that cross the light's plane. base: the points' frame, or another one if
+  // `turned`. outline: of all of the frames, in their cells.
   void find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points,
             const std::vector<Segment>& outline);
 
-  // Lanes that see occluders; of the others, only those to be arranged are in what follows.
+  // Lanes that see occluders. Of the other lanes, only those to be arranged are in the results below.
   LaneBits occluded() const { return occluded_; }
-  LaneBits none() const { return region_.none; }    // see nothing
-  LaneBits found() const { return region_.found; }  // see a region if the way to its place is free, else nothing
+  LaneBits none() const { return region_.none; }    // lanes that see nothing
+  LaneBits found() const { return region_.found; }  // lanes that see a region if the way to its position is free, else nothing
   Vec3d place(std::size_t lane) const;
-  // How many segments a lane sees.
+  // Number of segments that a lane sees.
   std::size_t segment_count(std::size_t lane) const;
 
-  // The edges that bound the region in some lanes: how many, and into planes of a block of packed::Pieces.
+  // The edges that bound the region in some lanes: their number, and their values in planes of a block of packed::Pieces.
   std::size_t count_edges(const LaneTable& packs, LaneBits lanes) const { return packs.count_edges(work_, lanes); }
   void write_edges(const LaneTable& packs, LaneBits lanes, float* to) const { packs.write_edges(work_, view_, region_, lanes, to); }
 
-  // use(ax, ay, bx, by) for the edges of one lane, in the light's plane.
+  // Calls use(ax, ay, bx, by) for the edges of one lane, in the light's plane.
   template <class Use>
   void each_edge(std::size_t lane, Use use) const {
     const auto in_frame = [&](float ax, float ay, float bx, float by, bool backwards) {
@@ -76,10 +77,10 @@ class PointLanes {
   struct Horizon {
     std::array<Segment, kPoints> lanes;
   };
-  std::array<Horizon, 2> horizons_;  // of shading, of the triangle
+  std::array<Horizon, 2> horizons_;  // horizons of the shading normal and the triangle
   std::array<std::uint32_t, 2> horizon_rows_{};
 
-  // Memory.
+  // Reused memory.
   std::vector<std::uint16_t> front_;
   std::vector<std::int32_t> place_of_;
   std::vector<VertexLanes> vertices_;

@@ -28,7 +28,8 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
     const Vec3d near_end = dot(to, axis) > 0 ? tube.end_b : tube.end_a;
     Vec3d through = center, normal = across;
     double distance = length(across);
-    // Beyond an end the plane across the sight of that end, alongside the tube across that of the axis: there the two are one.
+    // Beyond an end: the plane across the line of sight to that end. Beside the tube: the plane across that to the axis. The two agree in
+    // between.
     const bool beyond = std::fabs(dot(to, axis)) > length(tube.end_b - tube.end_a) / 2;
     if (beyond || axis == Vec3d{}) {
       through = near_end;
@@ -41,7 +42,7 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
     const double height = dot(through - p, normal);  // negative
     for (Vec3d& v : seen.vertices) {
       const Vec3d d = normalized(v - p);
-      const double down = std::min(dot(d, normal), -1e-6);  // on the plane, whatever the rounding
+      const double down = std::min(dot(d, normal), -1e-6);  // on the plane in spite of rounding
       v = p + (d + normal * (down - dot(d, normal))) * (height / down);
     }
   }
@@ -51,7 +52,7 @@ PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d p, int corners) {
 std::optional<LightFrame> frame_of_ellipsoid(const Ellipsoid& light, Vec3d position, int corners) {
   const std::optional<Ellipse> seen = silhouette(light, position);
   if (!seen) return {};
-  // Of a circle the roundings alone would say where its axes are, and turn the polygon from point to point.
+  // A circle's axes would depend on rounding alone, and the polygon would turn from point to point.
   const double xx = dot(seen->x, seen->x), yy = dot(seen->y, seen->y), xy = dot(seen->x, seen->y);
   constexpr double kRound = 1e-6;
   const double turn = std::hypot(2 * xy, xx - yy) <= kRound * (xx + yy) ? 0 : 0.5 * std::atan2(2 * xy, xx - yy);
@@ -70,7 +71,7 @@ std::optional<LightFrame> frame_of_ellipsoid(const Ellipsoid& light, Vec3d posit
 }
 
 std::vector<Corner> contour_of_ellipse(const LightFrame& frame, int corners) {
-  thread_local std::vector<Corner> circle;  // asked for at every point, always with the same number
+  thread_local std::vector<Corner> circle;  // used at every point, always with the same number
   if (circle.size() != static_cast<std::size_t>(corners)) {
     circle.clear();
     for (int k = 0; k < corners; ++k) {

@@ -33,7 +33,7 @@ std::optional<LightFrame> frame_behind(const AreaLight& light, const std::vector
   }
   if (nearest < 1.2 * radius || distance < 2 * spread) return std::nullopt;
   frame.origin = ball.center + frame.axes.z * radius;
-  // The tangent cone from the nearest point, at the square's plane, and its tilt for points off the axis.
+  // Tangent cone from the nearest point, at the square's plane, and its tilt for points off the axis.
   const double tangent = radius / std::sqrt(nearest * nearest - radius * radius), tilt = spread / (distance - spread);
   const double half = (farthest + radius) * (tangent * (1 + tilt) * (1 + tilt)) + radius * tilt;
   frame.half_x = frame.half_y = half;

@@ -27,7 +27,7 @@ std::int32_t to_cell(double x, double box) {
   return static_cast<std::int32_t>(std::clamp(std::floor(x / box * kCells + 0.5), -double{kCells}, double{kCells}));
 }
 
-// Adds an edge after the clip.
+// Clips an edge and adds it.
 template <class S>
 void add_clipped(const LightFrame& frame, typename ShadowKernels<S>::vec3 a, typename ShadowKernels<S>::vec3 b, std::uint64_t id_a,
                  std::uint64_t id_b, std::int32_t weight, Source source, std::uint32_t index, SegmentSet& result) {
@@ -64,7 +64,7 @@ std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Sourc
   const double xs[4] = {-frame.box_x, frame.box_x, frame.box_x, -frame.box_x};
   const double ys[4] = {-frame.box_y, -frame.box_y, frame.box_y, frame.box_y};
   double height[4];
-  // Monotone in each corner's sign, so that rounding cannot make the line cross all four sides.
+  // The height is monotone in each corner's sign, so that rounding cannot make the line cross all four sides.
   const double middle = normal.z * eye.z - normal.x * eye.x - normal.y * eye.y;
   for (int i = 0; i < 4; ++i) height[i] = (middle + normal.x * xs[i]) + normal.y * ys[i];
   int enters = -1, leaves = -1;
@@ -75,7 +75,7 @@ std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Sourc
     if (above_i == above_j) continue;
     const double t = height[i] / (height[i] - height[j]);
     const auto at = [&](double from, double to, double box) { return to_cell(from + t * (to - from), box); };
-    // Going round counter-clockwise, the line with the upper part on its left begins where that part ends.
+    // In counter-clockwise order, the line with the upper part on its left begins where that part ends.
     const int end = above_i ? 0 : 1;
     cells[i] = cell_of(clip_id(source, 0, end), at(xs[i], xs[j], frame.box_x), at(ys[i], ys[j], frame.box_y));
     (above_i ? enters : leaves) = i;
@@ -219,7 +219,7 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
 
   const std::size_t sections = result.segments.size();
   for (const LocalTriangle& t : crossing_) {
-    // From where the triangle's walk leaves the space below the plane to where it comes back.
+    // The section runs from where the triangle's outline leaves the space below the plane to where it comes back.
     int leaving = -1, returning = -1;
     for (int c = 0; c < 3; ++c) {
       const bool here = below(t.corners[c]), there = below(t.corners[(c + 1) % 3]);

@@ -1,5 +1,5 @@
-// Segments: what a point sees of edges, outline and horizons in the plane of a light, each with the jump of the count
-// across it. Steps 1 to 4 of docs/shadows.md.
+// Segments: a point's view of edges, outline and horizons in the plane of a light, each with the jump of the count across it. See steps 1
+// to 4 of docs/shadows.md.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,32 @@
 
 namespace steradian::shadow {
 
-inline constexpr std::int32_t kCells = 1 << 22;   // from the middle of the box to a side (shadow_cells)
-inline constexpr std::int32_t kHidden = 1 << 20;  // weight of outline and horizons: above any number of triangles on a ray
+inline constexpr std::int32_t kCells = 1 << 22;   // number from the middle of the box to a side (shadow_cells)
+inline constexpr std::int32_t kHidden = 1 << 20;  // weight of outline and horizons: larger than any number of triangles on a ray
 
-// What made a segment. Horizons do not move with anything.
+// Origin of a segment. Horizons move with nothing.
 enum class Source : std::uint8_t { edge, section, outline, shading_horizon, geometric_horizon };
 
-// A vertex in cells, with the displacement that breaks ties: it stands at (x, y) + e (dx, dy) for an infinitely small e > 0.
+// A vertex in cells, with the displacement that breaks ties: its position is (x, y) + e (dx, dy) for an infinitely small e > 0.
 struct Cell {
   std::int32_t x = 0, y = 0, dx = 0, dy = 0;
   std::uint64_t id = 0;  // equal ids: the same vertex. Equal cells prove nothing.
 };
 
-// The displacement of a vertex by its id: two odd numbers below 2^20 in size.
+// Computes the displacement of a vertex from its id: two odd numbers below 2^20 in size.
 Cell cell_of(std::uint64_t id, std::int32_t x, std::int32_t y);
 
-// weight = count on the left minus count on the right of the way from a to b.
+// weight: count on the left minus count on the right of the direction from a to b.
 struct Segment {
   Cell a, b;
   std::int32_t weight = 0;
   Source source = Source::edge;
-  std::uint32_t index = 0;  // of the edge, triangle or corner
-  // Places of its ends in a table of vertices, where there is one: small numbers, equal where ids are equal.
+  std::uint32_t index = 0;  // index of the edge, triangle or corner
+  // Places of its ends in a table of vertices, if there is one: small numbers, equal if ids are equal.
   std::int32_t place_a = -1, place_b = -1;
 };
 
-// Where the box's left side is crossed upwards, the count grows by weight.
+// Upward crossing of the box's left side: there the count grows by weight.
 struct LeftEvent {
   std::int32_t y = 0, dy = 0, weight = 0;
 };
@@ -44,7 +44,7 @@ struct LeftEvent {
 struct SegmentSet {
   std::vector<Segment> segments;
   std::vector<LeftEvent> events;
-  std::int32_t base = 0;      // at the lower left corner, triangles left out
+  std::int32_t base = 0;      // count at the lower left corner, without triangles
   std::size_t occluders = 0;  // segments of edges and sections: S
 
   void clear();
@@ -53,24 +53,24 @@ struct SegmentSet {
 // A point and its horizons, in world space.
 struct Viewpoint {
   Vec3d position;                         // moved off its surface (offset_from_surface)
-  Vec3d normal;                           // of shading, unit
-  std::optional<Vec3d> geometric_normal;  // of the triangle, towards the viewer; none where it is the normal
-  std::uint64_t seed = 0;                 // of what is found by random rays from there
+  Vec3d normal;                           // shading normal, unit
+  std::optional<Vec3d> geometric_normal;  // normal of the triangle, towards the viewer; none if it is the normal
+  std::uint64_t seed = 0;                 // seed of everything found by random rays from the point
 };
 
-// How far a point keeps off its triangle: a few roundings of its coordinates.
+// Distance that a point keeps from its triangle: a few roundings of its coordinates.
 double offset_from_surface(Vec3d position);
 
-// Edges and crossing triangles that some points need to look at, as they lie in a light's frame. S is the type of what
-// positions are computed in: double, or float as packs do.
+// Edges and crossing triangles that some points need, in a light's frame. S is the type in which positions are computed: double, or float
+// as packs do.
 template <class S>
 class LocalEdges {
  public:
-  // Takes the edges and triangles with these numbers: ascending, every triangle that crosses the plane z = -eta among them.
+  // Takes the edges and triangles with these numbers, ascending. They must include every triangle that crosses the plane z = -eta.
   void assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
               const std::vector<std::uint32_t>& crossing_triangles);
   void assign_all(const EdgeMesh& mesh, const LightFrame& frame);
-  // The same edges and triangles in another frame.
+  // Moves the same edges and triangles to another frame.
   void move_to(const EdgeMesh& mesh, const LightFrame& frame);
 
   // All segments that the point sees. `eye` is the point in the light's frame, below the plane.

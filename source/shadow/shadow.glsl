@@ -1,32 +1,32 @@
-// Shadows: what an edge of an occluder looks like in the plane of a light, in whole cells.
+// Shadows: the projection of an occluder's edge to the plane of a light, in whole cells.
 //
-// Light frame: origin at the centre of the light's bounding rectangle, x and y along its sides, z away from the shading
-// point, which stands at (eye.x, eye.y, -eye.z) with eye.z > 0. Cells: 2^22 of them from the middle of the box to a
-// side; from here on everything is decided by whole numbers. See docs/shadows.md.
+// Light frame: the origin is the centre of the light's bounding rectangle. x and y run along its sides. z points away from the shading
+// point, which is at (eye.x, eye.y, -eye.z) with eye.z > 0. There are 2^22 cells from the middle of the box to a side. From here on whole
+// numbers decide everything. See docs/shadows.md.
 // Topics: shadow
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Cells from the middle of the box to a side: products of two differences are then exact in double and in 64 bits.
+// Number of cells from the middle of the box to a side: products of two differences are then exact in double and in 64 bits.
 real shadow_cells() { return 4194304.0; }
 
-// Which side of a triangle's plane a point sees: 1 the front, -1 the back and the edge.
+// Side of a triangle's plane on which a point lies: 1 the front, -1 the back and the plane itself.
 //
 //   normal, offset  of the plane dot(normal, x) = offset; any length
 real shadow_facing(vec3 normal, real offset, vec3 p) {
     return select(dot(normal, p) - offset > 0.0, 1.0, -1.0);
 }
 
-// Where the plane z = height cuts the edge from a to b, whose ends lie on different sides of it.
+// Intersection of the plane z = height with the edge from a to b, whose ends lie on different sides of it.
 //
-// Everybody who needs this point calls with the ends in the same order and so gets the same bits.
+// All callers pass the ends in the same order, and so get the same bits.
 vec3 shadow_cut(vec3 a, vec3 b, real height) {
     real t = clamp((height - a.z) / (b.z - a.z), 0.0, 1.0);
     return vec3(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), height);
 }
 
-// A vertex as the eye sees it on the light's plane, homogeneous: at (x / z, y / z), in front of the eye where z > 0.
+// Homogeneous projection of a vertex from the eye to the light's plane: at (x / z, y / z), in front of the eye where z > 0.
 //
-// Two products a coordinate: exact to a rounding near the light, where most shadows are made.
+// Each coordinate takes two products: exact to a rounding near the light, where most shadows originate.
 vec3 shadow_project(vec3 eye, vec3 v) {
     return vec3(v.x * eye.z + eye.x * v.z, v.y * eye.z + eye.y * v.z, v.z + eye.z);
 }
@@ -34,7 +34,7 @@ vec3 shadow_project(vec3 eye, vec3 v) {
 // An edge clipped to the box, in cells.
 //   start, end  whole numbers; an end that was clipped lies exactly on its side
 //   sides       x of the start, y of the end: 0 not clipped, 1 left, 2 right, 3 bottom, 4 top
-//   inside      whether anything is left of it
+//   inside      true if a part of it is left
 struct ShadowSegment {
     vec2 start;
     vec2 end;
@@ -42,7 +42,7 @@ struct ShadowSegment {
     mask inside;
 };
 
-// The state of a clip: parameters of the part that is left, and the sides that gave them.
+// The state of a clip: parameters of the remaining part, and the sides that determined them.
 struct ShadowSpan {
     real t0;
     real t1;
@@ -72,7 +72,7 @@ ShadowSpan shadow_clip_side(ShadowSpan span, real da, real db, real side) {
 // One end of a clipped edge in cells.
 //
 //   h        homogeneous, inside the box or on its side
-//   side     0: round. Else the coordinate of that side is exact
+//   side     0: round; else the coordinate of that side is exact
 vec2 shadow_cell(vec3 h, vec2 box, real side) {
     real cells = shadow_cells();
     real inverse = cells / max(h.z, 1.0e-30);
@@ -83,7 +83,7 @@ vec2 shadow_cell(vec3 h, vec2 box, real side) {
     return vec2(x, y);
 }
 
-// The part of an edge that the eye sees before the box |x| <= box.x, |y| <= box.y.
+// The part of an edge that the eye sees in front of the box |x| <= box.x, |y| <= box.y.
 //
 //   a, b     shadow_project of its ends
 //
@@ -101,7 +101,7 @@ ShadowSegment shadow_clip(vec3 a, vec3 b, vec2 box) {
     span = shadow_clip_side(span, box.y * a.z - a.y, box.y * b.z - b.y, 4.0);
     vec3 d = b - a;
     ShadowSegment segment;
-    // An end inside is not lost where the other lies a rounding beyond its side: its chain would break.
+    // An end inside is not lost if the other lies a rounding beyond its side; otherwise its chain would break.
     segment.inside = span.inside && (span.t0 < span.t1 || span.sides.x < 0.5 || span.sides.y < 0.5);
     segment.sides = span.sides;
     segment.start = shadow_cell(select(span.sides.x > 0.5, a + d * span.t0, a), box, span.sides.x);

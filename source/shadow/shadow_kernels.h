@@ -1,4 +1,4 @@
-// The kernels of this folder, beside all others.
+// The kernels of this folder, added to all others.
 #pragma once
 
 #include "steradian/kernels.h"

@@ -62,7 +62,7 @@ __attribute__((flatten)) std::size_t contours(const EdgeView& edges, const float
         load(edges.walks0 + i) * gather(facing, at(edges.plane0, i)) + load(edges.walks1 + i) * gather(facing, at(edges.plane1, i));
     for_each_bit(bits_of(abs(w) > PackReal(0.5)), [&](std::size_t lane) {
       const auto o0 = static_cast<int>(outside[edges.v0[i + lane]]), o1 = static_cast<int>(outside[edges.v1[i + lane]]);
-      // Where an edge is cut by the plane, its upper end says nothing of the box.
+      // If the plane cuts an edge, its upper end is not tested against the box.
       if ((o0 & o1 & kAbove) != 0 || (((o0 | o1) & kAbove) == 0 && (o0 & o1) != 0)) return;
       found[n] = static_cast<std::uint32_t>(i + lane);
       const float weight =
@@ -73,7 +73,7 @@ __attribute__((flatten)) std::size_t contours(const EdgeView& edges, const float
   return n;
 }
 
-// A shaft before packs of edges.
+// Tests of a shaft against packs of edges.
 class PackShaft {
  public:
   STERADIAN_INLINE explicit PackShaft(const ShaftView& shaft) : shaft_(shaft), middle_(vector(shaft.middle)) {
@@ -81,7 +81,7 @@ class PackShaft {
     reach_ = size(middle_) + broadcast(shaft.reach);
   }
 
-  // Whether some of each segment may be inside.
+  // Lanes where some of the segment may be inside.
   STERADIAN_INLINE PackMask meets(const PackVec3& a, const PackVec3& b) const {
     const PackReal margin_a = rounding() * (size(a) + broadcast(shaft_.reach)), margin_b = rounding() * (size(b) + broadcast(shaft_.reach));
     PackMask result = PackReal(0.0) <= PackReal(0.0);
@@ -93,7 +93,7 @@ class PackShaft {
     return result;
   }
 
-  // 1 where all points see the front of a plane, -1 where all see the back, 0 elsewhere.
+  // 1 if all points see the front of a plane, -1 if all see the back, else 0.
   STERADIAN_INLINE PackReal facing(const PackVec3& normal, const PackReal& offset) const {
     const PackReal height = dot(normal, middle_) - offset;
     const PackReal reach = abs(dot(normal, half_[0])) + abs(dot(normal, half_[1])) + abs(dot(normal, half_[2])) +
@@ -101,7 +101,7 @@ class PackShaft {
     return select(height > reach, PackReal(1.0), select(height < -reach, PackReal(-1.0), PackReal(0.0)));
   }
 
-  // Whether an edge between two triangles may be a contour.
+  // Lanes where an edge between two triangles may be a contour.
   STERADIAN_INLINE static PackMask may_be_contour(const PackReal& walks0, const PackReal& facing0, const PackReal& walks1,
                                                   const PackReal& facing1) {
     const PackReal zero(0.0), half(0.5);
@@ -157,9 +157,9 @@ __attribute__((flatten)) std::uint32_t needed(const EdgeLeaf& leaf, const ShaftV
 STERADIAN_INLINE PackReal bound_of(PackReal p, PackReal q) { return PackReal(4e-7) * (abs(p) + abs(q)); }
 
 struct Sides {
-  PackMask left, right;  // of the line for sure
+  PackMask left, right;  // certain sides of the line
 };
-// Of the vertex p from f.a, f running along d.
+// Sides of the vertex p from f.a, with f along d.
 STERADIAN_INLINE Sides sides_of(PackReal dx, PackReal dy, PackReal px, PackReal py) {
   const PackReal p = dx * py, q = dy * px, d = p - q, bound = bound_of(p, q);
   return {d > bound, d < -bound};
@@ -169,7 +169,7 @@ __attribute__((flatten)) LeftRay left_ray(const SegmentView& f, std::size_t e, s
   LeftRay result;
   const float ax = f.ax[e], ay = f.ay[e], bx = f.bx[e], by = f.by[e];
   const float twice_y = ay + by, middle_y = 0.5f * twice_y, right = ax < bx ? bx : ax;
-  // Twice the middle: whole numbers below 2^24.
+  // Twice the middle, as whole numbers below 2^24.
   const PackReal mx = broadcast(ax + bx), my = broadcast(twice_y), rightmost = broadcast(right), two(2.0);
   for (std::size_t i = 0; i < f.count; i += kLanes) {
     const std::size_t block = i / kPadding;
@@ -212,7 +212,7 @@ __attribute__((flatten)) std::size_t may_cross(const SegmentView& f, std::size_t
   return n;
 }
 
-// What all lanes of a result come to.
+// Combines all lanes of a result.
 template <class Combine>
 STERADIAN_INLINE float reduce(PackReal x, Combine combine) {
   alignas(64) float lanes[kLanes];
@@ -258,7 +258,7 @@ __attribute__((flatten)) std::int32_t count_at(const SegmentView& f, float x, fl
     const PackMask start = fay > qy, end = fby > qy;
     const PackMask straddles = (start && !end) || (end && !start);
     if (!any_lane(straddles)) continue;
-    // The place is no whole number: differences round as well.
+    // The position is no whole number, so differences round as well.
     const PackReal p = (fbx - fax) * (qy - fay), q = (fby - fay) * (qx - fax), d = p - q;
     const PackReal bound = PackReal(1e-6) * (abs(p) + abs(q));
     if (any_lane(straddles && abs(d) <= bound)) return kUncertain;

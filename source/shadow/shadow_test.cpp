@@ -25,7 +25,7 @@ namespace {
 
 using K = Kernels<double>;
 
-// A family made ready.
+// A prepared family.
 struct Stage {
   explicit Stage(const families::Family& f)
       : family(f),
@@ -54,7 +54,7 @@ const ShadowTable& packs() { return shadow_table_for(active_simd()); }
 double area_of(const VisibleRegion& region) {
   double area = 0;
   for (const Boundary& b : region.boundary) area += 0.5 * (b.ax * b.by - b.ay * b.bx);
-  return area / (4.0 * kCells * kCells);  // of the box
+  return area / (4.0 * kCells * kCells);  // as a fraction of the box
 }
 
 // Distance to the nearest segment, in half sides.
@@ -69,7 +69,7 @@ double clearance(const SegmentSet& set, double x, double y) {
   return least / kCells;
 }
 
-// The judge of the whole construction: what the levels say of a place of the light, a ray must find.
+// Judge of the whole construction: a ray must confirm the level at a position of the light.
 TEST(SoftShadow, RaysFindWhatTheLevelsSay) {
   constexpr int kPoints = 40, kRays = 30;
   for (const families::Family& family : families::all()) {
@@ -110,8 +110,8 @@ TEST(SoftShadow, RaysFindWhatTheLevelsSay) {
             << point.kind << " " << i << ", count " << count << ", level " << region.level;
       }
 
-      // Positions in float move a vertex by some 2^-24 of its distance from the light's middle: of the light's area, less
-      // than 1e-4 (goal), and 5e-7 in the mean.
+      // Positions in float move a vertex by about 2^-24 of its distance from the light's middle. The bound is less than 1e-4 of the
+      // light's area (goal), and 5e-7 in the mean.
       stage.single[side].see(at, single.set);
       find_visible(frame, at.position, stage.rays, single, in_single);
       const double change = area_of(region) - area_of(in_single);
@@ -130,7 +130,7 @@ TEST(SoftShadow, PiecesHoldTheLightThatArrivesByRays) {
     families::Random random(2, 17);
     Scratch scratch;
     VisibleRegion region;
-    // Where a cell of the judge could miss what is thin, it begins with smaller ones.
+    // If a cell of the judge could miss thin parts, it begins with smaller cells.
     const bool fine = family.edges_tolerance > 2e-5 || stage.mesh.triangles.size() == 24 * 12 || family.name == "12 boxes under a star" ||
                       family.name.starts_with("occluders") || family.name.starts_with("boxes through");
     for (int tries = 0, points = 0; points < 1 && tries < 1000; ++tries) {
@@ -161,7 +161,7 @@ TEST(SoftShadow, PiecesHoldTheLightThatArrivesByRays) {
       RaysIntegral<3, decltype(densities)> by_rays(frame, at, stage.rays, shading, densities);
       const std::array<double, 3> expected = fine ? by_rays.run(240, 3) : by_rays.run(48, 5);
 
-      // The same densities over all of the light: what errors are a share of.
+      // The same densities over all of the light, to which errors are relative.
       const TriangleRays nothing{EdgeMesh{}};
       RaysIntegral<3, decltype(densities)> unoccluded(frame, {at.position, at.normal, {}}, nothing, shading, densities);
       const std::array<double, 3> whole = unoccluded.run(48, 5);
@@ -183,15 +183,15 @@ TEST(SoftShadow, PiecesHoldTheLightThatArrivesByRays) {
       const std::array<double, 3> pieces = {irradiance.z.v / std::numbers::pi,
                                             k.polygon_irradiance(walk, Mask<double>(false)).v / std::numbers::pi,
                                             k.ggx_unshadowed(ggx_view, e).v};
-      // Cells of 2^-22 of the light's half side move edges by half of that; lobes weigh some places more than others. The bar is
-      // the goal's for single points, 2e-4 of the unoccluded value.
+      // Cells of 2^-22 of the light's half side move edges by half of that; lobes weigh some positions more than others. The bound is the
+      // goal for single points, 2e-4 of the unoccluded value.
       for (std::size_t i = 0; i < 3; ++i)
         EXPECT_NEAR(pieces[i], expected[i], 2e-4 * whole[i]) << "density " << i << ", " << point.kind << ", " << tries;
     }
   }
 }
 
-// The example of docs/shadows.md: a closed box before a light, counted by hand.
+// The example of docs/shadows.md: a closed box in front of a light, counted by hand.
 TEST(SoftShadow, SilhouettesOfClosedMeshesWeighTwo) {
   families::Triangles t;
   t.box({-0.1, 0.9, -0.1}, {0.1, 1.1, 0.1});
@@ -199,7 +199,7 @@ TEST(SoftShadow, SilhouettesOfClosedMeshesWeighTwo) {
   const Viewpoint at{{0.02, 0, 0.01}, {0, 1, 0}, {}};
   Scratch scratch;
   stage.exact[0].see(at, scratch.set);
-  EXPECT_EQ(scratch.set.occluders, 4u);  // the bottom's edges: what lies above is hidden behind it
+  EXPECT_EQ(scratch.set.occluders, 4u);  // the bottom's edges: everything above is hidden behind it
   for (const Segment& s : scratch.set.segments) EXPECT_EQ(std::abs(s.weight), s.source == Source::edge ? 2 : kHidden);
   VisibleRegion region;
   find_visible(stage.frames[0], at.position, stage.rays, scratch, region);
@@ -213,7 +213,7 @@ TEST(SoftShadow, SilhouettesOfClosedMeshesWeighTwo) {
   EXPECT_NEAR(area_of(region) * box, light - shade, 1e-6);
 }
 
-// What a group gathers gives each of its points the segments that all edges give.
+// The edges that a group gathers give each of its points the segments that all edges give.
 TEST(SoftShadow, GroupsGatherWhatTheirPointsSee) {
   std::size_t gathered = 0, all_edges = 0, groups = 0;
   for (const families::Family& family : families::all()) {
@@ -264,7 +264,7 @@ TEST(SoftShadow, GroupsGatherWhatTheirPointsSee) {
   EXPECT_LT(gathered, all_edges / 4) << groups;  // or gathering would be for nothing
 }
 
-// Whole numbers decide, so packs and scalars cut every segment to the same pieces, to the bit.
+// Whole numbers decide, so packs and scalars cut every segment to the same pieces, bit for bit.
 TEST(SoftShadow, PacksArrangeTheSamePieces) {
   std::size_t pieces = 0;
   for (const families::Family& family : families::all()) {
@@ -292,7 +292,7 @@ TEST(SoftShadow, PacksArrangeTheSamePieces) {
   EXPECT_GT(pieces, 10000u);  // or there was nothing to compare
 }
 
-// What packs project in float, from what a group gathered, against all edges in double: as for positions in float above.
+// Packs project in float, from the edges that a group gathered. The reference is all edges in double, as for positions in float above.
 TEST(SoftShadow, PacksSeeWhatDoublesSee) {
   for (const families::Family& family : families::all()) {
     SCOPED_TRACE(family.name);
@@ -326,7 +326,7 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
           group.see(packs(), frame, at, outline, on_packs.set);
         if (on_packs.set.occluders == 0) add_surroundings(frame, at, outline, on_packs.set);
         find_visible_on_packs(packs(), frame, at.position, stage.rays, on_packs, region);
-        // Counts handed on along chains are those that left rays find.
+        // Counts that chains hand on must equal those that left rays find.
         std::vector<Piece> by_scalars;
         arrange(on_packs.set, by_scalars);
         EXPECT_TRUE(std::equal(by_scalars.begin(), by_scalars.end(), on_packs.pieces.begin(), on_packs.pieces.end(),
@@ -345,7 +345,7 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
         y += (b.by - b.ay) / kCells;
       }
       EXPECT_LE(std::hypot(x, y), 1e-12) << i;
-      // The same from another frame's coordinates.
+      // The same in the coordinates of another frame.
       LightFrame other;
       other.origin = frame.origin + frame.axes.x * 0.1;
       other.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -411,7 +411,7 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
             EXPECT_TRUE(in_exact.boundary.empty()) << first.kind << " " << g << " " << k;
             continue;
           }
-          if ((lanes.found() >> k & 1) == 0) continue;  // by itself
+          if ((lanes.found() >> k & 1) == 0) continue;  // falls back to its own search
           ++lanes_found;
           const double height = -frame.to_local(at.position).z;
           const Vec3d to = lanes.place(k) - at.position;
@@ -425,7 +425,7 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
               y += (by - ay) / frame.box_y;
               ++edge_count;
             });
-          // Ends of pieces are floats of a half side.
+          // Ends of pieces are floats in units of a half side.
           EXPECT_LE(std::hypot(x, y), 2.4e-7 * edge_count) << first.kind << " " << g << " " << k;
           const double change = area / (4 * frame.box_x * frame.box_y) - area_of(in_exact);
           EXPECT_LE(std::fabs(change), 1e-4) << first.kind << " " << g << " " << k << (turned ? " turned" : "");
@@ -434,13 +434,13 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
         }
       }
     }
-    // As for positions in float; one point that leaves the goal's mean counts in few.
+    // The bound is that for positions in float; one point above the goal's mean counts among few.
     EXPECT_LE(std::sqrt(squares / std::max(compared, 1)), 1e-6) << compared;
   }
   EXPECT_GT(lanes_found, lanes_asked / 2);
 }
 
-// A vertex that lies inside by less than a rounding: its edge stays, with the event of the side that cut it, or counts to its left
+// A vertex lies inside by less than a rounding. Its edge must stay, with the event of the side that cut it. Otherwise counts to its left
 // would be off by its weight (a black pixel).
 TEST(SoftShadow, KeepsAnEdgeThatEndsARoundingInside) {
   ShadowKernels<float> k;
@@ -474,16 +474,16 @@ TEST(SoftShadow, SeesNothingOfALightWithoutWidth) {
   EXPECT_TRUE(visible_part(prepare_polygon(line), Occluders(EdgeMesh{}), {{0, 0, 0}, {0, 1, 0}, {}}, 1e-9).vertices.empty());
 }
 
-// A polygon that stands for a ball turns only as the point moves: turned by roundings, it took 1e-3 of the light more or less from pixel
-// to pixel, a tenth of a sliver at the horizon.
+// A polygon that represents a ball turns only as the point moves. When roundings turned it, it took 1e-3 of the light more or less from
+// pixel to pixel, a tenth of a sliver at the horizon.
 TEST(SoftShadow, BallsHaveNeighboursCorners) {
   reference::Random random(7);
   const auto vector = [&] { return Vec3d{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5}; };
   for (int i = 0; i < 1000; ++i) {
-    const double out = 1 + 2e-7 * (i % 3);  // as files have it, in float
+    const double out = 1 + 2e-7 * (i % 3);  // as in files, in float
     const Ellipsoid ball{vector(), {0, 0.3, 0}, {0, 0, 0.3 * out}, {0.3, 0, 0}};
     const Vec3d far = normalized(vector()) * (0.4 + 3 * random.uniform());
-    if (std::fabs(far.z) < 1e-3 || std::fabs(far.x) < 1e-3 || std::fabs(far.y) < 1e-3) continue;  // where the frame's x changes
+    if (std::fabs(far.z) < 1e-3 || std::fabs(far.x) < 1e-3 || std::fabs(far.y) < 1e-3) continue;  // the frame's x changes here
     const auto here = frame_of_ellipsoid(ball, ball.center + far, 24),
                beside = frame_of_ellipsoid(ball, ball.center + far * (1 + 1e-7) + vector() * 1e-7, 24);
     ASSERT_TRUE(here && beside);
@@ -492,7 +492,7 @@ TEST(SoftShadow, BallsHaveNeighboursCorners) {
   }
 }
 
-// Edges of any number of triangles, welded over repeated positions.
+// Edges of any number of triangles, welded over equal positions.
 TEST(EdgeMesh, WeldsEqualPositionsOnly) {
   families::Triangles t;
   t.box({0, 0, 0}, {1, 1, 1});

@@ -1,4 +1,4 @@
-// The families of geometry that judge the shadows: each a light, what stands before it, and where to look from.
+// Families of geometry that test the shadows: each is a light, its occluders, and viewpoints.
 #pragma once
 
 #include <cmath>
@@ -79,13 +79,13 @@ struct Family {
   std::string name;
   Triangles triangles;
   PolygonLight light;
-  Vec3d low{-1, 0, -1}, high{1, 1.8, 1};  // where points in the air and on the floor (y = 0) are taken
-  double edges_tolerance = 2e-5;          // rms of the error by cells, of the unoccluded value
-  bool contact = false;                   // points close to what stands on the floor
+  Vec3d low{-1, 0, -1}, high{1, 1.8, 1};  // bounds of the points in the air and on the floor (y = 0)
+  double edges_tolerance = 2e-5;          // rms of the error by cells, relative to the unoccluded value
+  bool contact = false;                   // points close to objects that stand on the floor
   bool near_surface = false;              // points 0.02 off the occluders
 };
 
-// A point with its normals; the position is moved off already.
+// A point with its normals; the position is already moved off the surface.
 struct Point {
   Viewpoint at;
   std::string kind;
@@ -97,7 +97,7 @@ inline PolygonLight rectangle(Vec3d c, Vec3d x, Vec3d y) {
   return light;
 }
 
-// Facing down, over the middle.
+// A light that faces down, above the middle.
 inline PolygonLight ceiling_light(double height = 2.5, double half = 0.5) {
   return rectangle({0, height, 0}, {half, 0, 0}, {0, 0, half * 0.8});
 }
@@ -262,7 +262,7 @@ inline std::vector<Family> all() {
     add("occluders and ceiling that touch the light", t, ceiling_light());
   }
   {
-    Triangles t;  // seen from inside; the light is outside the window in the wall x = 1.5
+    Triangles t;  // viewed from inside; the light is outside the window in the wall x = 1.5
     t.box({-1.6, -0.1, -1.5}, {1.5, 0, 1.5});
     t.box({-1.6, 2, -1.5}, {1.5, 2.1, 1.5});
     t.box({-1.6, 0, -1.5}, {-1.5, 2, 1.5});
@@ -298,8 +298,8 @@ inline std::vector<Family> all() {
   return result;
 }
 
-// A point that the light reaches but for what stands between: on the floor, in the air, on an occluder; every third with a
-// shading normal of its own; every fourth on a lattice that puts faces edge-on and edges on edges.
+// A point that the light reaches except for occluders: on the floor, in the air or on an occluder. Every third has a shading normal of its
+// own. Every fourth lies on a lattice that puts faces edge-on and edges on edges.
 inline Point random_point(const Family& family, const EdgeMesh& mesh, const PreparedPolygon& light, Random& r) {
   for (;;) {
     Point point;
@@ -349,7 +349,7 @@ inline Point random_point(const Family& family, const EdgeMesh& mesh, const Prep
     }
     const int side = light.side_of(point.at.position);
     if (side == 0 || (side < 0 && !light.two_sided)) continue;
-    // Not in the light's plane itself, where nothing is well posed.
+    // Skip the light's plane itself, where nothing is well posed.
     const double height = std::fabs(dot(point.at.position - light.centroid, light.normal));
     if (height < 1e-3) continue;
     return point;

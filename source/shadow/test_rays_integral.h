@@ -1,4 +1,4 @@
-// The light that arrives past triangles, by rays alone: what the tests hold the shadows to.
+// The light that arrives past triangles, by rays alone: the reference of the shadow tests.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace steradian::shadow {
 
-// Integrals of `kCount` functions of the direction (unit, in the shading frame) over what is seen of a light.
+// Integrals of `kCount` functions of the direction (unit, in the shading frame) over the visible part of a light.
 //
-// Cells over the light, refined where a ray to one of their corners or of their neighbours' decides otherwise. In the last
-// cells the border is a straight line between places found by bisection on their sides: 1e-7 of the light where edges are long.
-// What is thinner than a first cell may be missed.
+// Cells over the light are refined where rays to one of their corners or of their neighbours' corners disagree. In the last cells the
+// border is a straight line between positions found by bisection on their sides. Its error is 1e-7 of the light where edges are long.
+// Parts thinner than a first cell may be missed.
 template <std::size_t kCount, class Functions>
 class RaysIntegral {
  public:
@@ -26,7 +26,7 @@ class RaysIntegral {
   RaysIntegral(const LightFrame& frame, const Viewpoint& at, const Blockers& blockers, const Frame& shading, Functions functions)
       : frame_(frame), at_(at), blockers_(blockers), shading_(shading), functions_(functions), height_(-frame.to_local(at.position).z) {}
 
-  // cells first cells a side, each halved up to `levels` times.
+  // cells: number of first cells per side, each halved up to `levels` times.
   Values run(long cells, int levels) {
     const long step = 1L << levels;
     nodes_ = cells * step;
@@ -58,7 +58,7 @@ class RaysIntegral {
     if (dot(to, at_.normal) < 0 || (at_.geometric_normal && dot(to, *at_.geometric_normal) < 0)) return false;
     return !blockers_.between(at_.position, at_.position + to * ((height_ - frame_.eta) / height_));
   }
-  // Off the sides of the light by shares that no test scene has.
+  // The factors keep nodes off the light's sides at ratios that no test scene has.
   double x_of(double i) const { return (2 * i / static_cast<double>(nodes_) - 1) * frame_.box_x * 1.00371; }
   double y_of(double j) const { return (2 * j / static_cast<double>(nodes_) - 1) * frame_.box_y * 1.00283; }
 
@@ -108,7 +108,7 @@ class RaysIntegral {
     return last_cell({x0, x1, x1, x0}, {y0, y0, y1, y1}, corners, area);
   }
 
-  // The seen polygon of a cell that one line cuts; a share by corners where more than one does.
+  // The visible polygon of a cell that one line cuts; a fraction by corners if more than one line cuts it.
   Values last_cell(const std::array<double, 4>& x, const std::array<double, 4>& y, const bool corners[4], double area) {
     std::array<std::pair<double, double>, 8> polygon;
     std::size_t count = 0;

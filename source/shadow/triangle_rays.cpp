@@ -28,7 +28,7 @@ bool meets_box(Vec3d low, Vec3d high, Vec3d from, Vec3d inverse) {
   double near = 0, far = 1;
   const auto slab = [&](double l, double h, double o, double i) {
     const double a = (l - o) * i, b = (h - o) * i;
-    near = std::fmax(near, std::fmin(a, b));  // fmin and fmax pass over 0 times infinity
+    near = std::fmax(near, std::fmin(a, b));  // fmin and fmax ignore 0 times infinity
     far = std::fmin(far, std::fmax(a, b));
   };
   slab(low.x, high.x, from.x, inverse.x);
@@ -58,7 +58,7 @@ void TriangleRays::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
     for (const Vec3d v : {t.a, t.a + t.ab, t.a + t.ac}) box.add(v);
     centers.add(center(t));
   }
-  // Corners are summed again here: a box must not cut a triangle by a rounding.
+  // Corners are summed again here: a rounding must not put a part of a triangle outside the box.
   const double margin = 1e-12 * (std::fabs(box.low.x) + std::fabs(box.low.y) + std::fabs(box.low.z) + length(box.high - box.low));
   const Vec3d grow{margin, margin, margin};
   nodes_[node].low = box.low - grow;

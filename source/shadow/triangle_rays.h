@@ -1,5 +1,5 @@
-// TriangleRays: whether triangles stand between two points, in double. What judges the shadows of single points; pictures
-// ask Embree.
+// TriangleRays: occlusion of two points by triangles, in double. It is the reference for the shadows of single points; pictures use
+// Embree.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace steradian::shadow {
 
 class TriangleRays : public Blockers {
  public:
-  // Of the mesh's triangles. Keeps no reference to it.
+  // Takes the mesh's triangles. Stores no reference to it.
   explicit TriangleRays(const EdgeMesh& mesh);
 
   bool between(Vec3d from, Vec3d to) const override;

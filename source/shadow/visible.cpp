@@ -7,7 +7,7 @@
 namespace steradian::shadow {
 namespace {
 
-// A region narrower than this share of the light proves nothing by a ray, and counts for as little.
+// A region narrower than this fraction of the light proves nothing by a ray, and counts for as little.
 constexpr double kThin = 1.0 / 4096;
 
 struct Place {
@@ -32,11 +32,11 @@ Extent extent_of(const std::vector<Piece>& pieces, std::int32_t level) {
   return {e.area / kCells / kCells, e.perimeter / kCells};
 }
 
-// What the search for a place asks of the segments, one by one.
+// Queries on the segments that the search for a position makes, one by one.
 struct ByScalars {
   const SegmentSet& set;
 
-  // Distance from a place to the nearest segment.
+  // Distance from a position to the nearest segment.
   double clearance(Place q) const {
     double least = INFINITY;
     for (const Segment& s : set.segments) {
@@ -47,7 +47,7 @@ struct ByScalars {
     }
     return least;
   }
-  // How far it is from a place along a direction to the next segment but one.
+  // Distance from a position along a direction to the next segment other than `but`.
   double distance_to_next(Place from, Place direction, std::uint32_t but) const {
     double nearest = INFINITY;
     for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
@@ -65,7 +65,7 @@ struct ByScalars {
   bool lies_within(Place q, std::int32_t level) const { return count_at(set, q.x, q.y) <= level; }
 };
 
-// The same on packs.
+// The same queries on packs.
 struct ByPacks {
   const SegmentSet& set;
   const SegmentArrays& arrays;
@@ -90,8 +90,8 @@ struct ByPacks {
   }
 };
 
-// A place well inside the region of a level: from the middles of its longest pieces along the normal, half way to what comes
-// next. False where there is none, which happens to slivers only.
+// Finds a position well inside the region of a level: from the middles of its longest pieces along the normal, half way to the next
+// segment. Returns false if there is none, which happens to slivers only.
 template <class By>
 bool place_inside(const By& by, const Scratch& scratch, std::int32_t level, Place& result) {
   constexpr int kTrials = 4;
@@ -113,7 +113,7 @@ bool place_inside(const By& by, const Scratch& scratch, std::int32_t level, Plac
     const double distance = by.distance_to_next(middle, inward, p->segment);
     if (!std::isfinite(distance)) continue;
     const Place q{middle.x + 0.5 * distance * inward.x, middle.y + 0.5 * distance * inward.y};
-    // Collinear edges of abutting faces send it to the wrong side.
+    // Collinear edges of abutting faces can put it on the wrong side.
     if (!by.lies_within(q, level)) continue;
     const double room = by.clearance(q);
     if (room > best) {
@@ -137,7 +137,7 @@ void take(const Scratch& scratch, std::int32_t level, VisibleRegion& result) {
   }
 }
 
-// The visible region of scratch.pieces.
+// Finds the visible region of scratch.pieces.
 template <class By>
 void find_in_pieces(const By& by, const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result) {
   result.boundary.clear();

@@ -1,5 +1,5 @@
-// The part of a light that a point sees: which level of the count is the visible one, and the pieces that bound it.
-// Steps 7 and 8 of docs/shadows.md.
+// The part of a light that a point sees: the visible level of the count, and the pieces that bound it. See steps 7 and 8 of
+// docs/shadows.md.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace steradian::shadow {
 
-// What stands between two points. Implementations see exactly the triangles whose edges were gathered.
+// Occlusion test between two points. Implementations see exactly the triangles whose edges were gathered.
 class Blockers {
  public:
   virtual ~Blockers() = default;
-  // Whether anything lies between them; near the ends counts.
+  // Returns true if anything lies between them, including near the ends.
   virtual bool between(Vec3d from, Vec3d to) const = 0;
 };
 
@@ -24,12 +24,12 @@ struct Boundary {
 };
 
 struct VisibleRegion {
-  std::vector<Boundary> boundary;  // empty: nothing is seen
-  std::int32_t level = 0;          // the count that is none
+  std::vector<Boundary> boundary;  // empty: nothing is visible
+  std::int32_t level = 0;          // the count that means unoccluded
   int rays = 0;
 };
 
-// Memory that one thread uses again.
+// Memory that one thread reuses.
 struct Scratch {
   SegmentSet set;
   std::vector<Piece> pieces;
@@ -37,14 +37,14 @@ struct Scratch {
   std::vector<std::int32_t> levels;
 };
 
-// Arranges scratch.set and finds the visible region; `from` is the point of which the set was made.
+// Arranges scratch.set and finds the visible region. `from` is the point for which the set was built.
 void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result);
 
 // The same on packs.
 void find_visible_on_packs(const ShadowTable& packs, const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch,
                            VisibleRegion& result);
 
-// A boundary's ends relative to the point, in world space.
+// Ends of a boundary relative to the point, in world space.
 struct WorldPiece {
   Vec3d a, b;
 };

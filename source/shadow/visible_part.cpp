@@ -21,7 +21,7 @@ PreparedPolygon light_of(const VisibleRegion& region, const PreparedPolygon& lig
   };
   for (const Boundary& piece : region.boundary) {
     const WorldPiece w = relative_to(from.position, frame, piece);
-    // The walk of a light that is seen from behind runs the wrong way round; integrals turn it back.
+    // A light that is seen from behind is walked the wrong way round; integrals turn the direction back.
     part.vertices.push_back(place(side < 0 ? w.b : w.a));
     part.vertices.push_back(place(side < 0 ? w.a : w.b));
     part.contours.push_back(part.vertices.size());

@@ -15,7 +15,7 @@ double luminance(Vec3d rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * 
 
 PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vertices) {
   if (vertices < 3) throw Error("", "a polygon needs at least 3 vertices, asked for " + std::to_string(vertices));
-  // The inscribed K-gon has the share sin(d) / d of the ellipse's area, d = 2 pi / K.
+  // The inscribed K-gon has the fraction sin(d) / d of the ellipse's area, d = 2 pi / K.
   const double step = 2 * std::numbers::pi / vertices;
   const double out = std::sqrt(step / std::sin(step));
   PolygonLight light;
@@ -30,12 +30,12 @@ std::optional<Ellipse> silhouette(const Ellipsoid& ellipsoid, Vec3d position) {
   const auto& [center, x, y, z] = ellipsoid;
   const double determinant = dot(cross(x, y), z);
   if (!(std::fabs(determinant) > 0)) return {};
-  // Into the space where the ellipsoid is the unit sphere: the inverse of the columns x, y, z.
+  // Transforms the point into the space in which the ellipsoid is the unit sphere, by the inverse of the columns x, y, z.
   const Vec3d to_point = position - center;
   const Vec3d p = Vec3d{dot(cross(y, z), to_point), dot(cross(z, x), to_point), dot(cross(x, y), to_point)} / determinant;
   const double distance = length(p);
   if (!(distance > 1) || !std::isfinite(distance)) return {};
-  // A point at distance d sees the circle of radius sqrt(1 - 1/d^2) in the plane at height 1/d.
+  // From a point at distance d the outline is the circle of radius sqrt(1 - 1/d^2) in the plane at height 1/d.
   const Frame frame = Frame::from_normal(p / distance);
   const double radius = std::sqrt((1 - 1 / distance) * (1 + 1 / distance));
   const auto to_world = [&ellipsoid](Vec3d v) { return ellipsoid.x * v.x + ellipsoid.y * v.y + ellipsoid.z * v.z; };
@@ -87,7 +87,7 @@ Vec3d texture_radiance(const LightTexture& texture, const std::vector<Image>& im
 
 namespace {
 
-// x cross y along the normal; the area is factor times that of the axes' rectangle.
+// Axes with x cross y along the normal; the area is factor times that of the axes' rectangle.
 struct FlatAxes {
   Vec3d x, y;
   double factor;
@@ -102,7 +102,7 @@ FlatAxes axes_of(const Shape& shape) {
   return {v[1] - v[0], v[3] - v[0], 1};
 }
 
-// Whether anything is sent beyond a quarter turn from z.
+// True if the profile sends anything beyond a quarter turn from z.
 bool shines_back(const LightProfile& profile) {
   if (profile.type == LightProfile::Type::b) return false;
   for (std::size_t i = 0; i < profile.candela.size(); ++i)

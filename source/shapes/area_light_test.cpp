@@ -34,7 +34,7 @@ TEST(AreaLight, GivesASphereTheSolidAngleItHas) {
   EXPECT_TRUE(polygon_seen_from(light, center + Vec3d{0.1, 0, 0}).vertices.empty()) << "from inside";
 }
 
-// The rays to the outline touch the ellipsoid: the quadratic in the ray's parameter has a double root.
+// Rays to the outline touch the ellipsoid: the quadratic in the ray's parameter has a double root.
 TEST(AreaLight, OutlinesAnEllipsoidByRaysThatTouchIt) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1, 1);

@@ -1,4 +1,4 @@
-// Moments of a plane region by its boundary, and the four elements that have the same (kernels/outline/light_elements.glsl).
+// Moments of a plane region by its boundary, and the four elements with the same moments (kernels/outline/light_elements.glsl).
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace steradian {
 
-// Moments of the area up to the second, about the plane point `origin` in the plane's own coordinates. The boundary's edges come in
-// any order.
+// Moments of the area up to the second, about the plane point `origin` in the plane's own coordinates. The boundary's edges may come in any
+// order.
 struct AreaMoments {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 
-  // The triangle from the origin to two corners, with the sign of its order.
+  // Adds the triangle from the origin to two corners, with the sign of their order.
   void add(double ax, double ay, double bx, double by) {
     const double twice = ax * by - ay * bx;
     area += twice / 2;
@@ -25,7 +25,7 @@ struct AreaMoments {
   }
 };
 
-// x, y: the plane's axes, perpendicular unit vectors. The area must not be 0.
+// Four elements with these moments. x, y: the plane's axes, perpendicular unit vectors. The area must not be 0.
 inline LightQuarters quarters_of(const AreaMoments& m, Vec3d origin, Vec3d x_axis, Vec3d y_axis) {
   const double x = m.x / m.area, y = m.y / m.area;
   const double xx = m.xx / m.area - x * x, xy = m.xy / m.area - x * y, yy = m.yy / m.area - y * y;

@@ -11,7 +11,7 @@ namespace steradian::packed {
 struct Capsule {
   Vec3f end_a{}, end_b{};
   float radius = 0;
-  Vec3f half_axis{};  // from the middle to end_b: the difference of the ends, of which rounding leaves little where they are near
+  Vec3f half_axis{};  // from the middle to end_b: the difference of near ends would leave little but rounding
 
   template <class Use>
   bool any_bound(Use use) const {
@@ -29,18 +29,18 @@ inline Capsule prepare_capsule(const steradian::Capsule& c) {
 STERADIAN_BEGIN_ISA
 namespace shapes {
 
-// A lobe as the polygons of round lights need it: its axis in the shading frame, its width [rad], and how many corners.
+// A lobe as the polygons of round lights need it: its axis in the shading frame, its width [rad], and the number of corners.
 template <class S>
 struct AboutLobe {
   typename Kernels<S>::vec3 axis;
   Real<S> width;
   int corners;  // 12, or 16 for high quality (docs/ggx.md)
 };
-inline constexpr int kMostCorners = 32;  // beside a rim: ellipse.h
+inline constexpr int kMostCorners = 32;  // near a rim: ellipse.h
 template <class S>
 using Corners = std::array<typename Kernels<S>::vec3, static_cast<std::size_t>(kMostCorners)>;
 
-// From the point p in the shading frame, in units of its distance.
+// The capsule as seen from the point p, in the shading frame, in units of its distance.
 template <class S>
 STERADIAN_INLINE auto capsule_in(const packed::Capsule& light, const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p) {
   const auto a = transform_transposed(frame, to_kernel<S>(light.end_a) - p);
@@ -50,7 +50,7 @@ STERADIAN_INLINE auto capsule_in(const packed::Capsule& light, const typename Ke
   return Kernels<S>().capsule_prepare(a * unit, b * unit, radius * unit);
 }
 
-// Functions of their own: inlined, they would take registers from the walks of polygons.
+// These are functions of their own: inlined, they would take registers from the walks of polygons.
 template <class S>
 __attribute__((flatten, noinline)) Seen<S> see(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
   using vec3 = typename Kernels<S>::vec3;
@@ -66,14 +66,14 @@ STERADIAN_INLINE Real<S> distance2(const packed::Capsule& light, const typename 
   return dot(to, to);
 }
 
-// An upper bound of its mean square extent.
+// An upper bound of the light's mean square extent.
 template <class S>
 Real<S> deviation2(const packed::Capsule& light) {
   return static_cast<double>(dot(light.half_axis, light.half_axis) + light.radius * light.radius);
 }
 
-// The strip of its cylinder, which is as wide from everywhere across, and the half balls at its ends, each with its second moment along
-// the axis.
+// Elements of the strip of the cylinder, which is equally wide from all directions across, and of the half balls at its ends. Each has its
+// second moment along the axis.
 template <class S>
 typename Kernels<S>::LightElements elements(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
   using R = Real<S>;
@@ -93,7 +93,7 @@ typename Kernels<S>::LightElements elements(const packed::Capsule& light, const 
   return e;
 }
 
-// By the outline alone, which float loses where the capsule is small: ellipse.h has the whole.
+// Irradiance by the outline alone, which float loses where the capsule is small: ellipse.h has the complete function.
 template <class S>
 __attribute__((flatten, noinline)) typename Kernels<S>::vec3 outline_irradiance_vector(const packed::Capsule& light,
                                                                                        const typename Kernels<S>::mat3& frame,

@@ -12,7 +12,7 @@ namespace {
 template <class S>
 using Seen = typename Kernels<S>::Capsule;
 
-// In units of the distance: squares of squares of tiny and huge lights would leave the range of float.
+// The unit is the distance: squares of squares of tiny and huge lights would leave the range of float.
 double unit_of(const Capsule& capsule, Vec3d position) {
   const double size = length(capsule.end_a - position) + length(capsule.end_b - position) + capsule.radius;
   return size > 0 ? 1 / size : 0;
@@ -33,7 +33,7 @@ Seen<S> seen_from(const Capsule& capsule, Vec3d position, const Frame& frame) {
 
 template <class S>
 S irradiance(const Capsule& capsule, Vec3d position, Vec3d normal) {
-  // Decided in double: the kernel's own test has float's rounding.
+  // The test is in double: the kernel's own test has float's rounding.
   if (!(distance_to_axis(capsule, position) > capsule.radius)) return S(0);
   return Kernels<S>().capsule_irradiance_vector(seen_from<S>(capsule, position, Frame::from_normal(normal))).z.v;
 }
@@ -49,7 +49,7 @@ S irradiance_of_line(Vec3d end_a, Vec3d end_b, Vec3d position, Vec3d normal) {
 
 Vec3d to_vector(const Kernels<double>::vec3& v) { return {v.x.v, v.y.v, v.z.v}; }
 
-// The direction from which the outline's two ends along the tube are equally far: all of it is in front.
+// The direction that is equally far from the outline's two ends along the tube: the whole outline is in front.
 Vec3d middle_of(const Seen<double>& c) {
   const auto angle = [&](Kernels<double>::real place) { return std::atan2(place.v, c.height.v); };
   const auto cap = [&](const Kernels<double>::vec3& end) { return std::asin(std::min(c.radius.v / length(to_vector(end)), 1.0)); };
@@ -57,10 +57,10 @@ Vec3d middle_of(const Seen<double>& c) {
   return to_vector(c.toward) * std::cos(middle) + to_vector(c.along) * std::sin(middle);
 }
 
-// Directions of the corners, brought into one plane across the axis: the outline of a capsule is not flat.
+// Projects the corners' directions into one plane across the axis: the outline of a capsule is not flat.
 PolygonLight flattened(const std::vector<Vec3d>& corners, Vec3d position, Vec3d axis, double distance) {
-  // Of the cosine. Near the surface of a long tube its ends are nearly a right angle from the axis, and a corner that was pushed out
-  // may lie beyond; coordinates keep half of their digits.
+  // Least cosine. Near the surface of a long tube its ends are nearly a right angle from the axis, and a corner that was pushed out may lie
+  // beyond. Coordinates retain half of their digits.
   constexpr double kLeast = 1e-9;
   PolygonLight light;
   for (auto corner = corners.rbegin(); corner != corners.rend(); ++corner) {  // stored order is the reverse of walk order
@@ -88,16 +88,16 @@ double distance_to_axis(const Capsule& capsule, Vec3d position) {
   const Vec3d a = capsule.end_a - position, span = capsule.end_b - capsule.end_a;
   const double span2 = dot(span, span);
   const double t = span2 > 0 ? std::clamp(-dot(a, span) / span2, 0.0, 1.0) : 0.0;
-  // From the nearer end: of the other, rounding would remain.
+  // The distance is computed from the nearer end: from the other, only rounding would remain.
   return t > 0.5 ? length(capsule.end_b - position - span * (1 - t)) : length(a + span * t);
 }
 
 double distance_along(const Capsule& capsule, Vec3d origin, Vec3d direction) {
   const Vec3d a = capsule.end_a - origin, span = capsule.end_b - capsule.end_a;
-  // Across the ray, the segment is a segment of the plane, and the ray the origin of the plane.
+  // Seen along the ray, the segment is a segment of the plane, and the ray the origin of the plane.
   const Vec3d flat_a = a - direction * dot(a, direction), flat_span = span - direction * dot(span, direction);
   const double flat2 = dot(flat_span, flat_span);
-  // Along the segment: its nearer end.
+  // A ray along the segment is nearest at its nearer end.
   const double t = flat2 > 0 ? std::clamp(-dot(flat_a, flat_span) / flat2, 0.0, 1.0) : dot(span, direction) < 0 ? 1.0 : 0.0;
   return std::max(dot(a + span * t, direction), 0.0);
 }

@@ -1,5 +1,5 @@
-// Capsules and lines: irradiance against spheres, region tests, fine polygons and quadrature; polygons for lobes against finer
-// ones; and what must hold for any input.
+// Capsules and lines: irradiance against spheres, region tests, fine polygons and quadrature; polygons for lobes against finer ones; and
+// properties that hold for any input.
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 
@@ -20,7 +20,7 @@ namespace {
 using reference::Random;
 using reference::random_direction;
 
-// A tube about a point at distance 1 in that direction: radius seen under 2 to 35 degrees or a third of it, up to 6 long.
+// A tube about a point at distance 1 in that direction. Its radius subtends 2 to 35 degrees or a third of that; its length is up to 6.
 Capsule random_tube(Random& random, Vec3d direction) {
   const double thin = random.uniform() < 0.5 ? 0.3 : 1.0;
   const double radius = std::tan(random.uniform(2, 35) * std::numbers::pi / 180) * 0.7 * thin;
@@ -32,7 +32,7 @@ double sphere_irradiance(Vec3d center, double radius, Vec3d normal) {
   return ellipsoid_irradiance({center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}, {}, normal);
 }
 
-// Share of the cosine-weighted directions that meet the capsule, times pi: strata, one sample in each.
+// Fraction of the cosine-weighted directions that meet the capsule, times pi: strata, one sample in each.
 double irradiance_by_rays(const Capsule& c, Vec3d normal, int side, Random& random) {
   const Frame frame = Frame::from_normal(normal);
   int hits = 0;
@@ -57,7 +57,7 @@ TEST(CapsuleIrradiance, OfNoLengthIsTheSpheres) {
     worst = std::max(worst, std::fabs(capsule_irradiance({center, center, radius}, {}, normal) - sphere));
     const double in_float = static_cast<double>(capsule_irradiance_float({center, center, radius}, {}, normal));
     worst_float = std::max(worst_float, std::fabs(in_float - sphere));
-    // A length L adds at most 2 R L + what it covers of the sphere itself: 2 L / (1 - R) of its directions.
+    // A length L adds at most 2 R L plus the part of the sphere that it covers: 2 L / (1 - R) of its directions.
     const double length = 1e-9;
     const Vec3d end = center + random_direction(random) * length;
     worst_near = std::max(worst_near, std::fabs(capsule_irradiance({center, end, radius}, {}, normal) - sphere) * (1 - radius) / length);
@@ -79,7 +79,7 @@ TEST(CapsuleIrradiance, AlongTheAxisIsTheNearerSpheres) {
 }
 
 TEST(CapsuleIrradiance, IsContinuousWhereASphereBecomesATube) {
-  // The second ball comes out from behind the first: what it adds begins with the 3/2 power of its way.
+  // The second ball emerges from behind the first: its contribution begins with the 3/2 power of its path.
   Random random(2);
   double worst = 0;
   for (int i = 0; i < 500; ++i) {
@@ -104,7 +104,7 @@ TEST(CapsuleIrradiance, CountsTheRaysThatMeetIt) {
     const Capsule c = random_tube(random, direction);
     const Vec3d normal = normalized(direction + random_direction(random));
     if (!(distance_to_axis(c, {}) > c.radius)) continue;
-    // An outline crosses at most 8 cells of a row or column: the variance of each is at most a quarter of a cell's.
+    // An outline crosses at most 8 cells of a row or column; the variance of each is at most a quarter of a cell's.
     const double sigma = std::numbers::pi * 0.5 * std::sqrt(8.0 * kSide) / (kSide * kSide);
     EXPECT_NEAR(capsule_irradiance(c, {}, normal), irradiance_by_rays(c, normal, kSide, random), 4 * sigma) << "tube " << i;
   }
@@ -147,7 +147,7 @@ TEST(CapsuleIrradiance, OfAnyInputIsFiniteAndWithinPi) {
     if (i % 5 == 0) c.end_b = c.end_a * 3.0;
     const Vec3d position = i % 7 == 0 ? c.end_a * 0.5 : point(), normal = random_direction(random);
     for (double e : {capsule_irradiance(c, position, normal), static_cast<double>(capsule_irradiance_float(c, position, normal))}) {
-      EXPECT_GE(e, 0.0) << i;  // not a number fails
+      EXPECT_GE(e, 0.0) << i;  // fails for NaN
       EXPECT_LE(e, std::numbers::pi + 1e-6) << i;
     }
     EXPECT_GE(line_irradiance(c.end_a, c.end_b, position, normal), 0.0) << i;
@@ -159,7 +159,7 @@ TEST(CapsuleIrradiance, OfAnyInputIsFiniteAndWithinPi) {
 }
 
 TEST(CapsuleIrradiance, OfATubeAtTheSurfaceIsAllOfTheSky) {
-  // Looking straight at a huge tube from close by: pi (1 - what escapes along it).
+  // The view is straight at a huge tube from close by: pi (1 - the part that escapes along it).
   EXPECT_NEAR(capsule_irradiance({{-1e6, 0, 1}, {1e6, 0, 1}, 1 - 1e-9}, {}, {0, 0, 1}), std::numbers::pi, 1e-4);
   EXPECT_EQ(capsule_irradiance({{-1e6, 0, 1}, {1e6, 0, 1}, 1 - 1e-9}, {}, {0, 0, -1}), 0.0);
 }
@@ -172,7 +172,7 @@ TEST(LineIrradiance, OfAnEndlessLineOverheadIsItsClosedForm) {
 }
 
 TEST(LineIrradiance, IsItsIntegral) {
-  // INT sin(angle to the line) cos / d^2 ds above the horizon, by Simpson's rule in the angle under which it is seen.
+  // INT sin(angle to the line) cos / d^2 ds above the horizon, by Simpson's rule in the angle that it subtends.
   Random random(6);
   double worst = 0, worst_float = 0;
   int cut = 0;
@@ -216,7 +216,7 @@ TEST(LineIrradiance, IsTheLimitOfThinCapsules) {
     for (int i = 0; i < 500; ++i) {
       const Vec3d a = random_direction(random) * random.uniform(0.2, 3);
       Vec3d b = random_direction(random) * random.uniform(0.2, 3);
-      if (i % 3 == 0) b = a * random.uniform(1, 9) + b * (share * random.uniform(0, 3));  // seen almost end-on
+      if (i % 3 == 0) b = a * random.uniform(1, 9) + b * (share * random.uniform(0, 3));  // nearly end-on
       const Vec3d normal = random_direction(random);
       const double distance = distance_to_axis({a, b, 0}, {}), radius = share * distance;
       const double over_width = capsule_irradiance({a, b, radius}, {}, normal) / (2 * radius);
@@ -264,12 +264,12 @@ TEST(CapsulePolygons, PhongLobesHoldTheirError) {
     std::printf("n = %4.0f: of the full lobe, largest and rms", n);
     for (int k = 0; k < 3; ++k) std::printf(" K = %d %.5f %.5f,", vertices[k], worst[k], std::sqrt(squares[k] / count));
     std::printf(" 12 at equal steps %.5f\n", even_worst);
-    // Chords and the outline differ to second order in the steps, and all the more slowly do equal areas: more corners of the same
-    // kind leave at most the square of the steps' ratio.
+    // Chords differ from the outline to second order in the steps, and equal areas reduce that further. More corners of the same kind leave
+    // at most the square of the steps' ratio.
     EXPECT_LE(squares[1], squares[0] * std::pow(8.0 / 12, 4)) << "n " << n;
     EXPECT_LE(squares[2], squares[1] * std::pow(12.0 / 16, 4)) << "n " << n;
     EXPECT_LE(worst[2], 0.0014) << "n " << n << ": what docs/ggx.md states of round lights";
-    // Gathered, the corners' steps are as fine as the lobe is narrow: sharper lobes must be the better off for it.
+    // Gathered corners have steps as fine as the lobe is narrow, so sharper lobes must gain more from them.
     EXPECT_LE(worst[1], even_worst * std::min(1.0, std::sqrt(40 / n)) + 1e-9) << "n " << n;
   }
 }
@@ -314,7 +314,7 @@ TEST(CapsulePolygons, LieInFrontOfThePointEvenAtTheSurface) {
       const PreparedPolygon even = prepare_polygon(polygon_of_equal_steps(c, {}, vertices));
       ASSERT_EQ(polygon.side_of({}), 1) << i;
       ASSERT_EQ(even.side_of({}), 1) << i;
-      // Chords of steps d leave out 1 - sin(d)/d = d^2/6 - d^4/120 of a circle; of equal steps, equal areas give back the first.
+      // Chords of steps d omit 1 - sin(d)/d = d^2/6 - d^4/120 of a circle; with equal steps, equal areas restore the first term.
       const double exact = capsule_irradiance(c, {}, aside), d = 2 * std::numbers::pi / vertices;
       EXPECT_NEAR(polygon_irradiance(polygon, {}, aside), exact, exact * d * d / 6) << i << " with " << vertices;
       EXPECT_NEAR(polygon_irradiance(even, {}, aside), exact, exact * d * d * d * d / 120) << i << " with " << vertices;

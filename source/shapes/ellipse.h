@@ -1,4 +1,4 @@
-// Disks, ellipses, spheres and ellipsoids as lights: what a point sees of each is one ellipse.
+// Disks, ellipses, spheres and ellipsoids as lights: each appears as one ellipse from a point.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool any_corner(Vec3f center, Vec3f x, Vec3f y, Vec3f z, Use use) {
 }
 
 struct Disk {
-  Vec3f point{}, x{}, y{}, normal{};  // centre, conjugate half axes; the normal to the lit side, not a number without area
+  Vec3f point{}, x{}, y{}, normal{};  // centre, conjugate half axes; the normal to the lit side, NaN without area
   bool two_sided = false;
 
   template <class Use>
@@ -31,8 +31,8 @@ struct Disk {
 
 struct Ellipsoid {
   Vec3f center{}, x{}, y{}, z{};                // half axes
-  Vec3f inverse_x{}, inverse_y{}, inverse_z{};  // rows of the matrix that takes it to the unit sphere; not numbers without volume
-  Capsule ball;                                 // a ball is a capsule, too, whose irradiance is the quicker; else of radius 0
+  Vec3f inverse_x{}, inverse_y{}, inverse_z{};  // rows of the matrix that maps it to the unit sphere; NaN without volume
+  Capsule ball;                                 // a ball is also a capsule, whose irradiance is faster to compute; else of radius 0
 
   template <class Use>
   bool any_bound(Use use) const {
@@ -46,7 +46,7 @@ inline Disk prepare_disk(const steradian::Ellipse& a, bool two_sided) {
           two_sided};
 }
 
-// Three axes of one length, at right angles, up to the rounding of a node's rotation.
+// True for three axes of one length, at right angles, up to the rounding of a node's rotation.
 inline bool is_ball(const steradian::Ellipsoid& a) {
   const double r2 = dot(a.x, a.x), least = 1e-6 * r2;
   const auto off = [&](double x) { return std::fabs(x) > least; };
@@ -75,10 +75,10 @@ namespace shapes {
 
 template <class S>
 STERADIAN_INLINE Seen<S> see(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
-  return {see_plane<S>(light, p).lit, Kernels<S>().mask_none()};  // its outline is walked as it is seen
+  return {see_plane<S>(light, p).lit, Kernels<S>().mask_none()};  // its outline is walked in its visible order
 }
 
-// The outline from the point p.
+// The outline as seen from the point p.
 template <class S>
 STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
   return {to_kernel<S>(light.point) - p, to_kernel<S>(light.x), to_kernel<S>(light.y), Kernels<S>().mask_all()};
@@ -110,7 +110,7 @@ STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::
                                       transform_transposed(frame, outline.axis_b) * unit);
 }
 
-// Mean squares of their extents; an ellipsoid's is an upper bound.
+// Mean squares of the lights' extents; an ellipsoid's is an upper bound.
 template <class S>
 STERADIAN_INLINE Real<S> deviation2(const packed::Disk& light) {
   return static_cast<double>((dot(light.x, light.x) + dot(light.y, light.y)) / 4);
@@ -146,7 +146,7 @@ typename Kernels<S>::LightElements elements(const packed::Ellipsoid& light, cons
   return elements_of_outline<S>(light, p);
 }
 
-// Of any shape, in the shading frame: here, where all of them are known.
+// Elements of any shape, in the shading frame. The function is here because all shapes are declared here.
 template <class S, class Shape>
 typename Kernels<S>::LightElements elements_in(const Shape& light, const typename Kernels<S>::mat3& frame,
                                                const typename Kernels<S>::vec3& p) {
@@ -155,7 +155,7 @@ typename Kernels<S>::LightElements elements_in(const Shape& light, const typenam
           transform_transposed(frame, e.area)};
 }
 
-// Exact, for radiance 1; z is the irradiance. By the elements where they serve.
+// Exact for radiance 1; z is the irradiance. Uses the elements where they serve.
 template <class S, class Round>
 STERADIAN_INLINE auto by_elements_where_small(typename Kernels<S>::vec3 e, const Round& light, const typename Kernels<S>::mat3& frame,
                                               const typename Kernels<S>::vec3& p) {
@@ -185,7 +185,7 @@ __attribute__((flatten, noinline)) auto irradiance_vector(const packed::Ellipsoi
   return by_elements_where_small<S>(e, light, frame, p);
 }
 
-// Of a polygon where the rim is near: kernels/outline/ellipse.glsl, ellipse_fan_near.
+// Number of corners near the rim: kernels/outline/ellipse.glsl, ellipse_fan_near.
 inline constexpr int kCornersNearRim = 32;
 static_assert(kCornersNearRim <= kMostCorners);
 
@@ -201,8 +201,8 @@ STERADIAN_INLINE void fill_corners_of_fan(const typename Kernels<S>::EllipseFan&
   }
 }
 
-// Lanes whose rim is not near have the corners that they would have alone, the last of them as often as the others have more. Seldom
-// called: a function of its own.
+// Lanes whose rim is not near get the corners that they would have alone; the last one is repeated to fill the count. Rarely called, hence
+// not inlined.
 template <class S>
 __attribute__((flatten, noinline)) void keep_usual_corners(typename Kernels<S>::EllipseFan fan, int usual_count, int count,
                                                            Corners<S>& corners) {
@@ -216,7 +216,7 @@ __attribute__((flatten, noinline)) void keep_usual_corners(typename Kernels<S>::
   }
 }
 
-// The corners that stand for the outline about a lobe, in walk order; how many there are.
+// Fills the corners of a lobe's polygon for the outline, in walk order; returns their number.
 template <class S, class Round>
 STERADIAN_INLINE int fill_corners(const Round& light, const AboutLobe<S>& lobe, const typename Kernels<S>::mat3& frame,
                                   const typename Kernels<S>::vec3& p, Corners<S>& corners) {

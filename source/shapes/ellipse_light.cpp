@@ -23,7 +23,7 @@ template <class S>
 S irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
   const Vec3d lit = cross(ellipse.x, ellipse.y);
   if (!(dot(position - ellipse.center, lit) > 0)) return S(0);
-  // In units of the distance: squares of squares of tiny and huge lights would leave the range of float.
+  // The unit is the distance: squares of squares of tiny and huge lights would leave the range of float.
   const Vec3d to_center = ellipse.center - position;
   const double unit = 1 / (length(to_center) + length(ellipse.x) + length(ellipse.y));
   const Ellipse scaled{position + to_center * unit, ellipse.x * unit, ellipse.y * unit};
@@ -47,7 +47,7 @@ PolygonLight polygon_of(const Kernels<double>::EllipseFan& fan, Vec3d position, 
   return light;
 }
 
-// Twice those of kernels/outline/ellipse.glsl: a quarter of the error, where time does not count.
+// Twice the number of kernels/outline/ellipse.glsl: a quarter of the error, where time does not matter.
 constexpr int kVerticesNearRim = 64;
 
 }  // namespace

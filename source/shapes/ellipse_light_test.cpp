@@ -18,7 +18,7 @@ namespace {
 using reference::Random;
 using reference::random_direction;
 
-// An ellipsoid or a tilted ellipse, axes 0.3 to 1.1 of a size that is seen under 3 to 45 degrees.
+// An ellipsoid or a tilted ellipse with axes 0.3 to 1.1 of a size that subtends 3 to 45 degrees.
 Ellipse random_round_light(Random& random, Vec3d direction) {
   const double size = std::tan(random.uniform(3, 45) * std::numbers::pi / 180) * 0.7;
   const Frame f = Frame::from_normal(random_direction(random));
@@ -55,13 +55,13 @@ TEST(EllipseIrradiance, OfADiskOnTheAxisIsItsClosedForm) {
     const double expected = std::numbers::pi * radius * radius / (1 + radius * radius);
     EXPECT_NEAR(ellipse_irradiance({{0, 0, 1}, {0, radius, 0}, {radius, 0, 0}}, {}, {0, 0, 1}), expected, 1e-12);
     EXPECT_EQ(ellipse_irradiance({{0, 0, 1}, {radius, 0, 0}, {0, radius, 0}}, {}, {0, 0, 1}), 0.0) << "from behind";
-    // Upright: half of it is above the horizon, and the other half looks the same.
+    // An upright disk: half of it is above the horizon, and the other half looks the same.
     const double upright = ellipse_irradiance({{0, 1, 0}, {0, 0, radius}, {radius, 0, 0}}, {}, {0, 0, 1});
     EXPECT_NEAR(upright, ellipse_irradiance({{0, 1, 0}, {0, 0, radius}, {radius, 0, 0}}, {}, {0, 0, -1}), 1e-12);
   }
 }
 
-// The cone's axes against the arcs; the share of the rim's distance that float loses is in what these ellipses may have.
+// The cone's axes against the arcs; these ellipses may have the fraction of the rim's distance that float loses.
 TEST(EllipseIrradiance, OfAWholeEllipseFollowsFromItsCone) {
   Random random(3);
   Kernels<double> k;
@@ -102,7 +102,7 @@ TEST(EllipseIrradiance, AgreesWithFinePolygonsAcrossTheHorizon) {
     const auto polygon = [&](int vertices) {
       return polygon_irradiance(prepare_polygon(equal_area_polygon(e, {1, 1, 1}, vertices)), {}, normal);
     };
-    // Of equal area, the error falls with the square of the number; two numbers give the limit to the third power.
+    // With equal area, the error falls with the square of the number; two numbers give the limit to the third power.
     const double coarse = polygon(1000), fine = polygon(2000), limit = fine + (fine - coarse) / 3;
     const double value = ellipse_irradiance(e, {}, normal);
     worst = std::max(worst, std::fabs(value - limit));
@@ -110,7 +110,7 @@ TEST(EllipseIrradiance, AgreesWithFinePolygonsAcrossTheHorizon) {
     const double rise = std::hypot(dot(e.x, normal), dot(e.y, normal));
     cut += std::fabs(dot(e.center, normal)) < rise && value > 1e-6;
   }
-  EXPECT_LT(worst, 1e-6);  // (2 pi / 2000)^3 = 3e-8, times what a narrow ellipse magnifies
+  EXPECT_LT(worst, 1e-6);  // (2 pi / 2000)^3 = 3e-8, times the magnification by a narrow ellipse
   EXPECT_LT(worst_float, 1e-4);
   EXPECT_GT(cut, 50);
   std::printf("largest difference %.2e, in float %.2e, %d cut by the horizon\n", worst, worst_float, cut);
@@ -174,8 +174,8 @@ TEST(EllipsePolygons, GgxHoldsItsErrorWithTwelveVertices) {
   std::printf("K = 12: largest error %.5f, rms %.5f\n", worst, std::sqrt(sum / count));
 }
 
-// Beside the rim, inside and outside of it, as close as a thousandth of the radius: against a polygon whose steps are a hundredth of the
-// distance from the point.
+// Points beside the rim, inside and outside of it, as close as a thousandth of the radius. The reference is a polygon whose steps are a
+// hundredth of the point's distance to the rim.
 TEST(EllipsePolygons, HoldTheirErrorNearTheRim) {
   const auto fine = [](Vec3d p) {
     const double beta = std::hypot(std::hypot(p.x, p.y) - 1, p.z) / 3, around = std::atan2(p.y, p.x);
@@ -214,14 +214,14 @@ TEST(EllipsePolygons, HoldTheirErrorNearTheRim) {
           if (gap < 0.05 && alpha >= 0.1) worst_beside = std::max(worst_beside, std::fabs(value - truth));
           largest = std::max(largest, truth);
         }
-  EXPECT_LE(worst_beside, 0.0014);  // what docs/ggx.md states
-  EXPECT_LE(worst, 0.0025);         // a tenth of the radius away and more, 12 corners as anywhere
+  EXPECT_LE(worst_beside, 0.0014);  // as docs/ggx.md states
+  EXPECT_LE(worst, 0.0025);         // a tenth of the radius away and more, with the usual 12 corners
   EXPECT_LE(worst_sharp, 0.006);
   EXPECT_GT(largest, 0.9);
   std::printf("largest error of the full lobe %.5f, within 0.05 of the rim %.5f, of alpha 0.04 %.5f\n", worst, worst_beside, worst_sharp);
 }
 
-// A disk that stands nearly edge-on, so that its rim is near on one side and the lobe meets it on another: sharp lobes and rough ones.
+// A disk that stands nearly edge-on, so that its rim is near on one side and the lobe meets it on another; sharp and rough lobes.
 TEST(EllipsePolygons, HoldTheirErrorWhereTheLobeMeetsARimThatIsNearElsewhere) {
   Random random(31);
   double worst = 0;
@@ -249,7 +249,7 @@ TEST(EllipsePolygons, HoldTheirErrorWhereTheLobeMeetsARimThatIsNearElsewhere) {
   }
   std::printf("%d of 400 near, largest error of the full lobe %.5f\n", near, worst);
   EXPECT_GT(near, 100);
-  EXPECT_LE(worst, 0.0014);  // what docs/ggx.md states
+  EXPECT_LE(worst, 0.0014);  // as docs/ggx.md states
 }
 
 TEST(EllipsePolygons, RefuseOddNumbersOfVertices) {

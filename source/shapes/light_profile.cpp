@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Between which two of the rising angles a value lies, and how far on; both the one where there is one. Precondition: within them.
+// The two of the rising angles between which a value lies, and the fraction of the way; both are the same if there is only one.
+// Precondition: the value is within them.
 struct Between {
   std::size_t low, high;
   double share;
@@ -23,7 +24,7 @@ Between find(const std::vector<double>& angles, double at) {
   return {high - 1, high, std::clamp((at - angles[high - 1]) / (angles[high] - angles[high - 1]), 0.0, 1.0)};
 }
 
-// Angles are known to a rounding of their own: what lies on the first or last one counts as within.
+// Angles carry rounding: a value on the first or last one counts as within.
 bool is_within(const std::vector<double>& angles, double at) {
   constexpr double kRounding = 1e-9;
   return angles.size() == 1 || (at >= angles.front() - kRounding && at <= angles.back() + kRounding);
@@ -33,7 +34,7 @@ bool is_within(const std::vector<double>& angles, double at) {
 
 double intensity(const LightProfile& profile, Vec3d d) {
   if (profile.candela.empty() || d == Vec3d{}) return 0;
-  // At the poles, where all half planes meet, roundings would say which one; not all files have one value there.
+  // At the poles, where all half planes meet, rounding would choose the half plane; not all files have one value there.
   constexpr double kPole = 1e-6;
   double vertical, horizontal;
   if (profile.type == LightProfile::Type::c) {
@@ -57,7 +58,7 @@ double intensity(const LightProfile& profile, Vec3d d) {
 
 namespace {
 
-// The integral of weight(t) times what is linear from (a, value_a) to (b, value_b), for the weight sin; a, b in radians.
+// Integral of the weight sin(t) times the function that is linear from (a, value_a) to (b, value_b); a, b in radians.
 double times_sine(double a, double b, double value_a, double value_b) {
   if (b - a < 1e-4) return (b - a) * std::sin((a + b) / 2) * (value_a + value_b) / 2;  // the differences below cancel
   const double slope = (value_b - value_a) / (b - a);
@@ -72,7 +73,7 @@ double luminous_flux(const LightProfile& profile) {
   const auto value = [&](std::size_t plane, std::size_t angle) { return profile.candela[plane * v.size() + angle]; };
   double sum = 0;
   if (profile.type == LightProfile::Type::c) {
-    // Solid angle: sine of the vertical angle. Over a horizontal step the mean of both planes is exact.
+    // The solid angle has the sine of the vertical angle as weight. Over a horizontal step the mean of both planes is exact.
     for (std::size_t i = 0; i + 1 < v.size(); ++i) {
       const auto band = [&](std::size_t plane) {
         return times_sine(v[i] * kDegree, v[i + 1] * kDegree, value(plane, i), value(plane, i + 1));
@@ -82,7 +83,7 @@ double luminous_flux(const LightProfile& profile) {
     }
     return sum;
   }
-  // Of b: cosine of the horizontal angle, the sine of what is left to 90 degrees.
+  // Type b: the weight is the cosine of the horizontal angle, which is the sine of 90 degrees minus the angle.
   for (std::size_t k = 0; k + 1 < h.size(); ++k)
     for (std::size_t i = 0; i + 1 < v.size(); ++i) {
       const auto mean = [&](std::size_t plane) { return (value(plane, i) + value(plane, i + 1)) / 2; };
@@ -99,7 +100,7 @@ double packed::profile_intensity(const Punctual& light, double x, double y, doub
 ProfileAxes profile_axes(Vec3d aim, Vec3d towards_x) {
   aim = normalized(aim);
   const Frame frame = Frame::from_normal_and_tangent(aim, towards_x);
-  // Counter-clockwise as seen from behind, where aim points away.
+  // The order is counter-clockwise as seen from behind, where aim points away.
   return {frame.x, cross(frame.x, aim), aim};
 }
 

@@ -11,7 +11,7 @@
 namespace steradian::light_units_test {
 namespace {
 
-// All that a light sends arrives on the walls of a ball about it: 600 x 300 midpoints.
+// Power that arrives on the walls of a ball about the light: 600 x 300 midpoints.
 double power_by_quadrature(const auto& irradiance, double radius) {
   double sum = 0;
   for (int i = 0; i < 300; ++i)
@@ -30,7 +30,7 @@ TEST(LightUnits, PowerIsWhatArrives) {
   const double radiance = radiance_from_power(100, 0.5);
   EXPECT_NEAR(power_by_quadrature([&](Vec3d p, Vec3d n) { return radiance * polygon_irradiance(prepared, p, n); }, 2), 100, 0.02);
   EXPECT_DOUBLE_EQ(power_from_radiance(radiance, 0.5), 100);
-  // A ball's surface sends to one side, too: outwards.
+  // A ball's surface, too, sends to one side: outwards.
   const Ellipsoid ball{{}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
   const double of_ball = radiance_from_power(100, 4 * std::numbers::pi * 0.01);
   EXPECT_NEAR(power_by_quadrature([&](Vec3d p, Vec3d n) { return of_ball * ellipsoid_irradiance(ball, p, n); }, 2), 100, 1e-9);
@@ -39,7 +39,7 @@ TEST(LightUnits, PowerIsWhatArrives) {
 
 TEST(LightUnits, ABlenderPointIsTheSameWithAndWithoutARadius) {
   const double area = 4 * std::numbers::pi * 0.01 * 0.01;
-  // Radiance times the disk that one sees of the ball is its intensity.
+  // The intensity of the ball is its radiance times its visible disk.
   EXPECT_NEAR(light_factor(LightSystem::blender, EmitterKind::sphere, area) * std::numbers::pi * 0.01 * 0.01,
               light_factor(LightSystem::blender, EmitterKind::point), 1e-15);
 }
@@ -58,7 +58,7 @@ TEST(LightUnits, EverySystemAndKind) {
 }
 
 TEST(LightUnits, SunnySixteen) {
-  // f/16 at 1/100 s and ISO 100 exposes for the sun: EV 14.6.
+  // f/16 at 1/100 s and ISO 100 is the exposure for sunlight: EV 14.6.
   EXPECT_NEAR(ev100_of_camera(16, 0.01, 100), 14.644, 1e-3);
   EXPECT_NEAR(std::exp2(stops_from_ev100(15)) * 1.2 * 32768, 1, 1e-12);
 }

@@ -1,12 +1,12 @@
-// Outlines: what a shading point sees of a light, as oriented edges between unit directions in the shading frame.
+// Outlines: a light as visible from a shading point, as oriented edges between unit directions in the shading frame.
 //
 // An outline is a type with
 //
 //   template <class End, class Add> void walk(End end, Add add) const;
 //
-// which calls add(end(a), end(b)) for each edge from a to b in walk order (kernels/outline/polygon.glsl). Taken together the
-// edges are closed. `end` says what an integral keeps of a corner; along a contour it is asked once a corner. An integral does
-// not know whether the edges are a polygon's contours, the corners that stand for a round light, or what occluders leave of one.
+// which calls add(end(a), end(b)) for each edge from a to b in walk order (kernels/outline/polygon.glsl). Together the edges are closed.
+// `end` computes the values that an integral needs of a corner; along a contour it is called once a corner. An integral does not know the
+// kind of edges: a polygon's contours, the corners of a round light, or the visible rest of one behind occluders.
 #pragma once
 
 #include <utility>
@@ -21,7 +21,7 @@ namespace integrals {
 // The loop over contours: add(end(v), end(w)) for each edge from the vertex v to the vertex w.
 //
 //   contours  where each contour begins, and the number of vertices at the end. One of two vertices is the one edge from the
-//             first to the second: such contours, in any order, bound what is seen behind occluders. They lie above the
+//             first to the second: such contours, in any order, bound the part that is visible behind occluders. They lie above the
 //             horizon, since clipping joins a contour's crossings in their order
 template <class Vertex, class End, class Add>
 STERADIAN_INLINE void walk_contours(const Vertex* vertices, const std::size_t* contours, std::size_t contour_count, End end, Add add) {
@@ -38,7 +38,7 @@ STERADIAN_INLINE void walk_contours(const Vertex* vertices, const std::size_t* c
   }
 }
 
-// The contours of a flat light. direction(vertex) is the unit direction in the shading frame.
+// Contours of a flat light. direction(vertex) is the unit direction in the shading frame.
 template <class Vertex, class Direction>
 struct Contours {
   const Vertex* vertices;
@@ -64,7 +64,7 @@ STERADIAN_INLINE typename Kernels<S>::vec3 to_kernel(Vector3<T> v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-// The point of the line through a and b that is nearest to the origin.
+// Point of the line through a and b that is nearest to the origin.
 inline Vec3d foot_on_line(Vec3d a, Vec3d b) {
   const Vec3d along = b - a;
   return a - along * (dot(a, along) / dot(along, along));
@@ -79,8 +79,8 @@ struct LightContours : Contours<Vec3d, Direction> {
   Vec3d position;
   Turned turned;
 
-  // An edge that is seen under more than 179 degrees is walked in two, by way of its point next to the shading point: of ends that are
-  // nearly opposite no direction in between is left, however near the edge passes.
+  // An edge that subtends more than 179 degrees is walked in two, by way of its point next to the shading point. Ends that are nearly
+  // opposite determine no direction in between, however near the edge passes.
   template <class End, class Add>
   void walk(End end, Add add) const {
     using Unit = decltype(this->direction(position));
@@ -110,7 +110,7 @@ struct LightContours : Contours<Vec3d, Direction> {
         });
   }
 
-  // Of the directions of the horizon in which the light's plane lies, the middle one; zero where the plane is level.
+  // The middle one of the horizon's directions in which the light's plane lies; zero if the plane is level.
   auto on_horizon() const {
     const double side = dot(light.normal, light.centroid - position) < 0 ? -1 : 1;
     auto to = turned(light.normal * side);
@@ -140,7 +140,7 @@ auto contours_turned(const PreparedPolygon& light, Vec3d position, Turned turned
   return LightContours<S, decltype(direction), Turned>{contours_of(light, direction), light, position, turned};
 }
 
-// A light from a point, turned into the shading frame in double, or in S.
+// The contours of a light as seen from a point, turned into the shading frame in double, or in S.
 template <class S>
 auto contours_in(const PreparedPolygon& light, const Frame& frame, Vec3d position) {
   return contours_turned<S>(light, position, [frame](const Vec3d& v) { return to_kernel<S>(frame.to_local(v)); });

@@ -1,4 +1,4 @@
-// Pieces: for each point of a tile, edges of its own: what bounds the visible part of a light behind occluders.
+// Pieces: for each point of a tile, edges of its own, which bound the visible part of a light behind occluders.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace steradian::packed {
 
-// Vectors are relative to the point, in the world's frame. Points come in blocks of 16; shorter lists are filled by edges of no
-// length. Every point sees a front.
+// Vectors are relative to the point, in the world's frame. Points come in blocks of 16; shorter lists are padded with edges of no length.
+// Every point faces the light's front.
 class Pieces {
  public:
   static constexpr std::size_t kBlock = 16;
@@ -22,13 +22,13 @@ class Pieces {
     elements_.clear();
     blocks_.clear();
   }
-  // The next 16 points: room for so many edges each, of which it returns the planes: kEdgePlanes of 16 numbers an edge.
+  // Adds the next 16 points with capacity for `edge_count` edges each. Returns the edges' planes: kEdgePlanes of 16 numbers an edge.
   float* add_block(std::size_t edge_count) {
     blocks_.push_back({edges_.size(), edge_count});
     edges_.resize(edges_.size() + edge_count * kEdgePlanes * kBlock, 0.0f);
     elements_.resize(elements_.size() + kElementPlanes * kBlock, 0.0f);
     float* e = &elements_[elements_.size() - kElementPlanes * kBlock];
-    // Somewhere, and never used: too wide to serve in a pack of which another point has elements.
+    // Placeholder elements that are never used: too wide to serve in a pack of which another point has elements.
     std::fill_n(e, kBlock, 1.0f);
     std::fill_n(e + 3 * kBlock, kBlock, kTooWide);
     std::fill_n(e + (kElementPlanes - 1) * kBlock, kBlock, kNoElements);
@@ -41,7 +41,7 @@ class Pieces {
       e += kBlock;
     }
   }
-  // The elements of its part of the light: then small parts keep their digits.
+  // Sets the elements of the point's part of the light, so that small parts retain their digits.
   //
   //   q     relative to the point
   //   area  along the normal to the point's side
@@ -55,10 +55,10 @@ class Pieces {
     *e = static_cast<float>((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / 2);
   }
 
-  // Points beyond see nothing.
+  // Points beyond this count see no light.
   STERADIAN_INLINE std::size_t point_count() const { return static_cast<std::size_t>(blocks_.end() - blocks_.begin()) * kBlock; }
   STERADIAN_INLINE std::size_t edge_count(std::size_t point) const { return blocks_.data()[point / kBlock].count; }
-  // Where the planes of an edge begin for a point: kEdgePlanes of them, kBlock apart.
+  // Start of an edge's planes for a point: kEdgePlanes of them, kBlock apart.
   STERADIAN_INLINE const float* edge(std::size_t point, std::size_t number) const {
     return edges_.data() + blocks_.data()[point / kBlock].first + number * kEdgePlanes * kBlock + point % kBlock;
   }
@@ -66,7 +66,7 @@ class Pieces {
     return elements_.data() + point / kBlock * kElementPlanes * kBlock + point % kBlock;
   }
 
-  // One point's, as a light whose contours are edges; `at` is where the point stands.
+  // The pieces of one point as a light whose contours are edges; `at` is the point's position.
   PreparedPolygon light_of(std::size_t point, Vec3d at, Vec3d up) const {
     PreparedPolygon light;
     light.normal = up;

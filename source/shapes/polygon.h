@@ -1,4 +1,4 @@
-// Polygons as lights: which side is lit, and their contours as an outline.
+// Polygons as lights: the lit side, and their contours as an outline.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 
 namespace steradian::packed {
 
-// In single precision, as packs read it.
+// A polygon in single precision, as packs read it.
 struct Polygon {
   std::vector<Vec3f> vertices;        // in walk order
-  std::vector<std::size_t> contours;  // as of PreparedPolygon
+  std::vector<std::size_t> contours;  // as in PreparedPolygon
   Vec3f normal{}, point{};            // of its plane; the normal to the lit side
   bool two_sided = false;
   Vec3f middle{}, reach_a{}, reach_b{}, area{};  // its LightQuarters; area is the normal times the area
   float deviation2 = 0;                          // mean square of its extent about its middle [m2]
 
-  // Whether `use(point, radius)` holds for one of the balls in whose hull the light lies.
+  // True if `use(point, radius)` holds for one of the balls whose hull contains the light.
   template <class Use>
   bool any_bound(Use use) const {
     return std::any_of(vertices.begin(), vertices.end(), [&](Vec3f v) { return use(v, 0.0f); });
@@ -49,19 +49,19 @@ namespace shapes {
 
 using integrals::to_kernel;
 
-// 1 or -1 as the light is seen from the front or the back, 0 where it sends nothing.
+// 1 or -1 if the light is seen from the front or the back, 0 if it sends nothing to the point.
 inline int lit_side(const PreparedPolygon& light, Vec3d position) {
   const int side = light.side_of(position);
   return side < 0 && !light.two_sided ? 0 : side;
 }
 
-// How points see a light.
+// Visibility of a light's sides from the points of a pack.
 template <class S>
 struct Seen {
   Mask<S> lit, reversed;
 };
 
-// Of a flat light: polygon or disk.
+// Sides of a flat light, a polygon or disk, as seen from the points.
 template <class S, class Flat>
 STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>::vec3& p) {
   Seen<S> seen;
@@ -77,13 +77,13 @@ STERADIAN_INLINE Seen<S> see(const packed::Polygon& light, const typename Kernel
   return see_plane<S>(light, p);
 }
 
-// The elements of a light in the world's frame, about the point: shapes/small_light.h.
+// Elements of a light in the world's frame, about the point: shapes/small_light.h.
 template <class S>
 typename Kernels<S>::LightElements elements(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
   return {to_kernel<S>(light.middle) - p, to_kernel<S>(light.reach_a), to_kernel<S>(light.reach_b), to_kernel<S>(light.area)};
 }
 
-// Square of the distance of its middle.
+// Square of the distance to the light's middle.
 template <class S>
 STERADIAN_INLINE Real<S> distance2(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
   const auto to = to_kernel<S>(light.middle) - p;

@@ -14,7 +14,7 @@ namespace {
 
 using Contour = std::vector<Vec3d>;
 
-// Newell's normal: twice the area, about an origin of its own so that a small light far away keeps its digits.
+// Newell's normal times twice the area, about an origin of its own, so that a small light far away retains its digits.
 Vec3d area_vector(const Contour& contour) {
   Vec3d sum{};
   for (std::size_t i = 1; i + 1 < contour.size(); ++i) sum += cross(contour[i] - contour[0], contour[i + 1] - contour[0]);
@@ -54,7 +54,7 @@ void check_contour(const Contour& contour, const std::string& name) {
 void check_plane(const Contour& contour, const std::string& name, Vec3d origin, Vec3d normal, double tolerance) {
   for (std::size_t i = 0; i < contour.size(); ++i) {
     const Vec3d& v = contour[i];
-    // Coordinates come with the rounding of single precision, which grows with the distance from the origin.
+    // Coordinates have the rounding of single precision, which grows with the distance from the origin.
     const double rounding = 2e-7 * (std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z));
     const double off = std::fabs(dot(v - origin, normal));
     if (off > tolerance + rounding)
@@ -68,7 +68,7 @@ void check_plane(const Contour& contour, const std::string& name, Vec3d origin, 
 int PreparedPolygon::side_of(Vec3d p) const {
   if (vertices.empty()) return 0;
   const double height = dot(p - centroid, normal);
-  // Nearer to the plane than the rounding of what it is computed from: neither side is to be trusted with the outline.
+  // The point is nearer to the plane than the rounding of the inputs: the outline is reliable from neither side.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * (length(p) + length(centroid));
   if (std::fabs(height) <= rounding) return 0;
   return (height > 0) - (height < 0);
@@ -93,7 +93,7 @@ PreparedPolygon prepare_polygon(const PolygonLight& light) {
   if (outline.size() < 3 || !(length(area) > 1e-14 * size * size)) return result;
   result.normal = normalized(area);
   result.area = length(area);
-  // The thinner the outline, the less its own numbers say of its plane: the area's rounding tilts the normal.
+  // The thinner the outline, the less its numbers determine its plane: the area's rounding tilts the normal.
   const double tolerance = size * (1e-5 + 16 * std::numeric_limits<double>::epsilon() * size * size / result.area);
   check_plane(outline, "vertices", result.centroid, result.normal, tolerance);
 

@@ -28,8 +28,8 @@ double factor(const PreparedPolygon& light, Vec3d position = {}, Vec3d normal = 
 
 }  // namespace
 
-// Configuration factors of a differential element and a rectangle: Hamilton, Morgan, "Radiant-interchange configuration
-// factors", NACA TN 2836, 1952: parallel, perpendicular and inclined, the element always opposite a corner.
+// Configuration factors of a differential element and a rectangle: Hamilton, Morgan, "Radiant-interchange configuration factors", NACA TN
+// 2836, 1952. The cases are parallel, perpendicular and inclined; the element is always opposite a corner.
 TEST(PolygonIrradiance, OfAParallelRectangleUnderItsCornerIsTheLiteratures) {
   for (double a : {0.01, 0.5, 1.0, 3.0, 100.0})
     for (double b : {0.1, 1.0, 20.0}) {
@@ -40,13 +40,13 @@ TEST(PolygonIrradiance, OfAParallelRectangleUnderItsCornerIsTheLiteratures) {
 }
 
 TEST(PolygonIrradiance, OfAPerpendicularRectangleIsTheLiteratures) {
-  // At the distance 1 from the element, width b along the floor, height a above it.
+  // The rectangle is at the distance 1 from the element, with width b along the floor and height a above it.
   for (double a : {0.01, 0.5, 1.0, 3.0, 100.0})
     for (double b : {0.1, 1.0, 20.0}) {
       const double d = std::sqrt(1 + a * a);
       const double expected = (std::atan(b) - std::atan(b / d) / d) / (2 * std::numbers::pi);
       EXPECT_NEAR(factor(polygon({{1, 0, 0}, {1, b, 0}, {1, b, a}, {1, 0, a}})), expected, 1e-12) << a << " " << b;
-      // What is below the horizon adds nothing.
+      // The part below the horizon adds nothing.
       EXPECT_NEAR(factor(polygon({{1, 0, -7}, {1, b, -7}, {1, b, a}, {1, 0, a}})), expected, 1e-12) << a << " " << b;
     }
 }
@@ -69,7 +69,7 @@ TEST(PolygonIrradiance, OfAnInclinedRectangleIsTheLiteratures) {
 }
 
 TEST(PolygonIrradiance, OfRegularPolygonsIsTheirClosedFormAndTendsToTheDisk) {
-  // Over the middle: every edge sends half its angle times its plane's cosine.
+  // The element is below the middle: every edge sends half its angle times its plane's cosine.
   const double radius = 1.3, disk = radius * radius / (1 + radius * radius);
   double previous = 1;
   for (int n = 3; n <= 3000; n *= 10) {
@@ -84,7 +84,7 @@ TEST(PolygonIrradiance, OfRegularPolygonsIsTheirClosedFormAndTendsToTheDisk) {
     const double found = factor(polygon(vertices));
     EXPECT_NEAR(found, expected, 1e-12) << n;
     EXPECT_LT(disk - found, previous) << n;
-    // The polygon lacks segments of the disk: area of the disk times (2/3) (pi/n)^2 to first order, at most doubled.
+    // The polygon lacks segments of the disk: to first order the disk's area times (2/3) (pi/n)^2, at most doubled.
     EXPECT_LE(disk - found, radius * radius * (2.0 / 3) * (std::numbers::pi / n) * (std::numbers::pi / n) * 2 + 1e-12) << n;
     EXPECT_GT(disk - found, 0) << n;
     previous = disk - found;
@@ -103,11 +103,11 @@ TEST(PolygonIrradiance, ComesFromTheLitSideOnly) {
   EXPECT_EQ(factor(polygon(facing, false)), expected);
   EXPECT_EQ(factor(polygon(averted, false)), 0);
   EXPECT_NEAR(factor(polygon(averted, true)), expected, 1e-15);
-  // From above, looking down, it is the other way round.
+  // From above, looking down, the order is reversed.
   const Vec3d above{0, 0, 2}, down{0, 0, -1};
   EXPECT_EQ(factor(polygon(facing, false), above, down), 0);
   EXPECT_NEAR(factor(polygon(averted, false), above, down), expected, 1e-15);
-  // In the plane nothing is seen.
+  // In its plane nothing of the light is visible.
   EXPECT_EQ(factor(polygon(facing), {5, 0, 1}), 0);
 }
 
@@ -117,7 +117,7 @@ TEST(PolygonIrradiance, IsAdditiveWhenAPolygonIsCut) {
   for (int i = 0; i < 500; ++i) {
     const auto c = random_configuration(random);
     if (!c.light.holes.empty()) continue;
-    // Cut from the first vertex: both parts share the diagonal, whether it lies within or not.
+    // The polygon is cut from the first vertex: both parts share the diagonal, whether it lies inside or not.
     const auto& v = c.light.vertices;
     const auto whole = polygon(v);
     if (v.size() < 4) continue;
@@ -163,7 +163,7 @@ TEST(PolygonIrradiance, OrderOfHolesAndOfTheirVerticesDoesNotMatter) {
   EXPECT_LT(expected, without - 0.05);
 }
 
-// However thin a flat outline is, its own rounding is not held against it.
+// An outline that is flat up to its own rounding is accepted, however thin it is.
 TEST(PreparedPolygon, TakesThinOutlines) {
   Random random(13);
   for (double width = 1; width > 1e-13; width /= 10)
@@ -177,7 +177,7 @@ TEST(PreparedPolygon, TakesThinOutlines) {
     }
 }
 
-// Nearer to the plane than rounding a point has no side: its arcs run this way round or that, whatever a sign says.
+// A point nearer to the plane than rounding has no side: the direction of its arcs is arbitrary, whatever a sign says.
 TEST(PreparedPolygon, APointInItsPlaneHasNoSide) {
   Random random(14);
   for (int i = 0; i < 2000; ++i) {

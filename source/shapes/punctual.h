@@ -11,13 +11,13 @@
 
 namespace steradian::packed {
 
-// What is per light, as of kernels/outline/punctual.glsl.
+// Data of one light, as in kernels/outline/punctual.glsl.
 struct Punctual {
   PunctualKind kind = PunctualKind::point;
   Vec3d position, direction{0, 0, -1};
   double inverse_range2 = 0;
   double spot_scale = 0, spot_offset = 1;
-  const LightProfile* profile = nullptr;  // of the PunctualLight, which stays
+  const LightProfile* profile = nullptr;  // owned by the PunctualLight, which must outlive this
   ProfileAxes axes{};
 
   template <class Use>
@@ -26,7 +26,7 @@ struct Punctual {
   }
 };
 
-// Candela in a direction from the light. A function of its own, since it looks a table up by branches: lanes ask one by one.
+// Candela in a direction from the light. It is not inlined, since it looks a table up with branches: lanes are evaluated one by one.
 double profile_intensity(const Punctual& light, double x, double y, double z);
 
 inline Punctual prepare(const PunctualLight& p) {
@@ -46,7 +46,7 @@ inline Punctual prepare(const PunctualLight& p) {
 STERADIAN_BEGIN_ISA
 namespace shapes {
 
-// What the profile of a light makes of its intensity in the direction from it, lane by lane in double.
+// Factor of the light's profile on its intensity in the direction from it, lane by lane in double.
 template <class S>
 Real<S> profile_factor(const packed::Punctual& light, const typename Kernels<S>::vec3& from_light) {
   if constexpr (std::is_floating_point_v<S>) {
@@ -64,7 +64,7 @@ Real<S> profile_factor(const packed::Punctual& light, const typename Kernels<S>:
   }
 }
 
-// For intensity 1 (illuminance 1 of a directional light).
+// Incident light for intensity 1 (illuminance 1 of a directional light).
 template <class S>
 STERADIAN_INLINE typename Kernels<S>::PunctualIncident incident(const packed::Punctual& light, const typename Kernels<S>::vec3& p) {
   using R = Real<S>;

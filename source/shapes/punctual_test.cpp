@@ -1,4 +1,4 @@
-// The light of points and spots, against the formulas of KHR_lights_punctual.
+// The light of point and spot lights against the formulas of KHR_lights_punctual.
 #include <gtest/gtest.h>
 
 #include <algorithm>

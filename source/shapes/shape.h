@@ -1,4 +1,4 @@
-// What lights are beside area lights, as what asks for light names them.
+// Lights other than area lights, for code that takes light names.
 #pragma once
 
 #include <memory>
@@ -8,13 +8,13 @@
 
 namespace steradian {
 
-// A line where the radius is 0.
+// A capsule, or a line if the radius is 0.
 inline Shape capsule_or_line(Vec3d end_a, Vec3d end_b, double radius) {
   if (radius == 0) return Line{end_a, end_b};
   return Capsule{end_a, end_b, radius};
 }
 
-// Without size.
+// A light without size.
 struct PointLight {
   Vec3d position;
   Vec3d intensity{1, 1, 1};                       // W/sr or candela, linear RGB
@@ -22,7 +22,7 @@ struct PointLight {
   ProfileAxes axes{};
 };
 
-// Parallel light.
+// Parallel light from one direction.
 struct DirectionalLight {
   Vec3d direction;             // unit, along which it shines
   Vec3d illuminance{1, 1, 1};  // W/m2 or lux across it, linear RGB

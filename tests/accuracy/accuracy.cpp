@@ -1,4 +1,4 @@
-// accuracy FILE: measures what docs/accuracy.md says, and writes it.
+// accuracy FILE: measures the values of docs/accuracy.md, and writes the page.
 #include <cstdio>
 #include <fstream>
 #include <sstream>

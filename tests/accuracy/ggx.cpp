@@ -52,7 +52,7 @@ struct Method {
   Evaluate evaluate;
 };
 
-// Karis' representative point as published: what the method has but for its factor 1/sqrt(v.h).
+// Karis' representative point as published: the method without its factor 1/sqrt(v.h).
 double karis(const Case& c) {
   const Vec3d n = normalized(c.at.normal), v = normalized(c.at.view);
   const auto frame = Kernels<double>().frame_from_normal_and_view(integrals::to_kernel<double>(n), integrals::to_kernel<double>(v));
@@ -87,7 +87,7 @@ struct Sum {
   double relative() const { return std::sqrt(error / signal); }
 };
 
-// Relative RMSE of all, the worst cell, and a map of the cells.
+// Relative RMSE over all cells, the worst cell, and a map of the cells.
 struct Map {
   double all, worst;
   std::vector<double> cells;

@@ -30,7 +30,7 @@ std::string describe(const Input& input) {
   return fmt::format("{} [{:g}, {:g}]", name_of(input.domain), input.low, input.high);
 }
 
-// Like inputs are counted, not repeated: "3 x direction".
+// Equal inputs are counted, not repeated: "3 x direction".
 std::string describe(const std::vector<Input>& inputs) {
   std::string words;
   for (std::size_t i = 0; i < inputs.size();) {
@@ -57,7 +57,7 @@ void write_functions(std::ostream& out) {
 
 void write_targets(std::ostream& out) {
   std::vector<Target> targets = cpu_targets();
-  targets.erase(targets.begin());  // scalar float is what the others are compared with
+  targets.erase(targets.begin());  // scalar float is the reference for the others
   std::string devices;
   for (const vulkan::DeviceInfo& info : vulkan::list_devices()) {
     const auto device = std::make_shared<vulkan::Device>(vulkan::DeviceOptions{info.name, false});

@@ -1,4 +1,4 @@
-// "Small, near and grazing lights", "Half vectors with shadowing", "Textured lights": where methods are at their limits.
+// "Small, near and grazing lights", "Half vectors with shadowing", "Textured lights": methods at their limits.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -72,7 +72,8 @@ struct Sum {
 
 Vec3d view_at(double degrees) { return {std::sin(degrees * M_PI / 180), 0, std::cos(degrees * M_PI / 180)}; }
 
-// A rectangle of half sides `size` and 0.6 size at the distance 1 about the mirror direction, tilted; as near to it as the lobe is wide.
+// A rectangle of half sides `size` and 0.6 `size` at the distance 1 about the mirror direction, tilted. Its distance from that direction is
+// about the lobe's width.
 PreparedPolygon rectangle(reference::Random& random, const ShadingPoint& at, double size) {
   const auto vector = [&] { return Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
   Vec3d direction = normalized(Vec3d{-at.view.x, -at.view.y, at.view.z} + vector() * 0.15);

@@ -1,4 +1,4 @@
-// "Lights at the limits": every method and lobe where lights fill the hemisphere, touch the surface, stand edge-on, or are round and near.
+// "Lights at the limits": every method and lobe for lights that fill the hemisphere, touch the surface, are edge-on, or are round and near.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -30,13 +30,13 @@ AreaLight shaped(const Shape& shape) {
   return light;
 }
 
-// Seen from the origin on a surface of normal z; `mirror` is where the lobe points.
+// Kinds of lights, viewed from the origin on a surface of normal z. `mirror` is the lobe's direction.
 struct Kind {
   const char* name;
   AreaLight (*light)(Random&, Vec3d mirror);
 };
 
-// About the mirror direction, a tenth of a radian off it.
+// A direction about a tenth of a radian off the mirror direction.
 Vec3d near(Random& random, Vec3d mirror) { return normalized(upwards(mirror + random_direction(random) * 0.1)); }
 
 constexpr Kind kKinds[] = {
@@ -121,7 +121,7 @@ constexpr Row kRows[] = {
     {"charlie by `cubature`", Method::cubature, Brdf::charlie, true, 1},
 };
 
-// Widths 0.01 to 1, exponents to match, views up to 80 degrees.
+// A random lobe of width 0.01 to 1, or of the matching exponent, with views up to 80 degrees.
 Material random_lobe(Random& random, const Row& row) {
   Material m;
   m.brdf = row.brdf;

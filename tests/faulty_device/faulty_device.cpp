@@ -1,6 +1,6 @@
-// A Vulkan layer whose device fails when it is told to: STERADIAN_FAULT=CALL:N, from the N-th call on. vkQueueSubmit and vkWaitForFences
-// lose the device, vkAllocateMemory finds no memory left, and "timeout" in the place of a call is work that does not end. So what the
-// program does about it runs as it would on a broken machine, without a line for tests in it.
+// A Vulkan layer whose device fails on demand: STERADIAN_FAULT=CALL:N, from the N-th call on. vkQueueSubmit and vkWaitForFences lose the
+// device, vkAllocateMemory finds no memory left, and "timeout" in place of a call is work that does not end. So the program's reaction runs
+// as on a broken machine, without any line of code for tests in it.
 #define VK_NO_PROTOTYPES
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -19,9 +19,9 @@ struct Next {
   PFN_vkWaitForFences wait = nullptr;
   PFN_vkAllocateMemory allocate = nullptr;
 };
-Next next;  // one instance and one device at a time, as the program has them
+Next next;  // one instance and one device at a time, as in the program
 
-// Whether this call of that name fails.
+// True if this call of that name fails.
 bool fails(const char* call) {
   static const std::string fault = std::getenv("STERADIAN_FAULT") != nullptr ? std::getenv("STERADIAN_FAULT") : "";
   static std::atomic<long> calls{0};
@@ -36,7 +36,7 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const 
 
 VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all, std::uint64_t timeout) {
   if (fails("vkWaitForFences")) {
-    next.wait(device, count, fences, all, timeout);  // of a device that is lost nothing goes on
+    next.wait(device, count, fences, all, timeout);  // on a lost device nothing continues
     return VK_ERROR_DEVICE_LOST;
   }
   if (fails("timeout")) return VK_TIMEOUT;
@@ -48,7 +48,7 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateI
   return fails("vkAllocateMemory") ? VK_ERROR_OUT_OF_DEVICE_MEMORY : next.allocate(device, info, callbacks, memory);
 }
 
-// What the loader hands to the layers of a chain.
+// The information that the loader passes to the layers of a chain.
 template <class Link>
 Link* link_of(const void* chain, VkStructureType type) {
   for (auto* info = static_cast<const VkBaseInStructure*>(chain); info != nullptr; info = info->pNext)

@@ -1,4 +1,4 @@
-// What fuzzers have found, and the seeds that they begin with, once more: tests/fuzz/corpus/TARGET/*.
+// Repeats the findings of fuzzers and their seeds: tests/fuzz/corpus/TARGET/*.
 #include <gtest/gtest.h>
 
 #include <filesystem>

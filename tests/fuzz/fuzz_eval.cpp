@@ -6,7 +6,7 @@
 
 namespace steradian::fuzz {
 
-// Every line is answered, by the answer or by an error; nothing is thrown.
+// Every line gets an answer or an error; nothing is thrown.
 void eval(Input input) {
   steradian::eval::QueryReader reader({.spp = 4});
   std::string text(reinterpret_cast<const char*>(input.data()), input.size()), out;

@@ -7,7 +7,7 @@ namespace steradian::fuzz {
 
 void gltf(Input input) {
   const std::string_view bytes(reinterpret_cast<const char*>(input.data()), input.size());
-  constexpr const char* kPath = "/nowhere/scene.gltf";  // what the file names beside it is not found
+  constexpr const char* kPath = "/nowhere/scene.gltf";  // files beside it are not found
   try {
     load_scene_from_memory(bytes, kPath, {.limits = kLimits});
   } catch (const Error&) {

@@ -8,7 +8,7 @@ namespace steradian::fuzz {
 
 namespace {
 
-// Smaller than for scenes: nearly every input claims a size, and clearing its memory would be most of the work.
+// The limit is smaller than for scenes. Nearly every input claims a size, and clearing its memory would be most of the work.
 constexpr Limits kPictureLimits{.memory = 5'000'000, .work = kLimits.work};
 
 }  // namespace

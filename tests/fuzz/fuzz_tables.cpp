@@ -13,7 +13,7 @@
 namespace steradian::fuzz {
 namespace {
 
-// The bytes as a file without a place on a disk: these readers take paths.
+// The bytes as a file in memory, because these readers take paths.
 class MemoryFile {
  public:
   explicit MemoryFile(Input input) : descriptor_(memfd_create("input", 0)) {
@@ -58,7 +58,7 @@ void profile(Input input) {
           read_light_profile_from_memory({reinterpret_cast<const char*>(input.data()), input.size()}, name, kLimits);
       double sum = luminous_flux(profile);
       for (int i = 0; i < 27; ++i) sum += intensity(profile, {i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0});
-      if (!(sum >= 0)) std::abort();  // not a number, or below zero
+      if (!(sum >= 0)) std::abort();  // not a number, or negative
     } catch (const Error&) {
     }
   }

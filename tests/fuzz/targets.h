@@ -1,5 +1,5 @@
-// Fuzz targets: a stranger's bytes to each reader. A target returns or throws nothing; what the sanitizers find, what does
-// not end, and what escapes as another exception than Error is a bug.
+// Fuzz targets: arbitrary bytes for each reader. A target returns or throws nothing. A bug is any finding of the sanitizers, any endless
+// run, and any escaping exception other than Error.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace steradian::fuzz {
 
 using Input = std::span<const std::uint8_t>;
 
-// Small, so that a fuzzer runs many a second.
+// Small limits, so that a fuzzer runs many inputs a second.
 inline constexpr Limits kLimits{.memory = 100'000'000, .work = 20'000'000};
 
 void gltf(Input input);       // load_scene
 void svg(Input input);        // load_plane_scene
-void svg_frame(Input input);  // a frame of 16 x 16 of what it reads
-void eval(Input input);       // lines of queries, answered
+void svg_frame(Input input);  // a frame of 16 x 16 of the scene read
+void eval(Input input);       // lines of queries, with their answers
 void picture(Input input);    // EXR, PNG and JPEG as pictures
 void texture(Input input);    // PNG and JPEG as textures
 void table(Input input);      // fitted tables
 void samples(Input input);    // measured reflection
-void profile(Input input);    // IES and EULUMDAT, and what they answer
+void profile(Input input);    // IES and EULUMDAT, and the intensities that they give
 
 }  // namespace steradian::fuzz

@@ -4,7 +4,7 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-// Without flatten: the cases together are a lot of code, and their speed is of no interest.
+// Compiled without flatten: the cases together are a lot of code, and their speed does not matter.
 PackKernels::vec4 run_case(std::size_t index, const PackKernels::CaseInput& i) {
   PackKernels k;
   std::size_t n = 0;

@@ -16,7 +16,7 @@ const std::vector<Case> kCases = {
 #undef PARITY_CASE
 };
 
-// Uniform in [0, 1), from the generator's bits: std::uniform_real_distribution differs between C++ libraries.
+// Uniform in [0, 1), from the generator's bits, because std::uniform_real_distribution differs between C++ libraries.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 double between(std::mt19937_64& random, double low, double high) { return low + (high - low) * uniform(random); }

@@ -1,5 +1,5 @@
-// The parity cases of the kernels' x_cases.glsl as C++ sees them: what they are called, where their inputs come from, and the means
-// to run them as double, float, packs, and in arithmetic that carries a bound on every rounding.
+// The parity cases of the kernels' x_cases.glsl in C++: their names, the domains of their inputs, and functions that run them. They run as
+// double, float, packs, and in arithmetic that carries a bound on every rounding.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct Case {
   std::string name, title;
   Measure measure;
   int values;       // how many of the four results count
-  bool arithmetic;  // neither exp nor log is reached: bits can be demanded
+  bool arithmetic;  // neither exp nor log is reached: results can be equal to the bit
   Bound bound;
   std::vector<Input> inputs;
 };
@@ -40,18 +40,18 @@ std::vector<float> random_inputs(const Case& which, std::size_t count, std::uint
 // count times four results of case number `index`.
 std::vector<double> run_double(std::size_t index, const std::vector<float>& inputs);
 std::vector<double> run_double_at(std::size_t index, const std::vector<double>& input);  // sixteen numbers, four results
-// The four results' derivatives by each of the sixteen numbers.
+// The derivatives of the four results by each of the sixteen numbers.
 std::vector<std::vector<double>> run_dual(std::size_t index, const std::vector<double>& input);
 std::vector<float> run_float(std::size_t index, const std::vector<float>& inputs);
 
-enum class PackKind { fast, strict };  // strict: no contraction, square roots and divisions as IEEE has them
+enum class PackKind { fast, strict };  // strict: no contraction, IEEE square roots and divisions
 std::vector<float> run_packs(std::size_t index, const std::vector<float>& inputs, Simd simd, PackKind kind);
 
-// The float algorithm's value without roundings, and how far any evaluation in float may stray from it.
+// The value of the float algorithm without roundings, and a bound on the distance of any evaluation in float.
 struct BoundedResults {
   std::vector<double> value, bound;
 };
-enum class Rounding { cpu, gpu };  // whose functions: ours and xsimd's, or what Vulkan promises of a device
+enum class Rounding { cpu, gpu };  // the functions: ours and xsimd's, or those that Vulkan guarantees for a device
 BoundedResults run_bounded(std::size_t index, const std::vector<float>& inputs, Rounding rounding);
 
 }  // namespace steradian::parity

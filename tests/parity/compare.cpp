@@ -9,7 +9,7 @@ namespace {
 
 bool same(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-// Relative errors below the smallest normal float are rounding to nothing; they count against it.
+// Results below the smallest normal float may round to zero. So relative errors are relative to at least that float.
 double error(Measure measure, double x, double truth) {
   const double difference = std::fabs(x - truth);
   return measure == Measure::absolute ? difference : difference / std::fmax(std::fabs(truth), 0x1p-126);

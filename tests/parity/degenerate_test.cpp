@@ -1,6 +1,6 @@
-// Degenerate inputs: zeros, denormals, the ends of ranges, directions that are equal, opposite, in an axis or a last bit too
-// long, vectors of the largest and the smallest lengths. Every kernel returns finite numbers for them, in double and in
-// float; what cannot be negative is not.
+// Degenerate inputs: zeros, denormals, the ends of ranges, and vectors of the largest and the smallest lengths. Also directions that are
+// equal, opposite, on an axis or too long by the last bit. Every kernel returns finite numbers for them, in double and in float. Results
+// that cannot be negative are not negative.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class Degenerate {
  public:
   Degenerate(const Case& which, std::uint64_t seed) : which_(which), usual_(random_inputs(which, kUsual, seed)), random_(seed) {}
 
-  // Sixteen numbers for the case. About half of its inputs are degenerate, the rest usual.
+  // Sixteen numbers for the case. About half of its inputs are degenerate, the others usual.
   std::vector<S> inputs() {
     const auto usual = usual_.begin() + static_cast<std::ptrdiff_t>(kInputs * one_of(kUsual));
     std::vector<S> result(usual, usual + kInputs);
@@ -44,7 +44,7 @@ class Degenerate {
 
  private:
   std::uint64_t one_of(std::uint64_t n) { return random_() % n; }
-  // Nothing, next to nothing, or a last place of one.
+  // Zero, a number near zero, or the last place of one.
   S tiny() {
     const S values[] = {S(0),
                         -S(0),
@@ -91,7 +91,7 @@ class Degenerate {
     for (std::uint64_t k = 0; k < 3; ++k) out[k] = k == axis ? S(1) : tiny();
     if (!upper && one_of(2) == 0) out[axis] = -out[axis];
     if (upper) out[2] = std::fabs(out[2]);
-    if (kind == 3) out[axis] = std::nextafter(out[axis], 2 * out[axis]);  // normalising may leave this
+    if (kind == 3) out[axis] = std::nextafter(out[axis], 2 * out[axis]);  // normalisation may leave this
   }
 
   static constexpr std::size_t kUsual = 1024;
@@ -106,7 +106,7 @@ struct Findings {
   std::map<std::string, std::vector<S>> first;
 };
 
-// Kernels whose value is a density, a share or an energy, in which a negative number is a mistake.
+// Kernels whose value is a density, a fraction or an energy. A negative number is a mistake.
 const std::set<std::string>& not_negative() {
   static const std::set<std::string> names = {
       "ggx_distribution",         "ggx_shadowing", "fresnel_schlick",  "beckmann_distribution", "ggx_lobe",

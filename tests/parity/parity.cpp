@@ -1,10 +1,9 @@
-// parity [COUNT [NAME FOLDER]]: every kernel on every target this machine has, one row a kernel, on COUNT random inputs
-// (10000); or on the shaders in a folder alone (split_spirv.py), which are then shown under NAME.
+// parity [COUNT [NAME FOLDER]]: runs every kernel on every target of this machine, one row per kernel, on COUNT random inputs (10000). With
+// FOLDER it runs only the shaders in that folder (split_spirv.py), which are shown under NAME.
 //
-// float is compared with double (largest and rms error), everything else with scalar float. "equal" means the same bits
-// for all inputs; a number is the largest difference, and what follows the colon its share of the bound that
-// running error analysis finds for that input. Exit 1 when a target goes beyond the bound, or where bits are
-// demanded and differ.
+// float is compared with double (largest and rms error), everything else with scalar float. "equal" means the same bits for all inputs. A
+// number is the largest difference. The number after the colon is its fraction of the bound that running error analysis finds for that
+// input. The exit status is 1 if a target exceeds the bound, or if required bits differ.
 #include <fmt/format.h>
 
 #include <cstdlib>

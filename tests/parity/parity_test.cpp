@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kCount = 10000;
 
-// Every case on the given targets: within the bound, and the same bits where they are promised.
+// Checks every case on the given targets: within the bound, and the same bits if they are guaranteed.
 void check_all(const std::vector<Target>& targets) {
   for (std::size_t index = 0; index < cases().size(); ++index) {
     const CaseReport report = compare(index, targets, kCount);
@@ -28,7 +28,7 @@ void check_all(const std::vector<Target>& targets) {
 
 TEST(Parity, PacksAgreeWithScalarFloat) { check_all(cpu_targets()); }
 
-// A bound that is nearly always infinite would make the other tests pass whatever the kernels do.
+// If the bound were infinite for nearly all inputs, the other tests would pass whatever the kernels compute.
 TEST(Parity, ErrorAnalysisBoundsNearlyEveryInput) {
   for (std::size_t index = 0; index < cases().size(); ++index) {
     const CaseReport report = compare(index, {}, 2000);
@@ -49,8 +49,8 @@ TEST(Parity, ShadersAgreeWithScalarFloatAndTheValidationLayerIsSilent) {
   }
 }
 
-// Exact derivatives against central differences at two steps. Their distance bounds the truncation of the finer one; the
-// rounding of the values it is made of is the float bound of the same input, scaled from 24 bits to 53.
+// Compares exact derivatives with central differences at two steps. The difference of these bounds the truncation error of the finer step.
+// The rounding of its values is the float bound of the same input, scaled from 24 bits to 53.
 TEST(Parity, DerivativesOfEveryKernelAgreeWithCentralDifferences) {
   std::size_t checked = 0;
   for (std::size_t index = 0; index < cases().size(); ++index) {
@@ -63,7 +63,7 @@ TEST(Parity, DerivativesOfEveryKernelAgreeWithCentralDifferences) {
       const auto derivatives = run_dual(index, x);
       for (std::size_t m = 0; m < kInputs; ++m) {
         if (!(std::fabs(x[m]) > 0)) continue;
-        const double h = std::ldexp(1.0, std::ilogb(x[m]) - 17);  // so that x + h has no rounding: x is a float
+        const double h = std::ldexp(1.0, std::ilogb(x[m]) - 17);  // makes x + h exact: x is a float
         const auto at = [&](double step) {
           std::vector<double> moved = x;
           moved[m] += step;

@@ -1,10 +1,10 @@
-// Rounded<Model>: a number that carries a bound on what float arithmetic may have done to it.
+// Rounded<Model>: a number with a bound on its error in float arithmetic.
 //
-// A kernel instantiated with it returns, for one input, the value of its algorithm without roundings (in double) and a
-// bound on the distance of any evaluation in float: running error analysis, each operation adding its own rounding
-// and passing on those of its operands. Contraction to fused multiply-add only removes roundings, so the bound holds for it
-// too. Where a comparison is closer than the errors of its sides, either branch may have been taken, and the bound
-// covers both. Source: Higham, "Accuracy and stability of numerical algorithms", 2002, section 3.3.
+// A kernel instantiated with it returns, for one input, the value of its algorithm without roundings (in double). It also returns a bound
+// on the distance of any evaluation in float. This is running error analysis: each operation adds its own rounding and passes on those of
+// its operands. Contraction to fused multiply-add only removes roundings, so the bound holds for it too. If a comparison is closer than the
+// errors of its sides, either branch may have been taken, and the bound covers both. Source: Higham, "Accuracy and stability of numerical
+// algorithms", 2002, section 3.3.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct CpuModel {
   static constexpr double kLog = 4, kLogAbsolute = 0;
 };
 
-// What Vulkan promises of any device (specification, "Precision and Operation of SPIR-V Instructions").
+// Vulkan's guarantees for any device (specification, "Precision and Operation of SPIR-V Instructions").
 struct GpuModel {
   static constexpr double kDivision = 5;                  // 2.5 ulp
   static constexpr double kRoot = 9;                      // as 1 / inversesqrt
@@ -46,16 +46,16 @@ struct Rounded {
   static constexpr double kUnit = 0x1p-24, kUnderflow = 0x1p-126;
   double v, e;  // value; |float - v| <= e
 
-  // An error that is not a number (infinity times zero) is no bound at all.
+  // An error that is not a number (infinity times zero) gives an infinite bound.
   static Rounded of(double v, double e) { return {v, std::isnan(e) ? std::numeric_limits<double>::infinity() : e}; }
   static Rounded lost(double v) { return of(v, std::numeric_limits<double>::infinity()); }
-  // A result of value v whose operands bring the error e, after one operation of `units` roundings.
+  // A result of value v after one operation of `units` roundings; its operands contribute the error e.
   static Rounded after(double v, double e, double units) { return of(v, e + units * kUnit * (std::fabs(v) + e) + kUnderflow); }
 
   friend Rounded operator+(Rounded a, Rounded b) { return after(a.v + b.v, a.e + b.e, 1); }
   friend Rounded operator-(Rounded a, Rounded b) { return after(a.v - b.v, a.e + b.e, 1); }
   friend Rounded operator-(Rounded a) { return {-a.v, a.e}; }
-  // Nothing times something finite is nothing, exactly.
+  // Zero times a finite number is exactly zero.
   bool exact_zero() const { return std::fabs(v) + e <= 0; }
   friend Rounded operator*(Rounded a, Rounded b) {
     if ((a.exact_zero() && std::isfinite(b.e)) || (b.exact_zero() && std::isfinite(a.e))) return {0, 0};
@@ -84,11 +84,11 @@ struct RealTraits<Rounded<Model>> {
     const double across = std::fabs(a.v - b.v) + other.e;
     return R::of(chosen.v, across > chosen.e || std::isnan(across) ? across : chosen.e);
   }
-  // In a pack a neighbour may be the one who wants the branch, so its roundings count for everybody.
+  // In a pack a neighbour may need the branch, so its roundings count for all.
   static bool any(Bool) { return true; }
   static bool all(Bool m) { return m.value && !m.uncertain; }
   static R abs(R x) { return {std::fabs(x.v), x.e}; }
-  // Where the errors cannot change the order, the other side's error does not count.
+  // If the errors cannot change the order, the other side's error does not count.
   static R min(R a, R b) {
     if ((a < b).uncertain) return {std::fmin(a.v, b.v), std::fmax(a.e, b.e)};
     return b.v < a.v ? b : a;

@@ -1,4 +1,4 @@
-// One case in C++, for any number type. Only for units that have the cases among their kernels (CMakeLists.txt).
+// Runs one case in C++, for any number type. Only for units that have the cases among their kernels (CMakeLists.txt).
 #pragma once
 
 #include <cstddef>

@@ -33,8 +33,8 @@ BoundedResults run_rounded(std::size_t index, const std::vector<float>& inputs) 
   return results;
 }
 
-// Sixteen evaluations with other roundings. For errors about normal, Student's t at 15 degrees of freedom goes beyond 11.5
-// deviations once in 10^8 times, and a table of the cases in question makes some 10^6 comparisons.
+// Sixteen evaluations with different roundings. For roughly normal errors, Student's t at 15 degrees of freedom exceeds 11.5 deviations
+// once in 10^8 times. A table of the affected cases makes some 10^6 comparisons.
 template <class Model>
 BoundedResults run_shaken(std::size_t index, const std::vector<float>& inputs) {
   using S = Shaken<Model>;

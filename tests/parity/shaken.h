@@ -1,9 +1,9 @@
-// Shaken<Model>: a number whose every operation errs at random, by up to what Model allows: Monte Carlo arithmetic.
+// Shaken<Model>: a number whose every operation has a random error of up to the size that Model allows: Monte Carlo arithmetic.
 //
-// Running error analysis (rounded.h) passes on the error of an iteration's start to the next step, and cannot see that
-// the step forgets it, nor that two nearly equal terms share an error. Where it loses a kernel, this bounds it: the
-// kernel is evaluated several times with other roundings, and the results' spread tells how far roundings move it.
-// Source: Parker, "Monte Carlo arithmetic", 1997.
+// Running error analysis (rounded.h) passes on the error of an iteration's start to the next step. It cannot detect that the step forgets
+// this error, nor that two nearly equal terms share an error. Where it finds no bound for a kernel, this class provides one. The kernel is
+// evaluated several times with different roundings, and the spread of the results tells how far roundings move it. Source: Parker, "Monte
+// Carlo arithmetic", 1997.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 STERADIAN_BEGIN_ISA
 
-// Where the roundings come from. Amplitude 0: none, the algorithm's own value.
+// The source of the roundings. Amplitude 0: none, the algorithm's own value.
 struct Shaking {
   double amplitude = 0;
   std::uint64_t state = 0;

@@ -1,5 +1,5 @@
-// What tools/mutate.py writes into the kernels: each site has a number, and a run of the tests breaks the one that the environment's
-// STERADIAN_MUTANT names. One build so serves all mutants. Included before everything else, and by no other build.
+// Helpers that tools/mutate.py inserts into the kernels. Each site has a number. A run of the tests breaks the site that the environment's
+// STERADIAN_MUTANT names, so one build serves all mutants. This file is included before everything else, and by no other build.
 #pragma once
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ inline bool on(int site) {
   return site == broken;
 }
 
-// A sign before what is added or subtracted.
+// A sign before an added or subtracted term.
 struct Sign {
   bool flipped;
 };
@@ -25,7 +25,7 @@ T operator*(Sign s, const T& x) {
   return s.flipped ? T(-x) : x;
 }
 
-// What is multiplied by or divided by: its reciprocal, so that product and quotient change places; of what has none, its opposite.
+// A mutated factor or divisor: its reciprocal, so that product and quotient change places. Types without a reciprocal use the opposite.
 template <class T>
 T factor(int site, const T& x) {
   if (!on(site)) return x;

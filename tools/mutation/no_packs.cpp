@@ -1,4 +1,4 @@
-// What the kernels' tests ask of the renderer's packs, which this program is built without: such tests fail here, and so are left out.
+// Stubs of the renderer's packs for the kernels' tests. This program is built without packs, so such tests fail here and are skipped.
 #include <stdexcept>
 #include <vector>
 

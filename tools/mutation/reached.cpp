@@ -1,4 +1,4 @@
-// For each test that runs: its name, its time in milliseconds, and the mutants' sites that it reaches, into the file that the
+// Writes for each running test its name, its time in milliseconds, and the mutants' sites that it reaches. They go into the file that the
 // environment's STERADIAN_REACHED names.
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@ namespace steradian::moment {
 namespace {
 
 constexpr double kLeft = 60, kTop = 36, kWidth = 420, kHeight = 260, kLegend = 170;
-// Okabe and Ito's palette, told apart by everyone.
+// The palette of Okabe and Ito, which people with any colour vision can distinguish.
 constexpr const char* kPalette[] = {"#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#999999"};
 
 template <class... T>

@@ -11,7 +11,7 @@ struct Curve {
   std::string name;  // no legend where empty
   std::vector<std::pair<double, double>> points;
   bool dashed = false;
-  int colour = 0;  // of a palette of eight
+  int colour = 0;  // index in a palette of eight
 };
 
 struct LinePlot {
@@ -22,7 +22,7 @@ struct LinePlot {
 
 std::string to_svg(const LinePlot& plot);
 
-// Many of them as one picture, row by row.
+// Several plots as one picture, row by row.
 std::string sheet_to_svg(const std::vector<LinePlot>& plots, int columns);
 
 }  // namespace steradian::moment

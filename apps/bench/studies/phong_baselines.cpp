@@ -19,7 +19,7 @@ struct Seen {
 };
 
 double solid_angle_of(const std::vector<Vec3d>& v) {
-  double sum = 0;  // triangles of a fan, signed: van Oosterom, Strackee 1983
+  double sum = 0;  // signed triangles of a fan: van Oosterom, Strackee 1983
   for (std::size_t i = 1; i + 1 < v.size(); ++i)
     sum += 2 * std::atan2(dot(v[0], cross(v[i], v[i + 1])), 1 + dot(v[0], v[i]) + dot(v[i], v[i + 1]) + dot(v[i + 1], v[0]));
   return sum;
@@ -43,7 +43,7 @@ Seen seen_from(const PreparedPolygon& light, const ShadingPoint& at) {
   for (const Vec3d& p : light.vertices) seen.corners.push_back(normalized(p - at.position));
   seen.solid_angle = solid_angle_of(seen.corners);
   seen.mean = mean_of(seen.corners);
-  if (seen.solid_angle < 0) {  // prepared the other way round
+  if (seen.solid_angle < 0) {  // prepared in reverse order
     seen.solid_angle = -seen.solid_angle;
     seen.mean = seen.mean * -1.0;
     std::reverse(seen.corners.begin(), seen.corners.end());
@@ -51,7 +51,7 @@ Seen seen_from(const PreparedPolygon& light, const ShadingPoint& at) {
   return seen;
 }
 
-// (1 - exp(-2 x))/x, without overflow of what it is multiplied by.
+// Computes (1 - exp(-2 x))/x. The product with the factor that follows does not overflow.
 double one_minus_exp_over(double x) { return x > 1e-8 ? -std::expm1(-2 * x) / x : 2; }
 
 struct Flat {
@@ -76,7 +76,7 @@ double area_and_middle(const std::vector<Flat>& p, Flat& middle) {
   return area;
 }
 
-// What of a polygon is on the left of the line from a to b: Sutherland, Hodgman 1974.
+// The part of a polygon on the left of the line from a to b: Sutherland, Hodgman 1974.
 std::vector<Flat> left_of(const std::vector<Flat>& polygon, Flat a, Flat b) {
   std::vector<Flat> result;
   const auto side = [&](Flat p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
@@ -96,7 +96,7 @@ double by_spherical_gaussian(const PreparedPolygon& light, const ShadingPoint& a
   const double length_of_mean = length(seen.mean);
   if (!(length_of_mean > 0)) return 0;
   const double r = std::min(length_of_mean / seen.solid_angle, 1 - 1e-9);
-  const double sharpness = r * (3 - r * r) / (1 - r * r);  // of that mean cosine: Banerjee et al. 2005
+  const double sharpness = r * (3 - r * r) / (1 - r * r);  // sharpness for that mean cosine: Banerjee et al. 2005
   const double peak = seen.solid_angle / (2 * std::numbers::pi * one_minus_exp_over(sharpness));
   const Vec3d axis = seen.mean / length_of_mean;
   const double together = length(axis * sharpness + seen.mirror * n);
@@ -137,7 +137,7 @@ double by_representative_point(const PreparedPolygon& light, const ShadingPoint&
   const Seen seen = seen_from(light, at);
   if (seen.corners.empty()) return 0;
   const Frame frame = Frame::from_normal(seen.mirror);
-  // In the plane that touches the sphere at r, what lies behind it left out.
+  // Corners in the plane that touches the sphere at r; directions behind it are skipped.
   std::vector<Flat> p;
   for (std::size_t i = 0; i < seen.corners.size(); ++i) {
     const Vec3d a = frame.to_local(seen.corners[i]), b = frame.to_local(seen.corners[(i + 1) % seen.corners.size()]);
@@ -148,7 +148,7 @@ double by_representative_point(const PreparedPolygon& light, const ShadingPoint&
     p.push_back({c.x / c.z, c.y / c.z});
   }
   const double cosine = 1 - 1 / (n + 1), radius = std::sqrt(1 - cosine * cosine) / cosine;
-  constexpr int kCorners = 48;  // of the cone, with the circle's area
+  constexpr int kCorners = 48;  // corners of the cone, with the circle's area
   const double wide = radius * std::sqrt(2 * std::numbers::pi / kCorners / std::sin(2 * std::numbers::pi / kCorners));
   for (int k = 0; k < kCorners && p.size() > 2; ++k) {
     const double t0 = 2 * std::numbers::pi * k / kCorners, t1 = 2 * std::numbers::pi * (k + 1) / kCorners;
@@ -168,7 +168,7 @@ namespace {
 
 using K = Kernels<double>;
 
-// x_w over its limit for c -> 0, of one form; nodes dense towards c = 1, where it changes fastest, and even in log n.
+// x_w of one variant, divided by its limit for c -> 0. The nodes are dense towards c = 1, where it changes fastest, and even in log n.
 class HalfWidthTable {
  public:
   explicit HalfWidthTable(int f_is_x) {
@@ -201,7 +201,7 @@ class HalfWidthTable {
   }
 };
 
-// The kernel's peak with another half width: what follows from x_w once more.
+// The kernel's peak with another half width: recomputes the values that depend on x_w.
 K::MomentPeak with_half_width(K::MomentPeak p, const K::MomentEdge& edge, double n, int f_is_x, double ratio) {
   K k;
   const double widest = f_is_x == 1 ? std::numbers::pi / 3 : std::numbers::pi / 4;

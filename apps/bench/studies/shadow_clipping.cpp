@@ -41,15 +41,15 @@ bool apart(const Contour& a, const Contour& b) {
   return false;
 }
 
-// A corner of one of two polygons, or a place where their edges cross, which stands in both.
+// A corner of one of two polygons, or a crossing of their edges, which is in both polygons.
 struct Node {
   Corner at;
-  float along = 0;  // of its edge, of crossings
-  int other = -1;   // in the other polygon; -1: a corner
+  float along = 0;  // for crossings: position along the edge
+  int other = -1;   // index in the other polygon; -1: a corner
   bool enters = false, visited = false;
 };
 
-// Corners and crossings of a polygon in its order; `other` counts crossings until link() has found them.
+// Corners and crossings of a polygon in order. `other` counts crossings until link() has found them.
 struct Ring {
   std::vector<Node> nodes;
   std::size_t next(std::size_t i) const { return i + 1 == nodes.size() ? 0 : i + 1; }
@@ -108,12 +108,12 @@ void link(Ring& a, Ring& b, std::size_t crossings) {
     if (n.other >= 0) n.other = in_a[static_cast<std::size_t>(n.other)];
 }
 
-// What is left of polygons, and their holes.
+// The remaining polygons, and their holes.
 struct Left {
   std::vector<Contour> polygons, holes;
 };
 
-// Source: Greiner, Hormann, "Efficient clipping of arbitrary polygons", 1998: the difference.
+// The difference of two polygons. Source: Greiner, Hormann, "Efficient clipping of arbitrary polygons", 1998.
 void subtract(const Contour& polygon, const Contour& triangle, Left& result) {
   if (apart(polygon, triangle)) return result.polygons.push_back(polygon);
   const std::vector<Crossing> crossings = crossings_of(polygon, triangle);
@@ -136,7 +136,7 @@ void subtract(const Contour& polygon, const Contour& triangle, Left& result) {
     for (std::size_t steps = 0; steps < 2 * (a.nodes.size() + b.nodes.size()); ++steps) {
       Node& n = ring->nodes[at];
       if (n.visited) break;
-      const bool forward = ring == &a ? !n.enters : n.enters;  // outside of the triangle, inside of the polygon
+      const bool forward = ring == &a ? !n.enters : n.enters;  // outside the triangle, inside the polygon
       n.visited = true;
       do {
         piece.push_back(ring->nodes[at].at);
@@ -164,7 +164,7 @@ std::vector<Vec3d> above(const std::vector<Vec3d>& polygon, Vec3d normal, double
   return result;
 }
 
-// In the plane z = 1 of the shading frame.
+// Projects the polygon to the plane z = 1 of the shading frame.
 Contour projected(const std::vector<Vec3d>& polygon, const Frame& frame) {
   Contour result;
   for (const Vec3d v : polygon) {
@@ -196,7 +196,7 @@ PreparedPolygon clipped_light(const PreparedPolygon& light, const shadow::EdgeMe
   if (whole.size() < 3) return result;
   if (area_of(whole) < 0) std::reverse(whole.begin(), whole.end());
   Left left{{whole}, {}};
-  // Towards the point, and how far the light's plane is.
+  // The direction from the light to the point, and the distance of the light's plane.
   const Vec3d to_light = light.normal * (side > 0 ? -1.0 : 1.0);
   const double height = dot(light.centroid - from.position, to_light) - shadow::margin_of_plane(light);
   for (std::size_t t = 0; t < mesh.triangles.size() && !left.polygons.empty(); ++t) {

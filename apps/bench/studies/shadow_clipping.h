@@ -1,5 +1,5 @@
-// Shadows by clipping polygons, as KT, Sakurikar and Narayanan publish them ("Fast analytic soft shadows from area lights", 2021, triangle
-// mode): the light less one triangle after the other. For comparison; written from the paper's description.
+// Shadows by clipping polygons, as published by KT, Sakurikar and Narayanan ("Fast analytic soft shadows from area lights", 2021, triangle
+// mode): the light minus one triangle after the other. For comparison; written from the paper's description.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,15 @@
 
 namespace steradian::studies {
 
-// scaled: by a random factor within 1 %, each triangle anew, which keeps corners and edges from coinciding.
+// scaled: each triangle is scaled by a random factor within 1 %, which prevents coinciding corners and edges.
 enum class Degenerate { scaled, as_they_are };
-// Which triangles count: of closed meshes those that face the point are enough.
+// The triangles that count. For closed meshes the triangles that face the point are enough.
 enum class Facing { front, any };
 
-// What is left of the light, as contours in walk order for the point; the holes of what is left run the other way.
+// The visible part of the light, as contours in walk order for the point; its holes run in the opposite order.
 //
-// In single precision, in the plane z = 1 of the shading frame, 1e-3 above the horizon. A triangle inside of a polygon becomes a hole,
-// against which no later triangle is clipped: where such shadows overlap, they count twice, as published.
+// Computed in single precision, in the plane z = 1 of the shading frame, 1e-3 above the horizon. A triangle inside a polygon becomes a
+// hole. No later triangle is clipped against it, so such shadows count twice if they overlap, as published.
 PreparedPolygon clipped_light(const PreparedPolygon& light, const shadow::EdgeMesh& mesh, const shadow::Viewpoint& from, Facing facing,
                               Degenerate degenerate, reference::Random& random);
 

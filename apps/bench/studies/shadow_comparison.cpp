@@ -30,7 +30,7 @@ class EmbreeBlockers : public Blockers {
   const RayScene& rays_;
 };
 
-// The positions are rounded to float, as those of a file are, so that rays and edges see the same triangles.
+// Rounds the positions to float, as in a file, so that rays and edges use the same triangles.
 families::Triangles rounded(families::Triangles t) {
   for (Vec3d& p : t.positions) p = static_cast<Vec3d>(static_cast<Vec3f>(p));
   return t;
@@ -51,7 +51,7 @@ struct Lobes {
   double lambert = 0, ltc = 0;
 };
 
-// A view to the side, so that the lobe looks at the light's part of the sky.
+// A view to the side, so that the lobe points at the light's part of the sky.
 ShadingPoint shading_of(const Viewpoint& at, const PreparedPolygon& light) {
   const Vec3d to_light = normalized(light.centroid - at.position);
   const Vec3d mirrored = at.normal * (2 * dot(at.normal, to_light)) - to_light;
@@ -90,7 +90,7 @@ struct Stage {
   std::size_t index_of(const Viewpoint& at) const { return side_of(at) > 0 ? 0 : 1; }
   const LightFrame& frame_of(const Viewpoint& at) const { return frames[index_of(at)]; }
 
-  // What the point sees, gathered for it alone.
+  // Collects the segments that the point sees, for this point alone.
   void see(const Viewpoint& at, SegmentSet& set) const {
     thread_local std::vector<std::uint32_t> edges, triangles_across;
     thread_local EdgeArrays arrays;
@@ -118,7 +118,7 @@ struct Stage {
   std::vector<std::uint32_t> crossing[2];
 };
 
-// Where to look from, and what is known of it.
+// A point and the values known for it.
 struct Place {
   Viewpoint at;
   ShadingPoint shading;
@@ -126,7 +126,7 @@ struct Place {
   Lobes open, truth;
 };
 
-// Points that see a part of the light, between a hundredth and 99 of them.
+// Points that see between 1 % and 99 % of the light.
 std::vector<Place> places_in(const Stage& stage, const families::Family& family, int count) {
   std::vector<Place> result;
   Random random(5, 3);
@@ -153,11 +153,11 @@ Lobes by_pieces(const Stage& stage, const Place& place) {
   return integrals_over(light_of(region, stage.light, frame, stage.side_of(place.at), place.at, 1e-9), place.shading);
 }
 
-// The share of a light by places that are seen or not, weighted by both lobes, times its unoccluded value.
+// The visible fraction of a light by visible and occluded places, weighted by both lobes, times the unoccluded value.
 class Shares {
  public:
   Shares(const Stage& stage, const Place& place) : frame_(stage.frame_of(place.at)), place_(place) {}
-  // Whether the place counts at all, before what stands between.
+  // True if the place counts at all, before occlusion.
   bool weigh(double x, double y) {
     for (const auto& c : frame_.contours)
       for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++)
@@ -184,7 +184,7 @@ class Shares {
   Lobes weight_, all_, arrives_;
 };
 
-// Laine's count at fixed places of the light, of the same segments; one ray says what the lowest is.
+// Laine's count of the same segments, at fixed places of the light. One ray tests the place with the lowest count.
 Lobes by_counts(const Stage& stage, const Place& place, int side) {
   thread_local SegmentSet set;
   thread_local SegmentArrays arrays;
@@ -246,7 +246,7 @@ Lobes by_clipping(const Stage& stage, const Place& place, Facing facing, Degener
   return integrals_over(clipped_light(stage.light, stage.occluders.mesh, place.at, facing, degenerate, random), place.shading);
 }
 
-// Once over all points, and again until it has taken long enough to be timed; the errors are those of the first time.
+// Evaluates all points once, then repeats until the time is long enough to measure. The errors are those of the first pass.
 ShadowRow measure(const std::string& method, const std::vector<Place>& places, const std::function<Lobes(const Place&)>& value) {
   constexpr double kLongEnough = 0.1;  // seconds
   ShadowRow row;
@@ -291,7 +291,7 @@ double ray_time(const Stage& stage, const std::vector<Place>& places) {
   return best / (kRays * static_cast<double>(places.size())) * 1e6;
 }
 
-// Of the first points, against rays with cells refined along every border.
+// The error of the truth at the first points, against rays with cells refined along every border.
 double truth_against_rays(const Stage& stage, const std::vector<Place>& places) {
   constexpr std::size_t kPoints = 5;
   double squares = 0;
@@ -323,7 +323,7 @@ ShadowScene scene_by_all(const families::Family& family, int points, bool growin
     scene.rows.push_back(measure(name, places, value));
   };
   add("pieces", [&](const Place& p) { return by_pieces(stage, p); });
-  // Its cone is open: both sides of its triangles are seen.
+  // The shade's cone is open, so both sides of its triangles are visible.
   const Facing facing = family.name == "lamp shade" ? Facing::any : Facing::front;
   Random scaling(11), as_they_are(12);
   add("clipping, scaled", [&](const Place& p) { return by_clipping(stage, p, facing, Degenerate::scaled, scaling); });

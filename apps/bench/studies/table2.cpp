@@ -22,7 +22,7 @@ Material phong(double n) {
   return material;
 }
 
-// Every k-th pixel of every k-th row, with the same camera: a smaller picture.
+// A smaller picture: every k-th pixel of every k-th row, with the same camera.
 PhongPlane thinned(const Table2Options& options) { return make_phong_plane(options.width / options.every, options.height / options.every); }
 
 std::vector<double> exact_picture(const PhongPlane& plane, const PreparedPolygon& light, int n) {
@@ -58,7 +58,7 @@ double scalar_ns(const PhongPlane& plane, const NamedLight& light, int n, const 
   BenchOptions bench;
   bench.min_time = options.min_time;
   bench.min_runs = 5;
-  constexpr std::size_t kStep = 61;  // scalar is slow; a prime, so that columns are mixed
+  constexpr std::size_t kStep = 61;  // scalar is slow; a prime, so that the samples spread over the columns
   const Material material = phong(n);
   const Bench body{"scalar", plane.count / kStep * light.edges, "scalar", [&] {
                      const FlushDenormals flush;
@@ -83,7 +83,7 @@ double baseline_ns(const PhongPlane& plane, const NamedLight& light, int n, cons
   return run_bench(body, bench).ns_per_item;
 }
 
-// Errors of the answers at the plane's points, over the brightest.
+// Errors of the answers at the plane's points, relative to the brightest.
 void judge(Table2Row& row, const std::vector<double>& exact, double all_pixels, const std::function<double(std::size_t)>& answer) {
   const double brightest = *std::max_element(exact.begin(), exact.end());
   double squares = 0;

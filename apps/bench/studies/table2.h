@@ -1,4 +1,4 @@
-// The published comparison of Phong area lights, made again: errors and times of every method on one scene.
+// Repeats the published comparison of Phong area lights: errors and times of every method on one scene.
 #pragma once
 
 #include <string>
@@ -14,21 +14,21 @@ struct ComparedMethod {
   PhongOptions options;
 };
 
-// All methods but exact, cheapest error last.
+// All methods except exact, the cheapest error last.
 const std::vector<ComparedMethod>& compared_methods();
 
 struct Table2Row {
   std::string light, method;
   int exponent = 0;
-  double rmse = 0;       // over all pixels of the picture, over its largest value
-  double largest = 0;    // error of a pixel, over the same
+  double rmse = 0;       // over all pixels of the picture, divided by its largest value
+  double largest = 0;    // largest error of a pixel, divided by the same value
   double scalar_ns = 0;  // per edge and pixel on one core, float
   double packs_ns = 0;
 };
 
 struct Table2Options {
   int width = 1280, height = 720;
-  int every = 3;           // pixels from one to the next that count, both ways
+  int every = 3;           // step between the pixels that count, in both directions
   double min_time = 0.05;  // seconds of runs per time; 0: no times
   Simd simd = active_simd();
 };
@@ -38,7 +38,7 @@ std::vector<Table2Row> measure_table2(const Table2Options& options);
 // Markdown: a table for each light, the published figures below.
 std::string table2_text(const std::vector<Table2Row>& rows, const Table2Options& options);
 
-// Pictures and plots of docs/moments.md, written into an existing folder; returns the files' names.
+// Writes the pictures and plots of docs/moments.md into an existing folder; returns the files' names.
 std::vector<std::string> write_table2_figures(const std::string& folder, Simd simd);
 
 }  // namespace steradian::moment

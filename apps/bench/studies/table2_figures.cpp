@@ -38,7 +38,7 @@ double integrand(double c, double n, double phi) {
   return (1 - std::pow(x, n + 1)) / (1 - x * x);
 }
 
-// Error of what a method integrates, over the peak, from its integral over short pieces.
+// Error of a method's integral, relative to the peak, by its integral over short pieces.
 template <class Front>
 Curve error_of(const std::string& name, double c, double n, double phi_high, int colour, int pieces, Front front) {
   Curve curve{name, {}, false, colour};

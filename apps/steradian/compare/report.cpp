@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Pictures in the page are logarithmic, 16 bits a value: radiance in steps of 1/2048 of a stop from `smallest` on, signed errors
-// in steps of 1/1024.
+// Pictures in the page are logarithmic with 16 bits per value: radiance in steps of 1/2048 of a stop from `smallest` up, signed errors in
+// steps of 1/1024.
 double smallest_radiance(const Report& report) { return std::max(report.white, 1e-30) * std::exp2(-16); }
 double smallest_error(const Report& report) { return std::max(report.white, 1e-30) * std::exp2(-20); }
 
@@ -49,7 +49,7 @@ std::string encoded_radiance(const Picture& picture, double smallest) {
   });
 }
 
-// Red and green: the error of the luminance, its sign about 32768. Blue: FLIP.
+// Red and green hold the error of the luminance, with its sign relative to 32768. Blue holds FLIP.
 std::string encoded_error(const Compared& of, const Picture& reference, double smallest) {
   return image::encode_png_bytes(reference.width, reference.height, [&](int y, std::uint8_t* row) {
     for (int x = 0; x < reference.width; ++x) {
@@ -104,7 +104,7 @@ Json report_data(const Report& report) {
           {"over_time", over_time}};
 }
 
-// Text that may stand inside a script element.
+// Text that is safe inside a script element.
 std::string in_script(const Json& json) {
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += 6) text.replace(at, 1, "\\u003c");

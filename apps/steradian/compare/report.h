@@ -1,4 +1,4 @@
-// What `compare` found, as report.json and as a page that needs nothing else.
+// The results of `compare`, written as report.json and as a self-contained page.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace steradian::app {
 
-// A method at one setting.
+// One method at one setting.
 struct Run {
   std::string method, setting;  // setting: "normal", "64 spp"
   double ms = 0;
@@ -22,19 +22,19 @@ struct Compared {
   Picture picture;
   std::vector<PassTime> passes;
   double flip = 0;                // mean
-  std::vector<float> flip_error;  // of each pixel
+  std::vector<float> flip_error;  // one value per pixel
 };
 
 struct Report {
   std::string scene, command;
-  std::string reference_words;  // what the reference is, for people
+  std::string reference_words;  // description of the reference for people
   Picture reference;
   double reference_ms = 0;
-  double reference_error = 0;  // its own, as relative L2; 0: none worth naming
+  double reference_error = 0;  // error of the reference itself, as relative L2; 0: negligible
   float exposure = 0;
-  double white = 0;  // what all but a thousandth of the reference's channels stay below
+  double white = 0;  // upper bound of all but a thousandth of the reference's channels
   std::vector<Compared> methods;
-  std::vector<Run> over_time;  // each method's settings, those of `methods` among them
+  std::vector<Run> over_time;  // each method's settings, including those of `methods`
 };
 
 std::string report_json(const Report& report);

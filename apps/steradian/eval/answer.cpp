@@ -13,7 +13,7 @@
 namespace steradian::eval {
 namespace {
 
-// The light made ready, whatever its type; the errors are placed at the query's key.
+// Prepares a light of any type. Errors name the query's key.
 PreparedPolygon prepare(const PolygonLight& light) {
   try {
     return prepare_polygon(light);
@@ -22,7 +22,7 @@ PreparedPolygon prepare(const PolygonLight& light) {
   }
 }
 
-// A light without extent is one direction: every method has the same answer, without error.
+// A light without extent is a single direction: every method gives the same answer, without error.
 RadianceResult point_answer(const Light& light, const ShadingPoint& at, const Material& m, Method method) {
   RadianceResult answer = methods::nothing(method);
   const auto* point = std::get_if<PointLight>(&light);
@@ -43,7 +43,7 @@ ShadowedDerivatives unoccluded_derivatives(const Query& query, const PolygonLigh
   return {d, by_position(d), {}};
 }
 
-// Adds what one material contributes to the derivatives. Throws Error for lobes and methods that have none.
+// Adds one material's contribution to the derivatives. Throws Error for unsupported lobes and methods.
 void add_derivatives(Answer& answer, const Query& query, const PolygonLight& light, const ShadingPoint& at, const Material& m,
                      const methods::Row& entry) {
   if (entry.derivatives == nullptr)
@@ -71,14 +71,14 @@ class Sum {
     }
     answer_.radiance += part.radiance;
     if (part.bound) answer_.bound = answer_.bound.value_or(0.0) + *part.bound;
-    // The lobes are sampled with seeds of their own: variances add.
+    // The lobes are sampled with different seeds, so variances add.
     if (part.standard_error) answer_.standard_error = std::hypot(answer_.standard_error.value_or(0.0), *part.standard_error);
   }
   Answer& answer() { return answer_; }
   Answer finish(Precision precision) && {
     answer_.precision = precision;
     const bool error_is_finite = std::isfinite(answer_.bound.value_or(0.0)) && std::isfinite(answer_.standard_error.value_or(0.0));
-    // What is printed as a float must be one.
+    // Values that are printed as floats must fit into a float.
     const Vec3d r = answer_.radiance;
     const double largest = std::max({std::fabs(r.x), std::fabs(r.y), std::fabs(r.z)});
     const bool fits = precision == Precision::double_ || largest <= static_cast<double>(std::numeric_limits<float>::max());
@@ -95,7 +95,7 @@ class Sum {
 
 namespace {
 
-// One of a query's lights: every lobe's answer is added to the sum.
+// Adds the answers of every lobe for one of the query's lights.
 void add_light(Sum& sum, const Query& query, const Light& source, const ShadingPoint& at, RadianceOptions options) {
   const bool seen = dot(at.normal, at.view) > 0.0;
   const auto* light = std::get_if<AreaLight>(&source);
@@ -129,15 +129,15 @@ void check_derivatives(const Query& query) {
     throw Error("derivatives", "only polygons and rects have vertices", "leave the key out");
 }
 
-// The same query with one thing changed, in double.
+// The radiance of the query with one value changed, in double.
 Vec3d radiance_with(Query query) {
   query.derivatives = false;
   query.precision = Precision::double_;
   return evaluate(query).radiance;
 }
 
-// By the light's radiance and by F0 the result is linear: exact. By the roughness r: the central difference of step 1e-4 r, which is off
-// by 1e-8 of the third derivative and a rounding over the step.
+// The result is linear in the light's radiance and in F0, so these derivatives are exact. The derivative by the roughness r is the central
+// difference of step 1e-4 r. It is off by 1e-8 of the third derivative and by a rounding over the step.
 ParameterDerivatives parameter_derivatives(const Query& query) {
   ParameterDerivatives result;
   Query changed = query;
@@ -163,9 +163,9 @@ ParameterDerivatives parameter_derivatives(const Query& query) {
   return result;
 }
 
-// By the normal past occluders, as a direction: the central difference of a turn by 1e-3, which is off by 1e-6 of the third derivative, and
-// by 2e-4 of the light where the horizon cuts it, since that moves by whole cells (docs/shadows.md). The normal is that of the query's
-// triangle as well where no other is given.
+// The derivative by the normal past occluders, as a direction: the central difference of a rotation by 1e-3. It is off by 1e-6 of the third
+// derivative. Where the horizon cuts the light, it is off by 2e-4 of the light, since the horizon moves by whole cells (docs/shadows.md).
+// If no geometric normal is given, the normal also is that of the query's triangle.
 ByChannel by_normal_past_occluders(const Query& query) {
   constexpr double kTurn = 1e-3;
   const Frame frame = Frame::from_normal(query.normal);
@@ -191,7 +191,7 @@ Answer evaluate(const Query& query) {
   Sum sum;
   for (const Light& light : query.lights) {
     add_light(sum, query, light, at, options);
-    options.seed += 0xd1342543de82ef95u;  // of one light's lobes and the next's: no seed twice
+    options.seed += 0xd1342543de82ef95u;  // no two lobes of different lights share a seed
   }
   if (query.derivatives) sum.answer().parameters = parameter_derivatives(query);
   if (query.derivatives && query.occluders != nullptr) sum.answer().derivatives->normal = by_normal_past_occluders(query);
@@ -200,7 +200,7 @@ Answer evaluate(const Query& query) {
 
 bool answer_line(QueryReader& reader, std::string_view line, std::string& out) {
   try {
-    const Query query = reader.read(line);  // before its id is asked for
+    const Query query = reader.read(line);  // before id() is read
     write_answer(out, evaluate(query), reader.id());
     return true;
   } catch (const Error& e) {

@@ -9,7 +9,7 @@ namespace steradian::eval {
 namespace {
 
 void append_number(std::string& out, double x, Precision precision) {
-  if (x == 0.0) {  // -0 too
+  if (x == 0.0) {  // also for -0
     out += '0';
   } else if (precision == Precision::float_) {
     fmt::format_to(std::back_inserter(out), "{}", static_cast<float>(x));
@@ -69,7 +69,7 @@ void append_parameters(std::string& out, const ParameterDerivatives& d, Precisio
   append(",\"d_roughness\":", d.roughness);
 }
 
-// The opening brace, and the id where there is one.
+// The opening brace, and the id if there is one.
 void begin(std::string& out, std::string_view id) {
   out += '{';
   if (id.empty()) return;
@@ -85,7 +85,7 @@ void write_answer(std::string& out, const Answer& answer, std::string_view id) {
   out += "\"radiance\":";
   append_vector(out, answer.radiance, answer.precision);
   out += ",\"method\":\"";
-  out += answer.method;  // names of our own: nothing to escape
+  out += answer.method;  // names of this program: nothing to escape
   out += '"';
   if (answer.bound) {
     out += ",\"bound\":";

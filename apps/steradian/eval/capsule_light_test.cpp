@@ -1,5 +1,5 @@
-// Tubes in `steradian eval`: form factors, every lobe against the reference, lines against integrals along them, degenerate
-// cases and wrong input.
+// Tubes in `steradian eval`: form factors, every lobe against the reference, lines against integrals along them, degenerate cases and
+// invalid input.
 #include "integrals/curved_light.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ struct Case {
   Material material;
   Method method;
   Quality quality;
-  double error;  // of the method on polygons (docs/accuracy.md, docs/moments.md) plus 0.01 of K = 12, 0.002 of 16
+  double error;  // error of the method on polygons (docs/accuracy.md, docs/moments.md) plus 0.01 for K = 12, 0.002 for 16
 };
 std::vector<Case> cases() {
   Material phong = material_of(Brdf::phong), sharp = phong, blinn = material_of(Brdf::blinn_phong);
@@ -95,7 +95,7 @@ TEST(EvalCapsule, EveryLobeAgreesWithTheReference) {
     double worst = 0, largest = 0, bound = 0;
     for (int i = 0; i < 4; ++i) {
       Vec3d direction = random_direction(random);
-      direction.y = std::fabs(direction.y) * (i == 3 ? 0.1 : 1.0);  // the last: across the horizon
+      direction.y = std::fabs(direction.y) * (i == 3 ? 0.1 : 1.0);  // the last line crosses the horizon
       const Vec3d half = random_direction(random) * random.uniform(0.1, 0.8);
       const AreaLight light = tube(direction - half, direction + half, random.uniform(0.05, 0.19));
       const ShadingPoint at = looking_near(random, direction);
@@ -130,7 +130,7 @@ TEST(EvalCapsule, SampledAgreesWithinItsStandardError) {
 }
 
 TEST(EvalLine, IsTheIntegralOfTheLobeAlongIt) {
-  // INT lobe(direction) sin(angle to the line) / d^2 ds: no strip, no polygon.
+  // INT lobe(direction) sin(angle to the line) / d^2 ds: the integral along the line, without strip or polygon.
   for (const Case& c : cases()) {
     Random random(12);
     double worst = 0, largest = 0;
@@ -140,7 +140,7 @@ TEST(EvalLine, IsTheIntegralOfTheLobeAlongIt) {
       const Vec3d half = random_direction(random) * random.uniform(0.1, 0.8);
       Vec3d a = direction - half, b = direction + half;
       const AreaLight light = tube(a, b, 0);
-      // Midpoints do not go well with a step: the part above the horizon.
+      // The midpoint rule is inaccurate at a step, so the line is clipped to the part above the horizon.
       if (a.y < 0) a = a + (b - a) * (a.y / (a.y - b.y));
       if (b.y < 0) b = b + (a - b) * (b.y / (b.y - a.y));
       const ShadingPoint at = looking_near(random, direction);
@@ -159,14 +159,14 @@ TEST(EvalLine, IsTheIntegralOfTheLobeAlongIt) {
       largest = std::max(largest, sum);
     }
     EXPECT_GT(largest, 0.01) << c.name;
-    // The strip's second order adds nothing to see; a lobe's error is of its integral over a width, in units of 1/m.
+    // The second order of the strip is negligible. The error of a lobe is that of its integral over a width, in units of 1/m.
     EXPECT_LE(worst, 2 * c.error + 1e-6) << c.name;
     std::printf("%-12s largest error over 1 + value %.1e\n", c.name, worst);
   }
 }
 
 TEST(EvalLine, IsTheLimitOfThinCapsules) {
-  // Both sides of where a capsule is taken for a line, too.
+  // Radii on both sides of the limit below which a capsule counts as a line.
   for (const Case& c : cases()) {
     const Vec3d a{-0.5, 1, 0.2}, b{0.7, 1.2, -0.3};
     const double line = ask(tube(a, b, 0), kFloor, c.material, c.method, c.quality).radiance.x;
@@ -221,7 +221,7 @@ TEST(EvalCapsule, EveryMethodGivesFiniteNumbersWhereverThePointIs) {
     const double radius = i % 4 == 0 ? 0 : std::pow(10, random.uniform(-9, 1));
     for (const Case& c : cases()) {
       if (c.method == Method::exact && c.material.brdf != Brdf::lambert) continue;             // 1024 vertices: slow
-      const Answer answer = ask(tube(a, b, radius), kFloor, c.material, c.method, c.quality);  // throws where not finite
+      const Answer answer = ask(tube(a, b, radius), kFloor, c.material, c.method, c.quality);  // throws if not finite
       EXPECT_GE(answer.radiance.x, 0.0) << c.name << " " << i;
       if (c.material.brdf == Brdf::lambert && radius > 0) {
         EXPECT_LE(answer.radiance.x, 1.0) << i;

@@ -81,8 +81,8 @@ TEST(Eval, AnswersEveryMaterialMethodAndLight) {
         EXPECT_EQ(a.contains("standard_error"), method == "sampled");
         EXPECT_EQ(a.contains("bound"), a["method"] == "reference");
         if (method == "reference") truth = a;
-        // docs/accuracy.md, in shares of the full lobe: the largest errors of single points, under lights of radiance 3 at most; of
-        // `sampled` its own standard error.
+        // Errors from docs/accuracy.md, as fractions of the full lobe: the largest errors of single points, under lights of radiance 3 at
+        // most. For `sampled` its standard error.
         const double of_method = resolved == "exact" ? 1e-9 : resolved == "series" ? 1.3e-3 : resolved == "closed-form" ? 0.02 : 0.03;
         const bool is_point = light.find("point") != std::string::npos;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -209,7 +209,7 @@ TEST(Eval, NumbersReadBackTheSame) {
 
 struct Wrong {
   std::string line;
-  std::vector<const char*> says;  // all of these stand in the message
+  std::vector<const char*> says;  // the message contains all of these
 };
 
 TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
@@ -292,7 +292,7 @@ TEST(Eval, NamesTheKeyOfEveryKindOfWrongInput) {
   }
 }
 
-// A result that only a double holds is no float: an error, not "inf".
+// A result that only fits into a double is an error in float, not "inf".
 TEST(Eval, AResultBeyondTheRangeOfFloatIsRefusedInFloat) {
   const std::string lights[] = {R"("light":{"type":"point","position":[0,1,0],"intensity":1e300})",
                                 R"("light":{"type":"point","position":[0,1e-25,0],"intensity":1})",
@@ -313,7 +313,7 @@ TEST(Eval, MessagesAreJsonWhateverTheKeyIs) {
   EXPECT_LT(a["error"].get<std::string>().size(), 500u);
 }
 
-// Whatever a line is, its answer is one line of JSON: finite radiance or an error.
+// The answer to any line is one line of JSON: a finite radiance or an error.
 TEST(Eval, SurvivesMutatedLines) {
   const std::string seeds[] = {
       query(kLight, kPlace, kLambert, R"("method":"exact","precision":"float")"),
@@ -363,7 +363,7 @@ TEST(Eval, SurvivesMutatedLines) {
   EXPECT_GT(refused, 1000);
 }
 
-// The derivatives of [channel][vertex] against the same question with a vertex moved.
+// Compares the derivatives of [channel][vertex] with the same query after moving a vertex.
 TEST(Eval, DerivativesByVerticesAgreeWithMovedVertices) {
   const auto ask = [](double dx, const std::string& rest, double px = 0.2) {
     json light = {{"type", "polygon"}, {"radiance", {2, 1, 0.5}}, {"vertices", {{-1 + dx, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}}}};
@@ -377,7 +377,7 @@ TEST(Eval, DerivativesByVerticesAgreeWithMovedVertices) {
   const double h = 1e-6;
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const double above = ask(h, {})["radiance"][channel], below = ask(-h, {})["radiance"][channel];
-    // Truncation h^2 times a third derivative of order 1, rounding 1e-16 / h.
+    // Truncation error h^2 times a third derivative of order 1, rounding error 1e-16 / h.
     EXPECT_NEAR(got["d_vertices"][channel][0][0].get<double>(), (above - below) / (2 * h), 1e-9) << got;
     const double right = ask(0, {}, 0.2 + h)["radiance"][channel], left = ask(0, {}, 0.2 - h)["radiance"][channel];
     EXPECT_NEAR(got.at("d_position")[channel][0].get<double>(), (right - left) / (2 * h), 1e-9) << got;
@@ -396,7 +396,8 @@ TEST(Eval, DerivativesOfTransformedCosinesAreServed) {
   }
 }
 
-// The library's test compares their values with differences; here: that they arrive, and add up over materials.
+// The library's test compares the derivatives with differences. This test checks that they are written, and that they add up over
+// materials.
 TEST(Eval, DerivativesOfPhongAndGgxAddUp) {
   const auto ask = [](const std::string& material) { return answer(with_material(material, R"("derivatives":true)")); };
   const std::string phong = R"({"brdf":"phong","exponent":8})", ggx = R"({"brdf":"ggx","roughness":0.6})";

@@ -3,7 +3,7 @@
 namespace steradian::eval {
 namespace {
 
-constexpr std::size_t kMostProblems = 20;  // of other kinds than unknown keys, which are all named
+constexpr std::size_t kMostProblems = 20;  // without unknown keys, which are all named
 constexpr std::size_t kLongestKey = 80;
 
 }  // namespace
@@ -31,7 +31,7 @@ std::string readable(std::string_view key) {
   if (key.empty()) return "\"\"";
   if (key.size() <= kLongestKey) return std::string(key);
   std::size_t end = kLongestKey;
-  while (end > 0 && (static_cast<unsigned char>(key[end]) & 0xc0) == 0x80) --end;  // not within a character
+  while (end > 0 && (static_cast<unsigned char>(key[end]) & 0xc0) == 0x80) --end;  // never cuts within a character
   return std::string(key.substr(0, end)) + "...";
 }
 

@@ -1,4 +1,4 @@
-// Reading objects of JSON by tables of keys, with every wrong key named by its path. On simdjson's DOM.
+// Reads JSON objects by tables of keys and reports every wrong key by its path. Uses simdjson's DOM.
 #pragma once
 
 #include <simdjson.h>
@@ -19,10 +19,10 @@ namespace steradian::eval {
 
 using Json = simdjson::dom::element;
 
-// Where we are, as a chain of the callers' frames: written out ("light.holes[0][2]") only for a message.
+// A place in the JSON, as a chain through the callers' frames. It is written out ("light.holes[0][2]") only for a message.
 struct Place {
   const Place* up = nullptr;
-  std::string_view key;  // or, where empty, an index
+  std::string_view key;  // or, if empty, an index
   std::size_t index = 0;
 
   Place in(std::string_view name) const { return {this, name, 0}; }
@@ -30,7 +30,7 @@ struct Place {
   std::string text() const;
 };
 
-// Collects what is wrong, so that one message tells all of it. Readers go on with a default value.
+// Collects all problems for one message. Readers continue with a default value.
 class Problems {
  public:
   void add(const Place& place, const std::string& problem, const std::string& hint = {});
@@ -54,13 +54,13 @@ void read_key(Problems& problems, const Place& place, Json value, const Field<T>
   field.read(problems, place, value, result);
 }
 
-std::string readable(std::string_view key);  // a key from the input, cut where it is long
-std::string quoted(std::string_view name);   // the same within '' for a value
+std::string readable(std::string_view key);  // a key from the input, shortened if it is long
+std::string quoted(std::string_view name);   // the same in quotes '' for a value
 const char* type_name(Json value);
 void wrong_type(Problems& problems, const Place& place, const char* expected, Json found);
 
-// Reads the keys of the table, of Fields or of another row with a name, `required` and its own read_key; `tag` is a key that was
-// read before. Unknown, repeated and missing keys are problems.
+// Reads the keys of the table. The table consists of Fields or of other rows with a name, `required` and a read_key; `tag` is a key that
+// was read before. Unknown, repeated and missing keys are problems.
 template <class Row, class T>
 void read_fields(Problems& problems, const Place& place, Json value, std::string_view tag, std::span<const Row> fields, T& result) {
   simdjson::dom::object object;
@@ -89,7 +89,7 @@ void read_fields(Problems& problems, const Place& place, Json value, std::string
     if (fields[i].required && (seen & (1ull << i)) == 0) problems.add(place.in(fields[i].name), "missing");
 }
 
-// A row of `rows` (which have a name) by the string at a key of an object; null, and a problem, for anything else.
+// The row of `rows` (which have a name) for the string at a key of an object; null, and a problem, for anything else.
 template <class Row>
 const Row* read_tag(Problems& problems, const Place& place, Json value, std::string_view tag, std::span<const Row> rows) {
   simdjson::dom::object object;
@@ -121,9 +121,9 @@ std::int64_t read_integer(Problems& problems, const Place& place, Json value, st
 bool read_bool(Problems& problems, const Place& place, Json value);
 std::string_view read_string(Problems& problems, const Place& place, Json value);
 Vec3d read_vector(Problems& problems, const Place& place, Json value);
-Vec3d read_direction(Problems& problems, const Place& place, Json value);  // made unit; zero is a problem
+Vec3d read_direction(Problems& problems, const Place& place, Json value);  // normalised; zero is a problem
 Vec3d read_colour(Problems& problems, const Place& place, Json value);     // a number or [r,g,b], not negative
-// None where it is no list; wants is what a message says was expected.
+// Empty if the value is no list; wants: the expected value, for the message.
 std::optional<std::vector<Vec3d>> read_points(Problems& problems, const Place& place, const char* wants, Json value);
 std::vector<Vec3d> read_contour(Problems& problems, const Place& place, Json value);
 

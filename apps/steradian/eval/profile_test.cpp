@@ -1,4 +1,4 @@
-// Point lights with a measured profile, from JSON to JSON.
+// Point lights with a measured profile, from JSON query to JSON answer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ nlohmann::json answer_to(const std::string& light, const std::string& position =
   return nlohmann::json::parse(out);
 }
 
-// 100 cd ahead, 60 at 90 degrees in the plane of angle 0, 20 in that of 90.
+// 100 cd ahead, 60 at 90 degrees in the plane of angle 0, 20 in the plane of 90.
 std::string lamp_file() {
   const std::string path = testing::TempDir() + "steradian_eval_lamp.ies";
   std::ofstream(path) << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 1 2 0 0 0\n1 1 10\n0 90\n0 90\n100 60\n100 20\n";
@@ -31,7 +31,7 @@ TEST(EvalProfile, IntensityFollowsTheAngle) {
   const std::string light = R"({"type":"point","position":[0,2,0],"intensity":3,"profile":")" + lamp_file() + "\"";
   const auto red = [](const nlohmann::json& a) { return a.at("radiance").at(0).get<double>(); };
   EXPECT_NEAR(red(answer_to(light + "}")), 3 * 100 / 4.0 / std::numbers::pi, 1e-12);
-  // 45 degrees to +x: in the plane of angle 0, half way from 100 to 60.
+  // At 45 degrees to +x, in the plane of angle 0, the intensity is half way from 100 to 60.
   const double share = 3 / 8.0 * std::sqrt(0.5) / std::numbers::pi;
   EXPECT_NEAR(red(answer_to(light + "}", "[2,0,0]")), 80 * share, 1e-12);
   EXPECT_NEAR(red(answer_to(light + "}", "[0,0,-2]")), 60 * share, 1e-12);
@@ -40,7 +40,7 @@ TEST(EvalProfile, IntensityFollowsTheAngle) {
   EXPECT_EQ(red(answer_to(light + R"(,"aim":[0,1,0]})")), 0);                               // it shines upwards
 }
 
-// Points over the area, each with its share.
+// Sums points over the area, each with its fraction.
 TEST(EvalProfile, RectsAndDisksShineByIt) {
   const std::string file = lamp_file();
   const auto red = [](const nlohmann::json& a) { return a.at("radiance").at(0).get<double>(); };
@@ -59,12 +59,13 @@ TEST(EvalProfile, RectsAndDisksShineByIt) {
       }
     const std::string lamp = std::string(R"({"type":")") + (round ? "disk" : "rect") +
                              R"(","center":[0,2,0],"x":[0.5,0,0],"y":[0,0,0.3],"intensity":3,"profile":")" + file + "\"}";
-    // x cross y looks down, and x is the plane of angle 0, as the points' tangent is.
+    // x cross y points down, and x is the plane of angle 0, as the points' tangent is.
     EXPECT_NEAR(red(answer_to(lamp, "[1,0,0.4]")), sum / (kSteps * kSteps), 1e-3 * sum / (kSteps * kSteps)) << lamp;
   }
 }
 
-// Occluders that hide nothing, half of the light by its middle, all of it. Past occluders a point looks from a hundred-thousandth above.
+// Occluders that hide nothing, half of the light by its middle, and all of it. Past occluders the point is moved up by a
+// hundred-thousandth.
 TEST(EvalProfile, OccludersHideTheirShareOfIt) {
   const std::string lamp = R"({"type":"rect","center":[0,2,0],"x":[0.5,0,0],"y":[0,0,0.3],"profile":")" + lamp_file() + "\"}";
   const auto red = [&](const std::string& occluders, const std::string& method = "") {

@@ -1,4 +1,4 @@
-// Keys that scripts ask with: ids, lists of lights, parallel light, derivatives by the light's and the lobe's parameters.
+// Keys for scripts: ids, lists of lights, parallel light, derivatives by the parameters of the light and the lobe.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +72,7 @@ TEST(EvalQueries, AListOfLightsAdds) {
   EXPECT_NE(answer_text(query(std::string("\"lights\":[") + kRect + ",{}]", kLambert)).find("lights[1].type: missing"), std::string::npos);
 }
 
-// The samples of two lights are independent: the standard error is the root of the squares.
+// The samples of two lights are independent: the standard error is the root of the summed squares.
 TEST(EvalQueries, AListOfLightsAddsVariances) {
   const std::string sampled = R"(,"method":"sampled","spp":4000)";
   const auto of = [&](const std::string& lights) {
@@ -87,7 +87,7 @@ TEST(EvalQueries, ParallelLightIsAPointLightFarAway) {
   const Vec3d lambert = radiance(query(light(kSun), kLambert));
   EXPECT_NEAR(lambert.x, 2 * cosine * 0.5 / std::numbers::pi, 1e-15);
   EXPECT_NEAR(lambert.z, 4 * cosine * 0.5 / std::numbers::pi, 1e-15);
-  // 1e7 away along the direction: the angle differs by 1e-8.
+  // The light is 1e7 away along the direction, so the angle differs by 1e-8.
   const double d = 1e7, u = d * cosine;
   const std::string far = R"({"type":"point","position":[)" + std::to_string(0.1 + 0.3 * u) + "," + std::to_string(u) + "," +
                           std::to_string(0.2 - 0.2 * u) + R"(],"intensity":[2e14,3e14,4e14]})";
@@ -111,9 +111,9 @@ TEST(EvalQueries, DerivativesByParametersAreThoseOfDifferences) {
   ASSERT_TRUE(a.contains("d_radiance") && a.contains("d_f0") && a.contains("d_roughness")) << a;
   const Vec3d at = radiance(query(light(kRect), ggx(0.4, 0.2)));
   expect_near(a["d_radiance"], {at.x / 3, at.y / 2, at.z}, 1e-12);
-  // Linear in F0, so any step will do.
+  // The radiance is linear in F0, so any step is exact.
   expect_near(a["d_f0"], (radiance(query(light(kRect), ggx(0.4, 0.7))) - at) / 0.5, 1e-11);
-  // Another step, 2e-3 of the roughness: off by 4e-6 of the third derivative.
+  // A different step, 2e-3 of the roughness: off by 4e-6 of the third derivative.
   const double h = 1e-3;
   expect_near(a["d_roughness"],
               (radiance(query(light(kRect), ggx(0.4 + h, 0.2))) - radiance(query(light(kRect), ggx(0.4 - h, 0.2)))) / (2 * h), 1e-4);

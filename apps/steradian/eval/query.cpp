@@ -1,4 +1,4 @@
-// The keys of a query: a table per object, a row per light type; those of lobes are in lobes/keys.h.
+// The keys of a query: one table per object, one row per light type. The keys of lobes are in lobes/keys.h.
 #include "eval/query.h"
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace {
 
 // ---- Lights ----------------------------------------------------------------------------------------------------
 
-// What the keys of any light type say, before it is known to be whole.
+// Values of the keys of any light type, before the light is known to be complete.
 struct LightKeys {
   Polygon polygon;
   Vec3d radiance{1, 1, 1};
@@ -23,17 +23,17 @@ struct LightKeys {
   double radius = 0;
   Capsule shape;  // without its radius
   PointLight point_light;
-  std::shared_ptr<const LightProfile> profile;  // of a point, a rect or a disk
-  Vec3d intensity{1, 1, 1};                     // of a point, or what the profile of the others is multiplied by
+  std::shared_ptr<const LightProfile> profile;  // for a point, a rect or a disk
+  Vec3d intensity{1, 1, 1};                     // intensity of a point, or the factor of the other lights' profile
   bool has_radiance = false;
-  Vec3d aim{0, -1, 0};             // of a point's profile
-  std::optional<Vec3d> towards_x;  // of a profile
+  Vec3d aim{0, -1, 0};             // aim of a point's profile
+  std::optional<Vec3d> towards_x;  // the x axis of a profile
   DirectionalLight directional_light;
 };
 
 using LightField = Field<LightKeys>;
 
-// A file's profile; the last file is kept for the lines that name it again.
+// Reads a file's profile. The last file is cached for further lines that name it.
 std::shared_ptr<const LightProfile> read_profile(Problems& problems, const Place& place, Json value) {
   const std::string_view name = read_string(problems, place, value);
   if (!value.is_string()) return nullptr;
@@ -118,7 +118,7 @@ Light flat(Shape shape, const LightKeys& k) {
   return light;
 }
 
-// A rect or a disk, which may shine by a profile.
+// A rect or a disk, which may have a profile.
 Light lamp(Shape shape, const LightKeys& k) {
   Light light = flat(std::move(shape), k);
   if (k.profile != nullptr) set_emission(std::get<AreaLight>(light), k.profile, k.towards_x.value_or(k.x), k.intensity);
@@ -191,7 +191,7 @@ using lobes::Key;
 using lobes::KeyKind;
 using lobes::KeyValue;
 
-// Beside the read_key of Field: read_fields finds both by the namespace of their arguments.
+// The read_key of Field is the other overload; read_fields finds both by the namespace of their arguments.
 static void read_key(Problems& p, const Place& at, Json v, const Key& key, Draft& draft) {
   KeyValue value;
   switch (key.kind) {
@@ -279,7 +279,7 @@ constexpr Field<MeshKeys> kMeshFields[] = {
      true},
 };
 
-// A file's triangles; the last file is kept for the lines that name it again.
+// Reads a file's triangles. The last file is cached for further lines that name it.
 std::shared_ptr<const shadow::Occluders> occluders_in(const std::string& file) {
   thread_local std::pair<std::string, std::shared_ptr<const shadow::Occluders>> last;
   if (last.first != file || last.second == nullptr)
@@ -287,7 +287,7 @@ std::shared_ptr<const shadow::Occluders> occluders_in(const std::string& file) {
   return last.second;
 }
 
-// The last file is kept for the lines that name it again, as above.
+// The last file is cached, as above.
 void read_table(Problems& problems, const Place& place, Json value, Query& query) {
   const std::string_view name = read_string(problems, place, value);
   if (!value.is_string()) return;
@@ -301,7 +301,7 @@ void read_table(Problems& problems, const Place& place, Json value, Query& query
   }
 }
 
-// The name of a scene file, a mesh, or triangles as lists of three points.
+// Reads the name of a scene file, a mesh, or triangles as lists of three points.
 void read_occluders(Problems& problems, const Place& place, Json value, Query& query) {
   std::string_view name;
   if (value.get(name) == simdjson::SUCCESS) {

@@ -1,4 +1,4 @@
-// Query: one question of `steradian eval`, read from a line of JSON.
+// Query: one query of `steradian eval`, read from a line of JSON.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace steradian::eval {
 using Light = std::variant<AreaLight, PointLight, DirectionalLight>;
 
 struct Query {
-  std::vector<Light> lights;  // at least one; their light adds
+  std::vector<Light> lights;  // at least one; their contributions add
   Vec3d position;
   Vec3d normal;               // unit
   std::optional<Vec3d> view;  // unit; absent only where every material is lambert
@@ -31,11 +31,11 @@ struct Query {
   Quality quality = Quality::normal;
   int spp = 256;
   std::uint64_t seed = 1;
-  std::shared_ptr<const ClassicTable> table;           // of ltc: in place of GGX's
-  bool derivatives = false;                            // of the radiance by the light's vertices, its radiance and the lobe's parameters
-  std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing blocks
-  bool occluders_are_listed = false;                   // by the query itself, not by the name of a scene
-  std::optional<Vec3d> geometric_normal;               // unit, of the triangle that the position is on; none: the normal
+  std::shared_ptr<const ClassicTable> table;           // table for ltc, instead of GGX's
+  bool derivatives = false;                            // radiance by the light's vertices, its radiance and the lobe's parameters
+  std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing is occluded
+  bool occluders_are_listed = false;                   // listed by the query itself, not by the name of a scene
+  std::optional<Vec3d> geometric_normal;               // unit normal of the triangle at the position; none: the normal
 };
 
 struct QueryDefaults {
@@ -44,20 +44,20 @@ struct QueryDefaults {
   std::uint64_t seed = 1;
 };
 
-// Bytes that must be readable (not meaningful) behind the text of a query.
+// Bytes behind the text of a query that must be readable; their values do not matter.
 inline constexpr std::size_t kQueryPadding = 64;
 
-// Reads queries one after the other and keeps its memory between them.
+// Reads queries one after the other and reuses its memory.
 class QueryReader {
  public:
   explicit QueryReader(QueryDefaults defaults = {});
   ~QueryReader();
 
-  // line: one JSON object, with kQueryPadding readable bytes behind its end.
-  // Throws Error that names every wrong key by its path (light.vertices[2]) and says what is expected there.
+  // line: one JSON object, with kQueryPadding readable bytes behind its end. Throws Error that names every wrong key by its path
+  // (light.vertices[2]) and the expected value.
   Query read(std::string_view line);
 
-  // The key `id` of the line last read, as its JSON stands there; empty where it has none.
+  // The key `id` of the line last read, as its JSON text; empty if it has none.
   const std::string& id() const { return id_; }
 
  private:

@@ -64,7 +64,7 @@ TEST(EvalRoundLight, EveryLobeAgreesWithTheReference) {
     Material material;
     Method method;
     Quality quality;
-    double error;  // of the method on polygons (docs/accuracy.md, docs/moments.md) plus 0.0011 of K = 12, 0.003 for GGX
+    double error;  // error of the method on polygons (docs/accuracy.md, docs/moments.md) plus 0.0011 for K = 12, 0.003 for GGX
   };
   Material phong = material_of(Brdf::phong), sharp = phong, blinn = material_of(Brdf::blinn_phong);
   phong.exponent = 10;
@@ -129,8 +129,8 @@ TEST(EvalRoundLight, SampledAgreesWithinItsStandardError) {
 }
 
 TEST(EvalRoundLight, HiddenSidesInsidesAndNoAreaGiveZero) {
-  const AreaLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),  // its back
-                            disk({2, 0, 0}, {1, 0, 0}, {0, 0, 1}),  // its plane
+  const AreaLight dark[] = {disk({0, 2, 0}, {0, 0, 1}, {1, 0, 0}),  // back side
+                            disk({2, 0, 0}, {1, 0, 0}, {0, 0, 1}),  // the point is in the disk's plane
                             disk({0, 2, 0}, {1, 0, 0}, {2, 0, 0}),  // no area
                             disk({0, 2, 0}, {}, {}),
                             sphere({0, 0.5, 0}, 1),  // inside
@@ -147,7 +147,7 @@ TEST(EvalRoundLight, HiddenSidesInsidesAndNoAreaGiveZero) {
 }
 
 TEST(EvalRoundLight, DoesNotDependOnScale) {
-  // Powers of two change no digit of what is scaled.
+  // Scaling by powers of two changes no digit.
   const double truth = ask(sphere({1, 2, 2}, 0.5), kFloor, ggx(0.3)).radiance.x;
   for (int power : {-400, -40, 40, 400}) {
     const double s = std::ldexp(1.0, power);
@@ -156,7 +156,7 @@ TEST(EvalRoundLight, DoesNotDependOnScale) {
 }
 
 TEST(EvalRoundLight, ATinyOneIsAPointLight) {
-  // On both sides of the size at which it becomes one: intensity pi R^2, up to the rounding of the polygon's vertices.
+  // Radii on both sides of the limit at which a sphere becomes a point. Intensity pi R^2, up to the rounding of the polygon's vertices.
   for (double radius : {1e-8, 1e-10, 1e-14}) {
     const double share = std::numbers::pi * radius * radius;
     const double expected = ask(sphere({1, 2, 2}, 1e-3), kFloor, ggx(0.3)).radiance.x * share / (std::numbers::pi * 1e-6);

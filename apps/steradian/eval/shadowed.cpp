@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kLift = 1e-9, kLiftInFloat = 1e-6;
 constexpr int kRoundReference = 512;
-constexpr double kFar = 1e9;  // of the distance to parallel light
+constexpr double kFar = 1e9;  // distance to parallel light
 
-// The polygon that stands for a light of any shape.
+// The polygon that replaces a light of any shape.
 PreparedPolygon polygon_of(const AreaLight& light, Vec3d from, int corners) {
   if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
   return shadow::polygon_of_round(light, from, corners);
@@ -44,7 +44,7 @@ RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoin
   return entry.polygon(shadow::visible_part(light, *query.occluders, from, lift), at, m, options);
 }
 
-// Where the query's point looks from.
+// The viewpoint of the query's point.
 shadow::Viewpoint viewpoint_of(const Query& query) {
   const Vec3d geometric = query.geometric_normal.value_or(query.normal);
   shadow::Viewpoint from;
@@ -54,7 +54,8 @@ shadow::Viewpoint viewpoint_of(const Query& query) {
   return from;
 }
 
-// A light that shines by a profile: what is seen of it as an even one, times the mean that the lobe sees of all of it.
+// A light with a profile: the result for the light with uniform emission, times the profile's mean over the whole light, weighted by the
+// lobe.
 RadianceResult profiled_answer(const Query& query, const AreaLight& light, const ShadingPoint& surface, const Material& m,
                                const methods::Row& entry, const RadianceOptions& options) {
   if (entry.method == Method::reference || entry.method == Method::sampled)

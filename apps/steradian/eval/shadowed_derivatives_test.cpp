@@ -1,4 +1,4 @@
-// Derivatives past occluders against central differences.
+// Compares derivatives past occluders with central differences.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ json answer(const json& query) {
   return json::parse(out);
 }
 
-// Of the green channel.
+// The value of the green channel.
 double value(const json& query, const std::string& judge) {
   json q = query;
   q["method"] = judge;
@@ -33,8 +33,8 @@ double value(const json& query, const std::string& judge) {
   return a["radiance"][1];
 }
 
-// How the value changes while the coordinates at some places of the query grow together. Cells of the light move with what they stand for
-// by steps of 1.2e-7 of its half side, which is why the step is no smaller.
+// The derivative by coordinates at some places of the query that grow together. Cells of the light move with the objects they represent in
+// steps of 1.2e-7 of its half side, so the step is no smaller.
 constexpr double kStep = 1e-3;
 double central_difference(const json& query, const std::vector<json::json_pointer>& places, const std::string& judge) {
   const auto at = [&](double step) {
@@ -59,7 +59,7 @@ const Lobe kLobes[] = {
 
 struct Setting {
   std::string name, light, occluders;
-  bool plane_turns = true;  // whether the light's vertices are moved out of its plane as well
+  bool plane_turns = true;  // true if the light's vertices also move out of its plane
 };
 const std::string kBent =
     R"([[[0,1,-1],[0,1,1],[0.6,1.1,1]],[[0,1,-1],[0.6,1.1,1],[0.6,1.1,-1]],[[-0.3,1.2,-0.2],[-0.1,0.9,0.3],[-0.2,1.3,0.4]]])";
@@ -85,7 +85,7 @@ json query_of(const Setting& setting, const Lobe& lobe) {
 
 json::json_pointer place(const std::string& path, int coordinate) { return json::json_pointer(path + "/" + std::to_string(coordinate)); }
 
-// A derivative, and what of the query moves.
+// A derivative, and the parts of the query that move.
 struct Move {
   std::string what;
   double derivative;
@@ -144,15 +144,16 @@ TEST(ShadowedDerivatives, AgreeWithCentralDifferences) {
       double largest = 0;
       for (const Move& move : moves) largest = std::max(largest, std::fabs(move.derivative));
       EXPECT_GT(largest, 0.1 * whole);
-      // Steps of cells, 2.4e-7 of the light over twice the step; the differences' own error, the square of the step over that of the
-      // distances at hand, 1e-5 of a derivative where a lobe changes over a tenth of them.
+      // Error of the cells' steps: 2.4e-7 of the light over twice the step. Error of the differences: the square of the step over that of
+      // the distances, 1e-5 of a derivative if a lobe changes over a tenth of them.
       const double bar = 3e-4 * whole + 1e-3 * largest;
       for (const Move& move : moves)
         EXPECT_NEAR(move.derivative, central_difference(query, move.places, lobe.judge), bar) << move.what << ", " << move.places[0];
     }
 }
 
-// The normal turns as a direction; the horizon turns with it, also where it cuts what is seen and the lobe does not end there.
+// The normal rotates as a direction, and the horizon with it. This also holds if the horizon cuts the visible part and the lobe does not
+// end there.
 TEST(ShadowedDerivatives, ByTheNormalAgreeWithCentralDifferences) {
   for (const Lobe& lobe : kLobes)
     for (const bool grazing : {false, true}) {
@@ -167,12 +168,12 @@ TEST(ShadowedDerivatives, ByTheNormalAgreeWithCentralDifferences) {
       asked["derivatives"] = true;
       const json d = answer(asked);
       ASSERT_TRUE(d.contains("d_normal")) << d;
-      const double size = std::sqrt(grazing ? 1.0125 : 1.01);  // of the normal as it stands in the query
+      const double size = std::sqrt(grazing ? 1.0125 : 1.01);  // length of the normal as stored in the query
       const double whole = value(query, lobe.method);
       EXPECT_GT(whole, 0);
       double largest = 0;
       for (int c = 0; c < 3; ++c) largest = std::max(largest, std::fabs(d["d_normal"][1][c].get<double>()));
-      // Both are differences of the method's own value; ltc interpolates its table in the view's cosine, piece by piece: steps may meet a
+      // Both are differences of the method's own value. ltc interpolates its table in the view's cosine piecewise, so a step may cross a
       // node.
       const double bar = 6e-4 * whole + (lobe.method.starts_with("ltc") ? 2e-2 : 2e-3) * largest;
       for (int c = 0; c < 3; ++c)
@@ -180,7 +181,7 @@ TEST(ShadowedDerivatives, ByTheNormalAgreeWithCentralDifferences) {
     }
 }
 
-// A view along the normal has no direction across it.
+// A view along the normal defines no direction across it.
 TEST(ShadowedDerivatives, AgreeWithCentralDifferencesWhereTheViewIsTheNormal) {
   for (const Lobe& lobe : kLobes) {
     SCOPED_TRACE(lobe.material + " by " + lobe.method);
@@ -211,7 +212,7 @@ TEST(ShadowedDerivatives, WithNothingInTheWayAreThoseOfTheWholeLight) {
     double largest = 0;
     for (const json& vertex : whole["d_vertices"][1])
       for (const json& x : vertex) largest = std::max(largest, std::fabs(x.get<double>()));
-    // The point is 1e-5 off its surface, and the methods of the whole light have errors: their documented ones.
+    // The point is 1e-5 off its surface, and the methods for the whole light have their documented errors.
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t c = 0; c < 3; ++c)
         EXPECT_NEAR(past["d_vertices"][1][i][c].get<double>(), whole["d_vertices"][1][i][c].get<double>(), 2e-2 * largest) << lobe.material;

@@ -26,7 +26,7 @@ const std::string kDisk = R"({"type":"disk","center":[0.2,2,0.1],"x":[0.5,0,0],"
 const std::string kSphere = R"({"type":"sphere","center":[0.2,2,0.1],"radius":0.4})";
 const std::string kCapsule = R"({"type":"capsule","ends":[[-0.4,2,0],[0.5,2.1,0.2]],"radius":0.15})";
 
-// A bent plate and a loose triangle, in the way of a good part of every light.
+// A bent plate and a loose triangle that occlude a large part of every light.
 const std::string kOccluders =
     R"([[[0,1,-1],[0,1,1],[0.6,1.1,1]],[[0,1,-1],[0.6,1.1,1],[0.6,1.1,-1]],[[-0.3,1.2,-0.2],[-0.1,0.9,0.3],[-0.2,1.3,0.4]]])";
 
@@ -39,10 +39,10 @@ const std::string kWithOccluders = ",\"occluders\":" + kOccluders;
 struct Row {
   std::string material;
   std::vector<std::string> methods;
-  double error;  // of the method without occluders, of the whole light's value: the documented one, times what a part may concentrate
+  double error;  // documented error of the method without occluders over the whole light's value, times the concentration in a part
 };
 
-// Every lobe and method over the visible part against rays.
+// Compares every lobe and method over the visible part with rays.
 TEST(ShadowedEval, EveryMethodAgreesWithRays) {
   const Row rows[] = {
       {R"({"brdf":"lambert","albedo":0.7})", {"exact", "reference"}, 1e-5},
@@ -68,7 +68,7 @@ TEST(ShadowedEval, EveryMethodAgreesWithRays) {
       for (const std::string& method : row.methods) {
         const json a = answer(query(light, row.material, method, kWithOccluders));
         ASSERT_TRUE(a.contains("radiance")) << light << row.material << method << a;
-        // 4.5 sigma: once in 150,000; here are some hundred. Round lights take polygons: 1e-3 of the whole.
+        // 4.5 sigma: exceeded once in 150,000 times, and there are some hundred checks. Round lights become polygons: 1e-3 of the whole.
         const double bar = 4.5 * sigma + (row.error + 1e-3) * whole;
         EXPECT_NEAR(a["radiance"][0].get<double>(), expected, bar) << light << row.material << method;
         if (method == "reference") continue;
@@ -84,11 +84,11 @@ TEST(ShadowedEval, TakesMeshesAndNormals) {
   const json inline_triangles = answer(query(kRect, lambert, "exact", R"(,"occluders":[[[0,1,-1],[0,1,1],[1,1,1]]])"));
   const json mesh = answer(query(kRect, lambert, "exact", R"(,"occluders":{"positions":[[0,1,-1],[0,1,1],[1,1,1]],"indices":[0,1,2]})"));
   EXPECT_EQ(inline_triangles, mesh);
-  // Nothing from below the triangle that the point is on.
+  // Nothing arrives from below the triangle that the point is on.
   EXPECT_EQ(answer(query(kRect, lambert, "exact", R"(,"occluders":[],"geometric_normal":[0,-1,0])"))["radiance"][0].get<double>(), 0.0);
   const double open = answer(query(kRect, lambert, "exact"))["radiance"][0],
                none = answer(query(kRect, lambert, "exact", R"(,"occluders":[])"))["radiance"][0];
-  EXPECT_NEAR(none, open, 1e-4 * open);  // seen from 1e-5 above
+  EXPECT_NEAR(none, open, 1e-4 * open);  // viewed from 1e-5 above
   const std::string point = R"({"type":"point","position":[0.3,2,0]})";
   EXPECT_EQ(answer(query(point, lambert, "exact", kWithOccluders))["radiance"][0].get<double>(), 0.0);
   EXPECT_GT(answer(query(point, lambert, "exact", R"(,"occluders":[])"))["radiance"][0].get<double>(), 0.0);

@@ -10,14 +10,14 @@
 namespace steradian {
 namespace {
 
-constexpr double kGrazing = 0.02;  // cosine of the view below which samples of the lobe tell nothing any more
+constexpr double kGrazing = 0.02;  // cosine of the view below which samples of the lobe carry no information
 
 double table_albedo(const CompactTable& table, double roughness, double cosine) {
   const LtcValue value = table.look_up(roughness, cosine);
   return std::clamp(value.n_a * ltc_above_horizon(value.inverse), 0.0, 1.0);
 }
 
-// A Fibonacci lattice, brought to half vectors that the view sees: the ratio that is left of the lobe is smooth.
+// A Fibonacci lattice, mapped to half vectors that are visible from the view: the remaining ratio of the lobe is smooth.
 double anisotropic_albedo(const Material& material, const ShadingPoint& at) {
   constexpr int kNodes = 128;
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);

@@ -1,4 +1,4 @@
-// Albedos, multiple scattering: by table or by few nodes, against plain quadrature of the reference's lobes.
+// Albedos and multiple scattering, by table or by few nodes, against plain quadrature of the reference's lobes.
 #include "steradian/albedo.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Vec3d view_at(double cosine, double phi = 0) {
   return {s * std::cos(phi), s * std::sin(phi), cosine};
 }
 
-// Over the lobe's own samples, n x n midpoints.
+// Quadrature over the lobe's own samples, n x n midpoints.
 double albedo_by_quadrature(const Material& m, Vec3d view, int n) {
   const lobes::Lobe lobe(m, view);
   double sum = 0;
@@ -64,7 +64,7 @@ TEST(Albedo, OfGgxIsNearQuadrature) {
       double& worst = r > 0.29 ? rough : smooth;
       worst = std::max(worst, error);
     }
-  // What docs/ltc.md says of the table.
+  // These bounds on the table are stated in docs/ltc.md.
   EXPECT_LT(rough, 0.02);
   EXPECT_LT(smooth, 0.045);
   RecordProperty("rough", std::to_string(rough));
@@ -94,7 +94,7 @@ TEST(Albedo, OfCharlieIsNearQuadratureAndBelowOne) {
       worst = std::max(worst, std::fabs(charlie_albedo(r * r, c) - q));
       EXPECT_LT(q, 1) << r << " " << c;
     }
-  EXPECT_LT(worst, 0.02);  // what docs/ltc.md says
+  EXPECT_LT(worst, 0.02);  // as stated in docs/ltc.md
   std::printf("albedo of charlie by its table: error %.4f\n", worst);
 }
 
@@ -129,7 +129,7 @@ TEST(MultipleScattering, IsTheSameFactorForEveryMethod) {
   expect_same(reference_radiance(lamp(), at, all).radiance, reference_radiance(lamp(), at, scaled).radiance);
 }
 
-// One bounce reflects more than a quarter whatever the widths and the view, so that F0 = 1 grows to less than four times itself.
+// One bounce reflects more than a quarter for all widths and views, so F0 = 1 grows to less than four times itself.
 TEST(MultipleScattering, StaysInBoundsAtGrazingViews) {
   for (double ax : {1e-4, 0.1, 1.0})
     for (double ay : {1e-4, 0.3, 1.0})

@@ -8,17 +8,16 @@ namespace {
 
 using Texel = std::array<float, 4>;
 
-constexpr int kMostTexels = 512;   // a side of the finest level: a light larger than that in the picture is rare
-constexpr int kCoverageSteps = 4;  // places a texel's side that are tested for lying on the light
-// The finest level is what a texel's own box makes of it: variance 1/12, and 1/6 from bilinear look-up.
+constexpr int kMostTexels = 512;   // a side of the finest level: larger lights in the picture are rare
+constexpr int kCoverageSteps = 4;  // points per texel side that are tested for lying on the light
+// The finest level is blurred by the texel's own box: variance 1/12, and 1/6 from bilinear look-up.
 constexpr double kTexelSigma = 0.5;
 constexpr double kTexelsPerSigma = 2;  // of the blurred levels
 constexpr double kReach = 3;           // standard deviations that a blur reaches
-// The coarsest level's standard deviation over the light's largest extent: there, weights over the light differ from one
-// another by exp(-1/8) at most.
+// Standard deviation of the coarsest level over the light's largest extent. There, weights over the light differ by exp(-1/8) at most.
 constexpr double kCoarsest = 2;
 
-// Crossing number, over all contours: inside the outline and outside the holes.
+// Crossing number over all contours: true inside the outline and outside the holes.
 bool covers(const std::vector<std::array<double, 2>>& v, const std::vector<std::size_t>& contours, double x, double y) {
   bool inside = false;
   for (std::size_t c = 0; c + 1 < contours.size(); ++c)
@@ -38,7 +37,7 @@ int texels_for(double length, double spacing) { return std::max(1, static_cast<i
 
 FilteredTexture::FilteredTexture(const AreaLight& light, const PreparedPolygon& polygon, const std::vector<Image>& images)
     : origin_(polygon.centroid) {
-  // Along the texture's u, so that texels of ours are parallel to those of most textures.
+  // The axes lie along the texture's u, so that these texels are parallel to those of most textures.
   const Frame frame = Frame::from_normal_and_tangent(polygon.normal, light.texture->du);
   x_ = frame.x;
   y_ = frame.y;
@@ -48,7 +47,7 @@ FilteredTexture::FilteredTexture(const AreaLight& light, const PreparedPolygon& 
   while (levels_.back().sigma < kCoarsest * extent) levels_.push_back(blurred(levels_.front(), levels_.back()));
 }
 
-// Mean radiance; centroid and covariance of the area.
+// Computes the mean radiance, and centroid and covariance of the area.
 void FilteredTexture::measure_light() {
   const Level& level = levels_.front();
   std::array<double, 4> sum{};
@@ -72,7 +71,7 @@ void FilteredTexture::measure_light() {
   covariance_ = {xx / sum[3] - x * x, xy / sum[3] - x * y, yy / sum[3] - y * y};
 }
 
-// The next level, from the last one: a Gaussian of what is missing to its variance, one axis after the other.
+// Computes the next level from the last one: a Gaussian of the variance that is missing, one axis after the other.
 FilteredTexture::Level FilteredTexture::blurred(const Level& fine, const Level& last) {
   Level next;
   next.sigma = 2 * last.sigma;
@@ -113,7 +112,7 @@ FilteredTexture::Level FilteredTexture::blurred(const Level& fine, const Level& 
   return next;
 }
 
-// The finest level: the light's bounds in texels of the texture's own size, or larger ones.
+// Computes the finest level: the light's bounds in texels of the texture's own size, or larger ones.
 FilteredTexture::Level FilteredTexture::rastered(const AreaLight& light, const PreparedPolygon& polygon,
                                                  const std::vector<Image>& images) const {
   const LightTexture& texture = *light.texture;
@@ -127,19 +126,19 @@ FilteredTexture::Level FilteredTexture::rastered(const AreaLight& light, const P
     bounds.bottom = std::min(bounds.bottom, outline.back()[1]);
     bounds.top = std::max(bounds.top, outline.back()[1]);
   }
-  // Texels a metre, from the steeper of the two coordinates (KHR_texture_transform included).
+  // Texels per metre, from the steeper of the two coordinates (KHR_texture_transform included).
   const float* t = texture.use.uv;
   const auto row = [&](int i) { return texture.du * static_cast<double>(t[i]) + texture.dv * static_cast<double>(t[i + 1]); };
   const double density = std::max({length(row(0)) * image.width, length(row(3)) * image.height, 1e-6});
   Level level;
   level.spacing = std::max(1 / density, bounds.extent() / kMostTexels);
-  level.spacing = std::min(level.spacing, bounds.extent() / 8);  // so that the outline is a shape
+  level.spacing = std::min(level.spacing, bounds.extent() / 8);  // at least 8 texels, to resolve the outline
   level.width = texels_for(bounds.right - bounds.left, level.spacing);
   level.height = texels_for(bounds.top - bounds.bottom, level.spacing);
   level.left = (bounds.left + bounds.right - (level.width - 1) * level.spacing) / 2;
   level.bottom = (bounds.bottom + bounds.top - (level.height - 1) * level.spacing) / 2;
   level.sigma = kTexelSigma * level.spacing;
-  // Enough places that none of the texture's texels is passed over.
+  // Enough points to reach all of the texture's texels.
   const int steps = std::clamp(static_cast<int>(std::ceil(level.spacing * density)), kCoverageSteps, 16);
   const float share = 1.0f / static_cast<float>(steps * steps);
   for (int j = 0; j < level.height; ++j)
@@ -180,7 +179,7 @@ FilteredTexture::Sum FilteredTexture::Level::at(double px, double py) const {
   return sum;
 }
 
-// Between two levels, in proportion to the variance.
+// Interpolates between two levels in proportion to the variance.
 FilteredTexture::Sum FilteredTexture::at(double x, double y, double sigma) const {
   const double finest = levels_.front().sigma;
   const double level = std::clamp(std::log2(std::max(sigma, finest) / finest), 0.0, static_cast<double>(levels_.size() - 1));

@@ -1,4 +1,4 @@
-// FilteredTexture: a textured light's radiance over its plane, blurred more and more: what a lobe's look-up reads.
+// FilteredTexture: a textured light's radiance over its plane in increasingly blurred copies, for a lobe's look-up.
 #pragma once
 
 #include <array>
@@ -15,20 +15,20 @@ struct PlaneGaussian {
   double major_x = 0, major_y = 0, minor = 0;
 };
 
-// Level k is blurred with a Gaussian of standard deviation sigma_0 2^k. Beyond its border the light is extended by what
-// is near: a texel holds radiance times coverage, and coverage (1 on the light, 0 off it), blurred alike, and a look-up
-// divides the one by the other. Nothing dark bleeds in from outside, and nothing wraps round.
+// Level k is blurred with a Gaussian of standard deviation sigma_0 2^k. Beyond the border, the nearby light is extended. A texel contains
+// radiance times coverage, and coverage (1 on the light, 0 off it), blurred alike; a look-up divides the one by the other. So nothing dark
+// bleeds in from outside, and nothing wraps around.
 class FilteredTexture {
  public:
   // The light must have a texture; `polygon` is its prepared outline.
   FilteredTexture(const AreaLight& light, const PreparedPolygon& polygon, const std::vector<Image>& images);
 
-  // Where a point of the light's plane lies in the coordinates of look-ups [m].
+  // Coordinates of look-ups on the light's plane [m].
   Vec3d origin() const { return origin_; }
   Vec3d axis_x() const { return x_; }  // unit
   Vec3d axis_y() const { return y_; }
 
-  // Radiance times coverage, and coverage, under a Gaussian: sums of these over Gaussians are what may be divided.
+  // Radiance times coverage, and coverage, under a Gaussian. Sums of these over Gaussians may be divided.
   struct Sum {
     std::array<float, 4> rgbw{};
     Sum& add(const Sum& other, float weight) {
@@ -38,7 +38,7 @@ class FilteredTexture {
   };
   Sum under(const PlaneGaussian& gaussian) const;
 
-  // The quotient; the light's mean where a look-up met next to none of it.
+  // The quotient, or the light's mean if a look-up met next to none of the light.
   Vec3f radiance(const Sum& sum) const;
 
   Vec3f mean() const { return mean_; }
@@ -51,7 +51,7 @@ class FilteredTexture {
   }
   PlaneTexels finest() const { return level(0); }
 
-  // Of the light's shape: centroid, and covariance about it (xx, xy, yy).
+  // Moments of the light's shape: centroid, and covariance about it (xx, xy, yy).
   const std::array<double, 2>& centroid() const { return centroid_; }
   const std::array<double, 3>& covariance() const { return covariance_; }
 

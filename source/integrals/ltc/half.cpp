@@ -14,7 +14,7 @@ std::uint16_t half_from_float(float x) {
   // Below 2^-14 the spacing is constant, 2^-24: adding 0.5 moves the rounding there.
   if (a < 0x1p-14f) return static_cast<std::uint16_t>(sign | (std::bit_cast<std::uint32_t>(a + 0.5f) & 0x7fffu));
   std::uint32_t m = std::bit_cast<std::uint32_t>(a);
-  m += 0xfffu + ((m >> 13) & 1u);  // round the 13 bits that go
+  m += 0xfffu + ((m >> 13) & 1u);  // rounds the 13 bits that are dropped
   return static_cast<std::uint16_t>(sign | ((m - (112u << 23)) >> 13));
 }
 

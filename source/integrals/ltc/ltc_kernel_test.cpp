@@ -1,4 +1,4 @@
-// The kernels ltc_*: the walk against quadrature of the transformed lobe over what both horizons leave.
+// The kernels ltc_*: the walk against quadrature of the transformed lobe over the part above both horizons.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,8 +64,8 @@ double walk(const PreparedPolygon& light, const LtcInverse& inverse, bool revers
   return static_cast<double>(k.ltc_integral(state, Mask<S>(reversed)).v);
 }
 
-// Signed fan about a direction above both horizons, over arcs that are cut into short ones. The density is homogeneous of degree -3, so
-// that the chords' triangles serve as well as the sphere's, and it is smooth on all of the upper half space.
+// Signed fan about a direction above both horizons, over arcs that are cut into short ones. The density is homogeneous of degree -3, so the
+// chords' triangles serve as well as the sphere's. It is smooth on all of the upper half space.
 double quadrature(const PreparedPolygon& light, const LtcInverse& m) {
   static const Rule rule(40);
   const Vec3d planes[] = {{0, 0, 1}, normalized(Vec3d{m.zx, 0, m.zz})};
@@ -96,7 +96,7 @@ double quadrature(const PreparedPolygon& light, const LtcInverse& m) {
   return sum * determinant / std::numbers::pi;
 }
 
-// Tilts, shears and widths that the fits have, short of the narrow ones that defeat a fixed rule.
+// Tilts, shears and widths as in the fits, except the narrow ones, for which a fixed rule fails.
 LtcInverse random_matrix(reference::Random& random) {
   LtcShape shape;
   shape.e11 = random.uniform(0.6, 2.5);
@@ -166,7 +166,7 @@ TEST(LtcWalk, OfTheWholeSkyIsTheShareAboveTheHorizon) {
   reference::Random random(13);
   for (int i = 0; i < 50; ++i) {
     const LtcInverse m = random_matrix(random);
-    // A ceiling so wide that 1e-5 of the sky is missing.
+    // A ceiling so wide that only 1e-5 of the sky is missing.
     const double s = 1e6;
     const PreparedPolygon sky = prepare_polygon({{{-s, -s, 1}, {-s, s, 1}, {s, s, 1}, {s, -s, 1}}, {}, {1, 1, 1}, true});
     EXPECT_NEAR(walk<double>(sky, m), ltc_above_horizon(m), 1e-5);
@@ -231,7 +231,7 @@ TEST(LtcClipless, IsExactForAFullViewAndFiniteForAll) {
   Kernels<double> k;
   const LtcInverse identity;
   const auto m = matrix<double>(identity);
-  // A small light overhead: sphere and polygon of one vector irradiance agree where nothing is cut.
+  // For a small light overhead, sphere and polygon of one vector irradiance agree if nothing is cut.
   const std::array<Vec3d, 4> v = {{{-.1, -.1, 1}, {-.1, .1, 1}, {.1, .1, 1}, {.1, -.1, 1}}};
   auto sum = Kernels<double>::vec3(0.0, 0.0, 0.0);
   for (std::size_t i = 0; i < 4; ++i) {

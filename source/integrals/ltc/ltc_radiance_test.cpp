@@ -1,4 +1,4 @@
-// GGX by tables, through the library's calls.
+// GGX by tables, through the library's functions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ double fresnel_of(double roughness, double cosine, Vec3d centre, Vec3d u, Vec3d 
   return value.n_a * lobe_over_rectangle(value.inverse, centre, u, v, n);
 }
 
-// Quadrature of the very lobe that the table holds, over lights above the horizon, with Fresnel: what is left is the quadrature's.
+// Quadrature of the table's own lobe, over lights above the horizon, with Fresnel: the only difference is the quadrature's error.
 TEST(LtcRadiance, IsTheTablesLobeOverTheLight) {
   const Vec3d centre{-1, 0.2, 1}, u{0, 0.6, 0}, v{0.3, 0, 0.5};
   const PreparedPolygon light = rectangle(centre, u, v);
@@ -72,14 +72,14 @@ TEST(LtcRadiance, IsTheTablesLobeOverTheLight) {
           };
           const double fine = by_cells(400), coarse = by_cells(200);
           const double found = ltc_radiance(method, light, {{}, {0, 0, 1}, {std::sqrt(1 - cosine * cosine), 0, cosine}}, m).x;
-          // The rule's error falls fourfold from coarse to fine, which leaves a third of their difference, but where the lobe's horizon
-          // crosses cells: there it falls as fast, but not evenly.
+          // The rule's error falls fourfold from coarse to fine, so a third of their difference remains. Where the lobe's horizon crosses
+          // cells, it falls equally fast, but irregularly.
           EXPECT_NEAR(found, fine, 3 * std::fabs(fine - coarse) + 1e-7) << roughness << " " << cosine << " " << f0;
         }
 }
 
-// Whatever the light: what lobe and fit differ by has no mean over the hemisphere but for the table's rounding, so that no part of
-// it holds more than half of its absolute integral.
+// A bound for any light. The difference of lobe and fit has no mean over the hemisphere except for the table's rounding. So no part of it
+// contains more than half of its absolute integral.
 TEST(LtcRadiance, IsAsNearAsTheFitsLobe) {
   reference::Random random(27);
   for (double roughness : {0.2, 0.4, 0.7})
@@ -98,7 +98,7 @@ TEST(LtcRadiance, IsAsNearAsTheFitsLobe) {
           difference += std::fabs(d);
           mean += d;
         }
-        // A lattice of N points that the horizon cuts is off by about N^(-3/4).
+        // A lattice of N points that the horizon cuts has an error of about N^(-3/4).
         const double bound = 0.5 * (difference + std::fabs(mean)) + std::pow(kDirections, -0.75);
         double worst = 0;
         for (int i = 0; i < 40; ++i) {
@@ -114,7 +114,7 @@ TEST(LtcRadiance, IsAsNearAsTheFitsLobe) {
     }
 }
 
-// A light that fills less than the sphere that stands for it would need to reach the lobe's horizon is not cut, by either method.
+// A light that is smaller than its sphere would have to be to reach the lobe's horizon is not cut, by either method.
 TEST(LtcRadiance, ClipsNoLightThatIsSmall) {
   for (double roughness : {0.2, 0.4, 0.7})
     for (double cosine : {0.9, 0.6}) {
@@ -128,7 +128,7 @@ TEST(LtcRadiance, ClipsNoLightThatIsSmall) {
     }
 }
 
-// Where its assumption holds: to first order in the light's angular radius.
+// The assumption holds here, to first order in the light's angular radius.
 TEST(RepresentativePoint, IsTheReferenceForASmallLightOnARoughSurface) {
   reference::Random random(26);
   double worst = 0;
@@ -144,8 +144,8 @@ TEST(RepresentativePoint, IsTheReferenceForASmallLightOnARoughSurface) {
     const ShadingPoint at = {{}, {0, 0, 1}, view};
     const double expected = reference_radiance(light, at, m, {1e-6, 1e-10, 400'000}).radiance.x;
     const double found = ltc_radiance(LtcMethod::representative_point, light, at, m).x;
-    // The fall (alpha/alpha')^2; the distribution's steepest logarithmic slope 2/alpha over half the radius; shadowing's
-    // is below 1/l_z. A tenth more for the second order: radius/alpha is at most 0.03.
+    // The terms are the decrease (alpha/alpha')^2, and the distribution's steepest logarithmic slope 2/alpha over half the radius.
+    // Shadowing's slope is below 1/l_z. A tenth more covers the second order: radius/alpha is at most 0.03.
     const double v_dot_h = dot(view, normalized(view + to));
     const double bound =
         1.1 * (2 * std::sqrt(solid_angle / (4 * std::numbers::pi * v_dot_h)) / m.alpha_x + radius / m.alpha_x + radius / (to.z - radius));
@@ -155,7 +155,7 @@ TEST(RepresentativePoint, IsTheReferenceForASmallLightOnARoughSurface) {
   std::printf("largest relative error %.3f\n", worst);
 }
 
-// The other end: a mirror that sees the light sends its radiance, at every view.
+// The other extreme: a mirror that reflects the light sends its radiance, at every view.
 TEST(RepresentativePoint, OfAMirrorIsTheLightsRadiance) {
   for (double degrees : {0.0, 30.0, 60.0, 80.0, 86.0}) {
     const double t = degrees * std::numbers::pi / 180;
@@ -202,19 +202,19 @@ TEST(LtcRadiance, IsFiniteAndNotNegativeForEveryLight) {
   }
 }
 
-// The mirror image of a half-vector's cancellation: a narrow lobe amplifies the rounding of float by 1 / alpha.
+// The mirror image of a half vector's cancellation: a narrow lobe amplifies the rounding of float by 1 / alpha.
 TEST(LtcRadiance, InFloatIsNearDouble) {
   reference::Random random(23);
   double worst = 0;
   for (int i = 0; i < 2000; ++i) {
     const reference::Configuration c = reference::random_configuration(random);
-    if (c.kind == "near" || c.kind == "tiny" || c.kind == "huge") continue;  // vertices lose their digits before we see them
+    if (c.kind == "near" || c.kind == "tiny" || c.kind == "huge") continue;  // vertices lose their digits before the test
     const PreparedPolygon light = prepare_polygon(c.light);
     const Material m = ggx(random.uniform(0.2, 1));
     for (LtcMethod method : {LtcMethod::classic, LtcMethod::compact}) {
       const double d = ltc_radiance(method, light, c.at, m).x, f = ltc_radiance_float(method, light, c.at, m).x;
       worst = std::max(worst, std::fabs(d - f));
-      // Vertices 5 m away carry 4e-7, amplified by 2 / alpha <= 50; twice that for both ends of an edge.
+      // Vertices 5 m away have an error of 4e-7, amplified by 2 / alpha <= 50; twice that for both ends of an edge.
       EXPECT_NEAR(f, d, 4e-5) << c.kind << " roughness " << std::sqrt(m.alpha_x);
     }
   }
@@ -260,7 +260,7 @@ TEST(LtcPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
     const double values[10] = {random.uniform(-2, 2), random.uniform(-2, 2), 0, n.x, n.y, n.z, v.x, v.y, v.z, random.uniform(0.2, 1)};
     for (std::size_t k = 0; k < 10; ++k) a[k].push_back(static_cast<float>(values[k]));
   }
-  // Dips below the floor: both kinds of clipping happen.
+  // The light reaches below the floor: both kinds of clipping happen.
   const PreparedPolygon light = rectangle({0.3, 0.8, 0.4}, {0.9, 0, 0.2}, {0, 0.3, 0.8});
   const PackLight pack_light = prepare_light(light);
   std::vector<float> alpha;

@@ -1,4 +1,4 @@
-// The fitted lobe itself: its four degrees of freedom, its matrix, its density.
+// The fitted lobe: its four degrees of freedom, its matrix, its density.
 #pragma once
 
 #include "steradian/fit.h"  // LobeFrame
@@ -6,7 +6,7 @@
 
 namespace steradian {
 
-// The view (sin, 0, cos) of that cosine.
+// The view (sin, 0, cos) with that cosine.
 Vec3d view_from_cosine(double cos_theta);
 
 // Four degrees of freedom: entries (0,0), (1,1), (0,2), (2,0) of R^T M over alpha, entry (2,2) being 1.
@@ -26,7 +26,7 @@ LtcInverse ltc_inverse(const LtcShape& shape, LobeFrame frame, double alpha, Vec
 // Density per solid angle at a unit direction.
 double ltc_evaluate(const LtcInverse& inverse, Vec3d l);
 
-// The lobe's share above the real horizon.
+// The fraction of the lobe above the real horizon.
 double ltc_above_horizon(const LtcInverse& inverse);
 
 }  // namespace steradian

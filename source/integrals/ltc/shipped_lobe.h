@@ -10,7 +10,7 @@
 
 namespace steradian {
 
-// What tables are read in: a lobe in float is read in double and rounded at the end.
+// Number type of table look-ups: a lobe in float is read in double and rounded at the end.
 template <class S>
 using TableNumber = std::conditional_t<std::is_same_v<S, float>, double, S>;
 

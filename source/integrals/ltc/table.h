@@ -1,4 +1,4 @@
-// The two layouts of a fitted table, and how each is read.
+// The two layouts of a fitted table, and their look-ups.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace steradian {
 
-// What a look-up gives: the matrix and both magnitudes.
+// Result of a look-up: the matrix and both magnitudes.
 struct LtcValue {
   LtcInverse inverse;
   double n_a = 0;
   double f_a = 0;
 };
 
-// Which element of M^-1 is 1. Engines expect the middle one; see docs/ltc.md for what each does between the nodes.
+// The element of M^-1 that is 1. Engines expect the middle one; docs/ltc.md describes the effect of each between the nodes.
 enum class ClassicNormalisation { middle, last };
 
 // Two textures as engines sample them: roughness along a row, sqrt(1 - cos theta) from row to row, nodes on the ends.
@@ -51,7 +51,7 @@ struct CompactTable {
   std::size_t bytes() const { return shapes.size() * 8 + magnitudes.size() * 4; }
 };
 
-// ltc_radiance by a table of one's own, fitted to another lobe, in place of GGX's. Precondition: serves(LtcMethod::classic, material).
+// ltc_radiance by a custom table, fitted to another lobe, instead of GGX's. Precondition: serves(LtcMethod::classic, material).
 Vec3d ltc_radiance_by(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
 Vec3d ltc_radiance_by_float(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
 

@@ -35,7 +35,7 @@ Stencil<S> stencil(Real<S> u, Real<S> v, int n) {
   return {{base, base + 1, base + row, base + row + 1}, {(one - fx) * (one - fy), fx * (one - fy), (one - fx) * fy, fx * fy}};
 }
 
-// Where a table of n nodes a side is read, roughness along a row.
+// Stencil of a table of n nodes a side, with roughness along a row.
 template <class S>
 Stencil<S> ltc_stencil(Real<S> roughness, Real<S> cos_theta, int n) {
   const auto at = Kernels<S>().ltc_coordinates(roughness, cos_theta);

@@ -1,7 +1,7 @@
-// Textured lights by cells: what a lobe sees of one cell of a light's plane, and of what it may leave off.
+// Textured lights by cells: a lobe's view of one cell of a light's plane, and the bound on the cell's error.
 //
-// The caller splits the light into cells until the sum of what they may leave off is small against the sum of what is seen
-// (source/integrals/ltc/texture_mean.h); the quotient of radiance and weight is the mean of the texture as the lobe weighs it.
+// The caller splits the light into cells until the sum of the errors is small against the sum of the visible light
+// (source/integrals/ltc/texture_mean.h). The quotient of radiance and weight is the mean of the texture under the lobe.
 //
 //   LtcTextureCellView view = ltc_texture_cell_view(m, 0, ggx_view(...), origin, x, y);     // once
 //   LtcTextureCellSeen seen = ltc_texture_cell_seen(cell, view, expected);                  // for each cell
@@ -13,7 +13,7 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // A lobe over the light's plane from a point.
-//   transform_inverse  M^-1 of the transformed cosine that tells how wide the lobe is, and that is the lobe where by_ggx is 0
+//   transform_inverse  M^-1 of the transformed cosine that gives the lobe's width, and that is the lobe if by_ggx is 0
 //   by_ggx        1: the lobe is GGX, of half_vectors
 //   origin, x, y  of the plane's coordinates, from the point; x and y unit
 //   height        of the point over the plane
@@ -48,14 +48,14 @@ LtcTextureCellView ltc_texture_cell_view(LtcMatrix m, int by_ggx, GgxView half_v
     return view;
 }
 
-// The covered part of a piece of the light's plane.
+// Covered part of a piece of the light's plane.
 //   center            its centroid
 //   axis_a, axis_b    conjugate half axes of the ellipse on which its four elements lie (light_elements.glsl)
 //   area              [m2]; 0: nothing is covered
-//   radius            the farthest that a part of it may lie from the centroid
-//   deviation         of its channels: the root of their mean variance, for what is even in luminance may yet change in colour
+//   radius            largest distance of a part of it from the centroid
+//   deviation         of its channels: the root of their mean variance, since uniform luminance may still vary in colour
 //   mean              of its radiance
-//   along_a, along_b  how far each channel's centroid is from the area's, in units of the axes, times the mean
+//   along_a, along_b  offset of each channel's centroid from the area's, in units of the axes, times the mean
 struct LtcTextureCell {
     vec2 center;
     vec2 axis_a;
@@ -68,10 +68,10 @@ struct LtcTextureCell {
     vec3 along_b;
 };
 
-// What a lobe sees of a cell.
+// A cell as weighted by a lobe.
 //   weight    integral of the lobe
 //   radiance  of the lobe times the texture, not negative
-//   error     what the quotient of the sums may be off by it, times the sum of the weights
+//   error     possible error of the quotient of the sums due to the cell, times the sum of the weights
 struct LtcTextureCellSeen {
     real weight;
     vec3 radiance;
@@ -83,8 +83,8 @@ real ltc_texture_cell_luminance(vec3 v) {
     return (v.x + v.y + v.z) * 0.333333333333333333;
 }
 
-// The lobe at a place of the plane, over the square of its distance and times the cosine at the light over the point's height: 0 below
-// the horizon.
+// Value of the lobe at a place of the plane, over the square of its distance and times the cosine at the light over the point's height. 0
+// below the horizon.
 real ltc_texture_cell_value(LtcTextureCellView view, vec3 r) {
     mask above = r.z > 0.0;
     vec3 upper = vec3(r.x, r.y, select(above, r.z, 1.0));
@@ -101,14 +101,14 @@ real ltc_texture_cell_value(LtcTextureCellView view, vec3 r) {
     return select(above, lobe * inverse * inverse2, 0.0);
 }
 
-// What the lobe sees of a cell, by its four elements, whose values give the mean of the lobe and its slopes; the texture's mean and first
-// moments meet both.
+// A cell as weighted by the lobe, by its four elements. Their values give the mean of the lobe and its slopes, which multiply the texture's
+// mean and first moments.
 //
-//   expected  mean of the whole light, as far as it is known
+//   expected  current estimate of the mean of the whole light
 //
-// What is left out: t as light_elements.glsl has it, t^3 / 8 times how far the cell's mean is from the expected one, and t^2 / 2 times its
-// deviation, times the highest that the lobe may be there: det / (pi |M^-1 l|^3), whose denominator falls by no more than the cell
-// reaches, and not below its least.
+// The bound on the error uses t of light_elements.glsl. It is t^3 / 8 times the difference of the cell's mean from the expected one, plus
+// t^2 / 2 times its deviation. Both are times the largest value of the lobe there, det / (pi |M^-1 l|^3). Its denominator is reduced by at
+// most the cell's reach, and not below its least.
 // Error: docs/ltc.md, "Textured lights". Source: this project.
 LtcTextureCellSeen ltc_texture_cell_seen(LtcTextureCell cell, LtcTextureCellView view, vec3 expected) {
     vec3 center = view.origin + (view.x * cell.center.x + view.y * cell.center.y);
@@ -145,7 +145,7 @@ LtcTextureCellSeen ltc_texture_cell_seen(LtcTextureCell cell, LtcTextureCellView
     return seen;
 }
 
-// Whether cells of the deviation `finest` are small against the lobe, where its peak is on the light.
+// True if cells of the deviation `finest` are small against the lobe, in case its peak is on the light.
 //
 //   bounds   left, right, bottom and top of the light
 mask ltc_texture_cell_resolves(LtcTextureCellView view, real finest, vec4 bounds) {

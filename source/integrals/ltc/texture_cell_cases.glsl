@@ -2,7 +2,7 @@
 // Needs: frame.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// By the classic table's matrix and by GGX, over the plane across c from a place about b on: mostly above the surface.
+// The classic table's matrix and GGX, over the plane across c from a place about b on: mostly above the surface.
 LtcTextureCellView case_texture_view(CaseInput i, int by_ggx) {
     mat3 frame = frame_from_normal(case_xyz(i.c));
     vec3 x = transform(frame, vec3(1.0, 0.0, 0.0));
@@ -11,7 +11,7 @@ LtcTextureCellView case_texture_view(CaseInput i, int by_ggx) {
     return ltc_texture_cell_view(ltc_from_classic(i.d), by_ggx, half_vectors, vec3(i.b.x, i.b.y, i.b.z + 1.0), x, y);
 }
 
-// A cell whose colours run across it.
+// A cell whose colours vary across it.
 LtcTextureCell case_texture_cell(CaseInput i) {
     LtcTextureCell cell;
     cell.center = vec2(i.a.x, i.a.y);

@@ -1,4 +1,4 @@
-// The mean of a textured light as one lobe weighs it, over cells of it (texture_tree.h), for the numbers S of a kernel.
+// The mean of a textured light under one lobe, over cells of the light (texture_tree.h), for the numbers S of a kernel.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 STERADIAN_BEGIN_ISA
 
-// The kernels of this folder, beside all others.
+// The kernels of this folder, together with all others.
 template <class S>
 struct TextureKernels : Kernels<S> {
   using typename Kernels<S>::real;
@@ -30,17 +30,17 @@ struct TextureKernels : Kernels<S> {
 #include "integrals/ltc/texture_cell.glsl"
 };
 
-//   found  false where the lobe is too narrow for the cells: what it sees is then a part of the texture that is larger than its texels, and
-//          a look-up serves
+//   found  false if the lobe is too narrow for the cells: it then covers a part of the texture larger than its texels, and a
+//          look-up serves
 template <class S>
 struct TextureMean {
   typename Kernels<S>::vec3 radiance;
   Mask<S> found;
 };
 
-// Cells whose bounds are above a threshold are split; the threshold falls from pass to pass, by what is still to go, until the bounds sum
-// to kTextureTolerance of the mean, or goes back to where there are not too many. So every lane sees the cells that its own threshold
-// leaves it, whatever the others do, and no pass remembers more than a path: shaders/texture_means.comp does the same.
+// Cells whose bounds are above a threshold are split. The threshold falls from pass to pass, by the remaining excess, until the bounds sum
+// to kTextureTolerance of the mean. After too many splits it rises again. So every lane uses the cells of its own threshold, whatever the
+// others do, and no pass stores more than a path. shaders/texture_means.comp does the same.
 template <class S>
 class TextureCells {
  public:
@@ -117,7 +117,7 @@ class TextureCells {
     sums.error = sums.error + select(lanes, seen.error, zero);
   }
 
-  // smallest: the cell itself, or that of the smallest ones below which it lies.
+  // smallest: the cell itself, or the smallest cell above it.
   void visit(const TextureCell& cell, const TextureCell& smallest, Mask<S> lanes) {
     if (!(cell.area > 0)) return;
     const auto seen = K().ltc_texture_cell_seen(packed(cell), view_, expected_);
@@ -143,7 +143,7 @@ class TextureCells {
   const TextureTree& tree_;
   const PlaneTexels texels_;
   const View view_;
-  vec3 expected_;  // mean, as the last pass has it
+  vec3 expected_;  // mean of the last pass
   real threshold_, splits_;
   Mask<S> too_deep_;
   Sums sums_;

@@ -7,10 +7,10 @@ namespace steradian {
 namespace {
 
 constexpr int kMostCells = 128;                        // a side
-double mean_square(Vec3d v) { return dot(v, v) / 3; }  // of the three channels
+double mean_square(Vec3d v) { return dot(v, v) / 3; }  // mean of the three channels
 double length2(const std::array<double, 2>& v) { return v[0] * v[0] + v[1] * v[1]; }
 
-// Sums over texels: of coverage, of radiance, their first moments, the coverage's second ones, and the radiance's mean square.
+// Sums over texels: coverage, radiance and their first moments, the coverage's second moments, and the mean square of the radiance.
 struct Moments {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, square = 0;
   Vec3d power{}, power_x{}, power_y{};
@@ -55,7 +55,7 @@ struct Range {
 
 TextureTree::TextureTree(const PlaneTexels& t) {
   const int least = std::max(1, std::max(t.width, t.height) / kMostCells);
-  // Children are side by side, before their own children: the moments of a cell are known when its second child is done.
+  // Children are side by side, before their own children: the moments of a cell are known when its second child is complete.
   const auto build = [&](auto&& self, std::size_t index, const Range& r) -> Moments {
     Moments m;
     if (std::max(r.width(), r.height()) <= least) {
@@ -96,9 +96,9 @@ TextureTree::TextureTree(const PlaneTexels& t) {
   bounds_ = {t.left, t.left + t.width * t.spacing, t.bottom, t.bottom + t.height * t.spacing};
 }
 
-// Of a smallest cell: one side of its long axis, as large as an even cell of its moments would be cut.
+// Half of a smallest cell, or of a cell below one: one side of its long axis, as large as half of a uniform cell with its moments.
 TextureCell TextureTree::half(const TextureCell& cell, int which, const TextureCell& smallest, const PlaneTexels& t) const {
-  // Half a rectangle of the deviation s has its centre at s sqrt(3) / 2, and half the deviation; the axes are s sqrt(2).
+  // Half a rectangle of deviation s has its centre at s sqrt(3) / 2, and half the deviation; the axes are s sqrt(2).
   TextureCell half = cell;
   const double shift = (2 * which - 1) * std::sqrt(3.0 / 8);
   half.center = {cell.center[0] + shift * cell.axis_a[0], cell.center[1] + shift * cell.axis_a[1]};

@@ -1,4 +1,4 @@
-// TextureTree: a textured light as cells that are split until a lobe is smooth over each: the mean of the texture as the lobe weighs it.
+// TextureTree: a textured light as cells that are split until a lobe is smooth over each, for the mean of the texture under the lobe.
 #pragma once
 
 #include <array>
@@ -10,16 +10,17 @@ namespace steradian {
 
 #include "integrals/ltc/texture_rule.glsl"
 
-// Radiance times coverage, and coverage, in square texels of a plane; rows from the bottom. The centre of the first is (left, bottom).
+// Radiance times coverage, and coverage, in square texels of a plane; rows run from the bottom. The centre of the first texel is (left,
+// bottom).
 struct PlaneTexels {
   double left, bottom, spacing;
   int width, height;
   const std::vector<std::array<float, 4>>& texels;
 };
 
-// Of the covered part of a piece of the light's plane: area, mean radiance, its deviation (of the channels, rms); centroid and the two axes
-// on which the elements lie; how far each channel's centroid is from there in units of the axes; the farthest that a part of the cell may
-// lie.
+// Covered part of a piece of the light's plane: area, mean radiance, and its deviation (of the channels, rms). Then its centroid, the two
+// axes on which the elements lie, and the offset of each channel's centroid in units of the axes. The radius is the largest distance of a
+// part of the cell from the centroid.
 struct TextureCell {
   double area = 0, deviation = 0, radius = 0;
   Vec3d mean{};
@@ -33,9 +34,9 @@ class TextureTree {
  public:
   explicit TextureTree(const PlaneTexels& texels);
 
-  // The first is the whole light.
+  // Cells of the tree; the first is the whole light.
   const std::vector<TextureCell>& cells() const { return cells_; }
-  // One of the two halves (0 and 1) of a smallest cell, or of what lies below it.
+  // One of the two halves (0 and 1) of a smallest cell, or of a cell below it.
   TextureCell half(const TextureCell& cell, int which, const TextureCell& smallest, const PlaneTexels& texels) const;
 
   double finest() const { return finest_; }                        // deviation of the smallest cells

@@ -11,14 +11,14 @@ namespace {
 
 using K = Kernels<double>;
 
-// A lobe at a point. ggx: of which half vectors it is GGX, or null.
+// A lobe at a point. ggx: half vectors for which the lobe is GGX, or null.
 struct Seeing {
   K::mat3 frame;
   K::LtcMatrix m;
   const K::GgxView* ggx = nullptr;
 };
 
-// Over the texture's cells.
+// Mean over the texture's cells.
 TextureMean<double> over_cells(const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at, const Seeing& s) {
   const auto turned = [&](Vec3d v) { return transform_transposed(s.frame, integrals::to_kernel<double>(v)); };
   const auto view = TextureKernels<double>().ltc_texture_cell_view(s.m, s.ggx != nullptr ? 1 : 0, s.ggx != nullptr ? *s.ggx : K::GgxView{},
@@ -27,11 +27,11 @@ TextureMean<double> over_cells(const FilteredTexture& texture, const TextureTree
   return TextureCells<double>(tree, texture.finest(), view).mean(K::mask(true));
 }
 
-// Around where the lobe looks.
+// Look-up around the centre of the lobe's footprint.
 Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, const ShadingPoint& at, const Seeing& s) {
   K k;
   const auto& [frame, m, ggx] = s;
-  // Any view serves: the lobe is where its matrix says.
+  // Any view serves: the matrix determines the lobe's direction.
   const auto shading = integrals::Shading<double>{K::vec3(0.0, 0.0, 1.0), K::mask(true), K::mask(light.side_of(at.position) < 0)};
   integrals::LtcVector<double> integral({m});
   const auto phi = integrate(integrals::contours_in<double>(light, frame, at.position), shading, integral);
@@ -49,7 +49,7 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
   const auto covariance = texture.covariance();
   const K::vec3 shape(covariance[0], covariance[1], covariance[2]);
   const K::vec2 aside(x - centroid[0], y - centroid[1]);
-  // Of the logarithm of the cosine: z under M^-1 is linear over the plane.
+  // Slope of the logarithm of the cosine: z under M^-1 is linear over the plane.
   const auto z = max(k.ltc_transform(m, f.center).z, 1.0e-30);
   const K::vec2 slope(k.ltc_transform(m, axis_x).z / z, k.ltc_transform(m, axis_y).z / z);
   const double widest = static_cast<double>(kTextureWidest) * std::sqrt(covariance[0] + covariance[2]);
@@ -58,7 +58,7 @@ Vec3f look_up(const PreparedPolygon& light, const FilteredTexture& texture, cons
     const auto g = k.ltc_texture_gaussian(ellipse, part.width, widest);
     const auto place = k.ltc_texture_place(g, aside, slope, shape);
     const auto under = [&](double px, double py) { return texture.under({px, py, g.major.x.v, g.major.y.v, g.minor.v}); };
-    // Its share of the light is that of where the lobe looks; only its centroid is moved.
+    // Its fraction of the light is that at the footprint's centre; only its centroid is moved.
     const FilteredTexture::Sum here = under(x, y), there = under(centroid[0] + place.x.v, centroid[1] + place.y.v);
     const bool off = !(there.rgbw[3] > kTextureLeastCoverage);
     const auto weight = static_cast<float>(part.weight);

@@ -1,5 +1,5 @@
-// TexturedLight: the mean radiance of a textured light as a lobe sees it: over cells of it (texture_tree.h) where the lobe is wider than
-// they are, else by one look-up in its blurred copies. Approximate; the error is measured in docs/ltc.md, "Textured lights".
+// TexturedLight: the mean radiance of a textured light under a lobe. It uses cells of the light (texture_tree.h) where the lobe is wider
+// than they are, else one look-up in its blurred copies. Approximate; the error is measured in docs/ltc.md, "Textured lights".
 #pragma once
 
 #include "integrals/ltc/filtered_texture.h"
@@ -15,8 +15,8 @@ struct TextureGaussian {
 inline const TextureGaussian kMixture[] = {{static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureNarrow)},
                                            {1 - static_cast<double>(kTextureNarrowWeight), static_cast<double>(kTextureWide)}};
 
-// Cells where they serve, else a look-up; or the look-up at once, where packs have found that cells do not: floats and doubles may
-// disagree.
+// either: cells where they serve, else a look-up. look_up: only the look-up, if packs have found that cells do not serve: floats and
+// doubles may disagree.
 enum class TextureWay { either, look_up };
 
 class TexturedLight {
@@ -25,8 +25,8 @@ class TexturedLight {
   TexturedLight(const AreaLight& light, const PreparedPolygon& polygon, const std::vector<Image>& images)
       : polygon_(polygon), texture_(light, polygon, images), tree_(texture_.finest()) {}
 
-  // The mean over the light's visible part, weighted with the lobe. Times the lobe's integral over a light of radiance 1, it is
-  // the radiance. The light's mean where it sends nothing.
+  // The mean over the light's visible part, weighted with the lobe. Times the lobe's integral over a light of radiance 1, it is the
+  // radiance. If the light sends nothing, it is the light's plain mean.
   Vec3f seen_by_diffuse(const ShadingPoint& at, TextureWay way = TextureWay::either) const;
   Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way = TextureWay::either) const;
 

@@ -33,7 +33,7 @@ K::vec3 direction(Random& random) {
 
 double distance(K::vec3 a, K::vec3 b) { return std::sqrt(dot(a - b, a - b).v); }
 
-// Where M w t meets the plane.
+// Intersection of M w t with the plane.
 K::vec3 hit(const K::LtcMatrix& m, K::vec3 w, K::vec3 normal, double height) {
   const K::vec3 l = K{}.ltc_texture_transform_back(m, w);
   return l * (K::real(height) / dot(normal, l));
@@ -67,8 +67,8 @@ TEST(TexturedLight, BackTransformUndoesTheTransform) {
   }
 }
 
-// The footprint's radii are the derivative of where a turned direction meets the plane: by central differences of step
-// h, whose error is of the order of h^2 = 1e-8 and of the rounding over h, 1e-12.
+// The footprint's radii are the derivative of the point at which a turned direction meets the plane. The test uses central differences of
+// step h. Their error is of the order of h^2 = 1e-8 and of the rounding over h, 1e-12.
 TEST(TexturedLight, FootprintIsTheDerivativeOfTheHit) {
   Random random(2);
   int tested = 0;
@@ -118,8 +118,8 @@ TEST(TexturedLight, AxesOfAnEllipseArePrincipal) {
   }
 }
 
-// On a light that is a Gaussian itself, the centroid under the placed Gaussian is where it was asked for, unless the
-// Gaussian would have to go further than 2.5 of its deviations for it: then it goes as far.
+// On a light that is a Gaussian itself, the centroid under the placed Gaussian is at the requested place. If the Gaussian would have to
+// move further than 2.5 of its deviations, it moves only that far.
 TEST(TexturedLight, PlacedGaussianHasTheCentroidAskedFor) {
   Random random(4);
   int held = 0;
@@ -138,7 +138,7 @@ TEST(TexturedLight, PlacedGaussianHasTheCentroidAskedFor) {
     const double sxx = a2 * c * c + b2 * s * s, sxy = (a2 - b2) * c * s, syy = a2 * s * s + b2 * c * c;
     const double txx = vxx + sxx, txy = vxy + sxy, tyy = vyy + syy, det = txx * tyy - txy * txy;
     const double det_s = sxx * syy - sxy * sxy, det_v = vxx * vyy - vxy * vxy;
-    // Moved on along (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope = p, to where exp(-x^2/2) (1 + x sqrt(p.slope)) is largest.
+    // It is moved along (V^-1 + S^-1)^-1 slope = S (V + S)^-1 V slope = p, to where exp(-x^2/2) (1 + x sqrt(p.slope)) is largest.
     const double wx = vxx * lx + vxy * ly, wy = vxy * lx + vyy * ly;
     const double zx = (tyy * wx - txy * wy) / det, zy = (txx * wy - txy * wx) / det;
     const double px = sxx * zx + sxy * zy, py = sxy * zx + syy * zy, share = 2 / (1 + std::sqrt(1 + 4 * (px * lx + py * ly)));
@@ -160,7 +160,7 @@ TEST(TexturedLight, PlacedGaussianHasTheCentroidAskedFor) {
   EXPECT_LT(held, 95);
 }
 
-// The mixture's weight and widths are the minimum of the square of what is left of k K_1(k) under dk/k.
+// The mixture's weight and widths minimise the square of the residual of k K_1(k) under dk/k.
 TEST(TexturedLight, WidthsFitTheSpectrumOfTheCosine) {
   const auto rest = [](double weight, double first, double second) {
     double sum = 0;
@@ -174,7 +174,7 @@ TEST(TexturedLight, WidthsFitTheSpectrumOfTheCosine) {
   const double w = kMixture[0].weight, a = kMixture[0].width, b = kMixture[1].width, best = rest(w, a, b);
   EXPECT_DOUBLE_EQ(kMixture[0].weight + kMixture[1].weight, 1);
   EXPECT_LT(best, 8e-4);
-  // Rounded to two digits: any step of two hundredths (of five for the flat ones) is worse.
+  // They are rounded to two digits: any step of two hundredths (of five for the flat ones) is worse.
   for (const double sign : {-1.0, 1.0}) {
     EXPECT_GT(rest(w + 0.05 * sign, a, b), best);
     EXPECT_GT(rest(w, a + 0.02 * sign, b), best);
@@ -182,7 +182,7 @@ TEST(TexturedLight, WidthsFitTheSpectrumOfTheCosine) {
   }
 }
 
-// Levels against the Gaussian's integral over the light, by a fine sum: radiance and coverage alike.
+// Levels against the Gaussian's integral over the light, by a fine sum, for radiance and coverage.
 TEST(FilteredTexture, LevelsAreGaussianBlurs) {
   constexpr int kTexels = 32;
   std::vector<std::uint8_t> grey;
@@ -191,8 +191,8 @@ TEST(FilteredTexture, LevelsAreGaussianBlurs) {
   std::vector<Image> images;
   const AreaLight light = square_light(kTexels, grey, images);
   const FilteredTexture texture(light, prepare_polygon(flat_polygon(light)), images);
-  // A blurred step of height 0.8 has a second derivative of at most 0.242 0.8 / sigma^2, bilinear look-up between texels of
-  // half a sigma an eighth of a quarter of that: 0.006. A blur cut at 3 sigma leaves out 0.0027 of 0.8.
+  // A blurred step of height 0.8 has a second derivative of at most 0.242 0.8 / sigma^2. Bilinear look-up between texels of half a sigma
+  // adds an eighth of a quarter of that: 0.006. A blur cut at 3 sigma omits 0.0027 of 0.8.
   double worst = 0;
   for (const double sigma : {0.125, 0.25, 0.5, 1.0, 2.0})  // levels: texels are 1/16, the finest sigma 1/32
     for (const double x : {-1.2, -0.4, 0.3, 0.95})
@@ -231,7 +231,7 @@ TEST(FilteredTexture, ConstantStaysConstantEverywhere) {
   }
 }
 
-// Every table row at the accuracy that docs/ltc.md promises for its texture: 2 %, and half a percent for the grid that judges.
+// Every table row is within the accuracy that docs/ltc.md promises for its texture: 2 %, plus half a percent for the grid of the test.
 TEST(TexturedLight, ErrorsAreThoseOfTheTable) {
   TexturedErrorOptions options;
   options.setups = 12;
@@ -242,7 +242,7 @@ TEST(TexturedLight, ErrorsAreThoseOfTheTable) {
   for (const TexturedErrorRow& row : rows)
     for (std::size_t t = 0; t < row.error.size(); ++t) {
       EXPECT_LT(row.error[t], 0.025) << row.roughness << " " << test_textures()[t].name;
-      // Where the mean is good already (fine checkers, rough surfaces) there is nothing to gain.
+      // If the mean is already good (fine checkers, rough surfaces), there is nothing to gain.
       if (row.mean[t] > 0.05) {
         EXPECT_LT(row.error[t], 0.2 * row.mean[t]) << row.roughness << " " << test_textures()[t].name;
       }
@@ -250,7 +250,7 @@ TEST(TexturedLight, ErrorsAreThoseOfTheTable) {
   std::printf("%s", textured_error_text(rows).c_str());
 }
 
-// Of the cosine-weighted light that a floor's point gets from a square light, the share that is red, and all of it: sums over its points.
+// Cosine-weighted light at a floor's point from a square light: its red part, and all of it, as sums over the light's points.
 struct Shine {
   double red, all;
 };
@@ -266,7 +266,7 @@ Shine shine_at(const AreaLight& light, const std::vector<Image>& images, Vec3d p
   return shine;
 }
 
-// A floor under a light of which a corner of a sixteenth shines, and under one that is half black: against the sum over its points.
+// A floor under a light of which only a corner of a sixteenth shines, and under one that is half black, against the sum over its points.
 TEST(TexturedLight, LitCornersAndHalvesOverAFloor) {
   for (const bool corner : {true, false}) {
     std::vector<std::uint8_t> grey;
@@ -288,7 +288,7 @@ TEST(TexturedLight, LitCornersAndHalvesOverAFloor) {
   }
 }
 
-// Red and green in squares, of one luminance: what tells the cells apart is their colour alone.
+// Red and green squares of one luminance: only their colour distinguishes the cells.
 TEST(TexturedLight, ColoursOfOneLuminance) {
   std::vector<Image> images;
   const AreaLight light = square_light(64, std::vector<std::uint8_t>(64 * 64, 0), images);

@@ -27,16 +27,16 @@ namespace steradian {
 namespace {
 
 constexpr std::size_t kChunk = kTilePixels;  // points that a thread takes at a time
-constexpr std::size_t kPackMultiple = 16;    // of Points::count
+constexpr std::size_t kPackMultiple = 16;    // multiple for Points::count
 
-// What points have in common.
+// The data that all points of a batch have in common.
 struct Question {
   const AreaLight& light;
   const Material& lobe;
   const methods::Row& row;
   RadianceOptions options;
   bool is_polygon;
-  PreparedPolygon polygon;  // of a polygon
+  PreparedPolygon polygon;  // empty unless the light is a polygon
 
   Question(const AreaLight& l, const Material& m, const RadianceOptions& o)
       : light(l),
@@ -49,7 +49,7 @@ struct Question {
   RadianceResult answer(std::size_t i, const ShadingPoint& at) const {
     if (!(dot(at.normal, at.view) > 0)) return methods::nothing(row.method);
     RadianceOptions own = options;
-    own.seed += i * 0x2545f4914f6cdd1du;  // an odd number: no two points draw the same
+    own.seed += i * 0x2545f4914f6cdd1du;  // an odd number, so that no two points draw the same
     return is_polygon ? row.polygon(polygon, at, lobe, own) : methods::curved_light_answer(light, at, lobe, row, own);
   }
 };
@@ -79,13 +79,13 @@ void answer_point(const Question& question, const PointRows<T>& points, std::siz
 
 // ---- On packs ----------------------------------------------------------------------------------------------------
 
-// A method on packs: a channel is plain times its factor and fresnel times its own.
+// A method on packs. A channel is plain times its factor plus fresnel times its own.
 struct PackMethod {
   std::function<void(const Points&, float* plain, float* fresnel)> run;
   Vec3f of_plain, of_fresnel;
 };
 
-// None where a method has no packs for the lobe and the light.
+// Returns nothing if a method has no packs for the lobe and the light.
 std::optional<PackMethod> pack_method(const Question& q, const PackLight& light) {
   const Material& m = q.lobe;
   const Simd simd = active_simd();
@@ -101,7 +101,7 @@ std::optional<PackMethod> pack_method(const Question& q, const PackLight& light)
     return plainly([irradiance, &light](const Points& points, float* plain) { irradiance(light, points, plain); },
                    m.albedo * std::numbers::inv_pi);
   }
-  if (!q.is_polygon) return {};  // round lights take fewer corners on packs
+  if (!q.is_polygon) return {};  // round lights use fewer corners on packs
   if (m.brdf == Brdf::ggx && !m.multiple_scattering && m.shadowing) {
     if (q.row.method == Method::closed_form) {
       const auto ggx = closed_form_table_for(simd).ggx;
@@ -145,7 +145,7 @@ std::optional<PackMethod> pack_method(const Question& q, const PackLight& light)
   return {};
 }
 
-// What every point has in common, as packs read it.
+// The widths and tangents that all points have in common, in the form that packs read.
 struct Widths {
   alignas(64) TilePlane alpha_x, alpha_y;
   TileVector tangent;
@@ -169,7 +169,7 @@ const BatchRowsTable<T>& rows_table() {
     return table.in_double;
 }
 
-// A unit direction is known to a rounding: the ends of an edge that is seen under nearly half a turn leave none in between, and the
+// Unit directions are known to a rounding. If an edge is seen under nearly half a turn, no direction between its ends is left. The
 // library's function walks such an edge in two. An edge of half length h is seen under more than 179.2 degrees from within h / 140.
 template <class T>
 Alone<T> alone_of(const Question& question) {
@@ -185,7 +185,7 @@ Alone<T> alone_of(const Question& question) {
   return alone;
 }
 
-// A thread's memory.
+// Memory of one thread.
 template <class T>
 struct Scratch {
   Columns<T> position, normal, view;
@@ -224,7 +224,7 @@ void answer_chunk(const Question& question, const Alone<T>& which, const PointRo
 
 VectorArrays arrays(const Columns<float>& v) { return {v.x.data(), v.y.data(), v.z.data()}; }
 
-// Calls work(first, count) for all points, on all cores.
+// Calls work(first, count) for all points, on the given number of threads (0: all cores).
 void in_chunks(std::size_t points, int threads, const std::function<void(std::size_t, std::size_t)>& work) {
   const auto chunk = [&](std::size_t c) {
     const FlushDenormals flush;
@@ -257,7 +257,7 @@ void radiance(const AreaLight& light, const PointRows<float>& points, const Mate
   const methods::Row* row = methods::find(in_float.method, lobe, in_float.quality);
   in_float.precision = row == nullptr || row->in_float ? Precision::float_ : Precision::double_;
   const Question question(light, lobe, in_float);
-  const std::vector<PackLight> lights = prepare_lights({}, {&light, 1});  // none where it has no extent or does not shine
+  const std::vector<PackLight> lights = prepare_lights({}, {&light, 1});  // empty if it has no extent or does not shine
   std::optional<PackMethod> method;
   if (!lights.empty() && !light.emission) method = pack_method(question, lights.front());
   if (!method) return answer_points(question, points, result, options.threads);

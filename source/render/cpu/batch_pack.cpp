@@ -32,7 +32,7 @@ STERADIAN_INLINE void store_pack(T* p, Real<PackOf<T>> x) {
   x.v.store_unaligned(p);
 }
 
-// Steps that are known when this is compiled become shuffles.
+// Steps known at compile time become shuffles.
 template <class T>
 STERADIAN_INLINE void load_steps(const T* first, std::ptrdiff_t row, std::ptrdiff_t column, std::ptrdiff_t count, T* x, T* y, T* z) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {

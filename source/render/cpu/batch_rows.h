@@ -1,4 +1,4 @@
-// Rows of an array to the columns that packs read and back, and the one integral that has packs of doubles.
+// Copies rows of an array to and from the columns that packs read. Also holds the one integral that has packs of doubles.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,21 @@
 
 namespace steradian {
 
-// A tile's worth of points.
+// Columns for a tile's worth of points.
 template <class T>
 struct Columns {
   alignas(64) std::array<T, kTilePixels + 16> x, y, z;
 };
 
-// As Rows of steradian/batch.h, from a first row on.
+// The same as Rows of steradian/batch.h, starting at a first row.
 template <class T>
 struct RowsFrom {
   const T* first;
   std::ptrdiff_t row, column;
 };
 
-// Which points the library's function for one point answers: those with a number that is not finite, and those so near the plane
-// of a flat light, within the reach of its edges, that they may see one under nearly half a turn.
+// Selects the points that the library's function for one point answers. They have a number that is not finite, or they may see an edge of a
+// flat light under nearly half a turn: near its plane, within the reach of its edges.
 template <class T>
 struct Alone {
   bool of_flat = false;
@@ -34,14 +34,14 @@ struct Alone {
 
 template <class T>
 struct BatchRowsTable {
-  // The last is repeated up to a multiple of 16.
+  // Repeats the last row up to a multiple of 16.
   void (*load)(const RowsFrom<T>& rows, std::size_t count, Columns<T>& to);
-  // To unit length. What is shorter than 1e-18 or longer than 1e18 becomes zero. count is a multiple of 16.
+  // Scales vectors to unit length. Vectors shorter than 1e-18 or longer than 1e18 become zero. count is a multiple of 16.
   void (*normalize)(Columns<T>& vectors, std::size_t count);
-  // Marks them, and returns how many there are. Before the vectors are normalized.
+  // Marks these points and returns their number. Must run before the vectors are normalized.
   std::size_t (*mark_alone)(const Alone<T>& which, const Columns<T>& position, const Columns<T>& normal, const Columns<T>& view,
                             std::size_t count, std::uint8_t* alone);
-  // plain of_plain + fresnel of_fresnel as rows of three; 0 where the view is not above the surface. fresnel may be null.
+  // Writes plain of_plain + fresnel of_fresnel as rows of three; 0 where the view is not above the surface. fresnel may be null.
   void (*store)(const T* plain, Vector3<T> of_plain, const T* fresnel, Vector3<T> of_fresnel, const Columns<T>& normal,
                 const Columns<T>& view, std::size_t count, T* rows);
 };

@@ -1,4 +1,4 @@
-// Batches against the library's functions for one point, on every instruction set; the Python tests ask more of them.
+// Tests batches against the library's functions for one point, on every instruction set. The Python tests check more.
 #include "steradian/batch.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ std::vector<Material> lobes() {
   return {lambert, ggx, phong, beckmann};
 }
 
-// Runs with each instruction set that this machine has.
+// Runs the test with each instruction set of this machine.
 template <class Test>
 void on_every_simd(Test test) {
   for (const Simd simd : available_simd()) {
@@ -60,7 +60,7 @@ void on_every_simd(Test test) {
   }
 }
 
-// 1e-13 of the light's radiance: some roundings of double. 2e-4 in float, of lobes as high as 5 (phong).
+// Bounds are 1e-13 of the light's radiance (some roundings of double), and 2e-4 in float, for lobes as high as 5 (phong).
 template <class T>
 void batches_agree(double bound) {
   const Points in_double = random_points(1500);

@@ -14,7 +14,7 @@ PixelPlace pixel_place(int index, int count) {
     return x - std::floor(x);
   };
   const double own = turn(index);
-  int row = 0;  // how many of the others have theirs before it
+  int row = 0;  // number of the others with a smaller turn
   for (int i = 0; i < count; ++i) row += turn(i) < own ? 1 : 0;
   const auto middle = [count](int cell) { return static_cast<float>((cell + 0.5) / count); };
   return {middle(index), middle(row)};
@@ -35,7 +35,7 @@ PixelSteps CameraRays::steps(int samples) const {
 }
 
 void CameraRays::block_directions(float x, float y, float (&dx)[16], float (&dy)[16], float (&dz)[16]) const {
-  using Row = xsimd::batch<float, xsimd::sse2>;  // what every x86-64 has; the order of operations is direction()'s
+  using Row = xsimd::batch<float, xsimd::sse2>;  // available on every x86-64; the order of operations is direction()'s
   static_assert(Row::size == 4);
   constexpr float kSteps[] = {0, 1, 2, 3};
   const Row across = Row(x) + Row::load_unaligned(kSteps);

@@ -11,7 +11,7 @@
 namespace steradian::camera_rays_test {
 namespace {
 
-// Each of `count` columns and rows holds one place, in its middle: so their mean is the pixel's centre, but for roundings of floats.
+// Each of `count` columns and rows holds one place, in its middle. Their mean is therefore the pixel's centre, except for float roundings.
 TEST(CameraRays, PlacesInAPixelAreEvenAndDoNotMoveThePicture) {
   for (const int count : {1, 2, 3, 4, 7, 16, 64, 100}) {
     double x = 0, y = 0;
@@ -30,7 +30,7 @@ TEST(CameraRays, PlacesInAPixelAreEvenAndDoNotMoveThePicture) {
   }
 }
 
-// No quarter of the pixel is left out, or crowded, by more than one place and a half.
+// Every quarter of the pixel has its number of places, to one and a half.
 TEST(CameraRays, PlacesInAPixelFillItsQuarters) {
   for (int count = 4; count <= 64; ++count) {
     int quarters[4] = {};

@@ -9,8 +9,8 @@
 namespace steradian {
 
 struct ClosedFormTable {
-  // Radiance towards the views for radiance 1 with shadowing: into `plain` with F = 1, into `fresnel` with
-  // F = (1 - v.h)^5. A channel is f0 (plain - fresnel) + f90 fresnel.
+  // Radiance towards the views for radiance 1, with shadowing. `plain` has F = 1, `fresnel` has F = (1 - v.h)^5. A channel is f0
+  // (plain - fresnel) + f90 fresnel.
   void (*ggx)(const PackLight& light, const Points& points, Quality quality, float* plain, float* fresnel);
 };
 

@@ -18,7 +18,7 @@ __attribute__((flatten)) void ggx(const PackLight& light, const Points& points, 
       store(fresnel + i, PackReal(0.0));
       continue;
     }
-    // x along the tangent as far as it is perpendicular to the normal; any x where it is not.
+    // x is the part of the tangent that is perpendicular to the normal, or any direction if there is none.
     const auto frame = k.frame_from_normal_and_view(n, load(points.tangent, i));
     const PackVec3 view = transform_transposed(frame, v);
     integral.alpha_x = load(points.alpha_x + i);

@@ -1,4 +1,4 @@
-// The methods of GGX that are there for comparison, at many surface points at once, on packs.
+// Methods of GGX for comparison only, at many surface points at once, on packs.
 #pragma once
 
 #include "core/simd.h"
@@ -8,7 +8,7 @@
 
 namespace steradian {
 
-// For radiance 1: into `plain` with F = 1, into `fresnel` with F = (1 - v.h)^5. Isotropic lobes: alpha_x.
+// Radiance for a light of radiance 1: `plain` with F = 1, `fresnel` with F = (1 - v.h)^5. Lobes are isotropic and use alpha_x.
 struct ComparisonTable {
   void (*clipless)(const PackLight& light, const Points& points, const LtcPackTables& classic, float* plain, float* fresnel);
   void (*representative_point)(const PackLight& light, const Points& points, float* plain, float* fresnel);

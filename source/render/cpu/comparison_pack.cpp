@@ -8,7 +8,7 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-// integral_at(i, view): of the points from i on, whose view is (s, 0, c).
+// integral_at(i, view): the integral for the points from i on, whose view is (s, 0, c).
 template <class IntegralAt>
 __attribute__((flatten)) void radiance(const PackLight& light, const Points& points, IntegralAt integral_at, float* plain, float* fresnel) {
   PackKernels k;

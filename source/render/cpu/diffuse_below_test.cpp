@@ -1,4 +1,4 @@
-// The diffuse lobe of a dielectric: what its boundary reflects does not reach it.
+// The diffuse lobe of a dielectric: light that its boundary reflects does not reach it.
 #include "reference/diffuse_below.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using namespace scene;
 
 Kernels<double> kernels;
 
-// (1 - v.h)^5 over the hemisphere, each direction by its cosine: midpoints of azimuth and squared cosine.
+// Integral of (1 - v.h)^5 over the hemisphere, weighted by the cosine: midpoints in azimuth and squared cosine.
 double sky_by_quadrature(double v_z) {
   constexpr int kNodes = 300;
   const double v_x = std::sqrt(1 - v_z * v_z);
@@ -37,7 +37,7 @@ double sky_by_quadrature(double v_z) {
 }  // namespace
 
 TEST(LambertUnderFresnel, MeanOverTheSkyIsThatOfQuadrature) {
-  // Least squares over 1 - v_z in 61 even steps, by the normal equations.
+  // Least squares over 1 - v_z, in 61 even steps, by the normal equations.
   constexpr int kTerms = 5, kSteps = 60;
   std::array<std::array<double, kTerms + 1>, kTerms> a{};
   double worst = 0;
@@ -74,7 +74,7 @@ TEST(LambertUnderFresnel, IsFarNearerToTheLobeThanAConstantWeight) {
     }
 }
 
-// A point light opposite the view at 75 degrees: half vectors are the normal, and F is Schlick's at cos 75.
+// A point light opposite the view at 75 degrees: the half vector is the normal, and F is Schlick's at cos 75.
 TEST(LambertUnderFresnel, TheReferenceWeighsEveryDirection) {
   Material m;
   m.fresnel_loss = 1;
@@ -87,7 +87,7 @@ TEST(LambertUnderFresnel, TheReferenceWeighsEveryDirection) {
   EXPECT_NEAR(lobe.radiance(lobe.evaluate({0, 0, 1})).x, (1 - f) / M_PI, 1e-15);
 }
 
-// Pixels of a dielectric at grazing views: closed form's glossy lobe and the diffuse lobe by quadrature.
+// Pixels of a dielectric at grazing views: the closed form's glossy lobe, and the diffuse lobe by quadrature.
 TEST(LambertUnderFresnel, PicturesShowIt) {
   Scene scene;
   SurfaceMaterial m;
@@ -107,7 +107,7 @@ TEST(LambertUnderFresnel, PicturesShowIt) {
   ggx.brdf = Brdf::ggx;
   ggx.alpha_x = ggx.alpha_y = 0.64;
   ggx.f0 = {0.04, 0.04, 0.04};
-  // Behind the floor, low: a panel and a disk.
+  // A panel and a disk, low behind the floor.
   AreaLight panel;
   panel.shape = Polygon{{{-1, 0.2, -5}, {1, 0.2, -5}, {1, 1.2, -5}, {-1, 1.2, -5}}, {}};
   panel.radiance = {3, 3, 3};

@@ -13,7 +13,7 @@ namespace steradian {
 struct DirectTable {
   // Adds albedo / pi times the irradiance of the lights to tile.radiance.
   void (*add_diffuse)(SurfaceTile& tile, const PackLight* const* lights, std::size_t light_count);
-  // Radiance of GGX towards the views under a punctual light of intensity 1: see ClosedFormTable.
+  // GGX radiance towards the views under a punctual light of intensity 1; see ClosedFormTable for plain and fresnel.
   void (*punctual_ggx)(const PackLight& light, const Points& points, float* plain, float* fresnel);
 };
 

@@ -6,7 +6,7 @@ namespace {
 
 using K = PackKernels;
 
-// GGX under a point: the lobe times the incident light. plain: F = 1, fresnel: F = (1 - v.h)^5.
+// GGX under a punctual light: the lobe times the incident light. plain: F = 1, fresnel: F = (1 - v.h)^5.
 __attribute__((flatten)) void punctual_ggx(const PackLight& light, const Points& points, float* plain, float* fresnel) {
   K k;
   const packed::Punctual& source = *std::get_if<packed::Punctual>(&light.shape);

@@ -1,4 +1,4 @@
-// Surfaces that shine and reflect: their own light does not light them.
+// Surfaces that shine and reflect are not lit by their own light.
 #include <gtest/gtest.h>
 
 #include "scene/test_meshes.h"
@@ -9,8 +9,8 @@ namespace {
 
 using namespace scene;
 
-// A tilted square that shines, its corners neither whole numbers nor near the origin, and nothing else. One corner is off its plane by as
-// much as the reader takes for a plane.
+// A tilted, shining square alone, with corners that are neither whole numbers nor near the origin. One corner is off its plane by as much
+// as the reader accepts for a plane.
 Scene panel(bool two_sided, Vec3f at, float half) {
   Scene scene;
   SurfaceMaterial m;
@@ -38,13 +38,13 @@ Scene panel(bool two_sided, Vec3f at, float half) {
 struct Extremes {
   Vec3f least{1e9f, 1e9f, 1e9f}, most{};
 };
-// Of the pixels that show the panel, seen from its lit side (1) or its back (-1).
+// Extremes over the pixels that show the panel, seen from its lit side (1) or its back (-1).
 Extremes seen(Scene scene, float side, RenderOptions options) {
   const auto& p = scene.meshes[0].positions;
   const auto middle = static_cast<Vec3d>((p[0] + p[2]) * 0.5f), n = static_cast<Vec3d>(scene.meshes[0].normals[0]),
              along = static_cast<Vec3d>(p[1] - p[0]);
   const Vec3d way = n * static_cast<double>(side) * length(along) + along * 0.5;
-  scene.cameras = {camera_at(middle + way, -way, 0.3)};  // the panel is all that the picture shows
+  scene.cameras = {camera_at(middle + way, -way, 0.3)};  // the panel fills the picture
   options.width = 48;
   options.height = 32;
   Extremes e;
@@ -60,10 +60,10 @@ Extremes seen(Scene scene, float side, RenderOptions options) {
 TEST(EmissiveRender, APanelIsNotLitByItself) {
   for (const Vec3f at : {Vec3f{0, 0, 0}, Vec3f{0.3f, 1.7f, -2.1f}, Vec3f{431.3f, -77.1f, 1013.7f}})
     for (const float half : {0.013f, 1.3f, 70.0f})
-      // Not ltc-clipless: to its formula a light at the horizon is not nothing.
+      // Without ltc-clipless: its formula does not give zero for a light at the horizon.
       for (const std::string method : {"auto", "ltc", "ltc-compact", "representative-point", "half-vector", "sampled"})
         for (const Shadows shadows : {Shadows::on, Shadows::off}) {
-          if (half < 1 && at.z > 100) continue;  // fewer than a thousand floats across
+          if (half < 1 && at.z > 100) continue;  // fewer than a thousand floats wide
           RenderOptions options;
           options.method = method;
           options.shadows = shadows;

@@ -6,7 +6,7 @@
 namespace steradian {
 namespace {
 
-constexpr float kLeastShare = 1e-3f;  // of the light from behind; less is black
+constexpr float kLeastShare = 1e-3f;  // least fraction of the light from behind; less is black
 
 }  // namespace
 

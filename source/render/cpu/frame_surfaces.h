@@ -1,4 +1,4 @@
-// FrameSurfaces: what the camera sees of a scene, tile by tile: the part of a frame that every back end shares.
+// FrameSurfaces: the surfaces that the camera sees of a scene, tile by tile. All back ends share this part of a frame.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@
 
 namespace steradian {
 
-inline constexpr int kMostLayers = 8;  // surfaces that light passes, one behind the other, and what is behind them
+inline constexpr int kMostLayers = 8;  // layers of surfaces that let light pass, with what lies behind them
 
 class FrameSurfaces {
  public:
-  // Scene and options must stay.
+  // Scene and options must outlive this object.
   FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts);
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
@@ -27,22 +27,22 @@ class FrameSurfaces {
   const CameraRays& camera() const { return camera_; }
   const RayScene& rays() const { return *rays_; }
   const environment::EnvironmentLight* environment() const { return environment_.get(); }  // null without one
-  std::span<const AreaLight> environment_spots() const;                                    // lights beside the scene's own
+  std::span<const AreaLight> environment_spots() const;                                    // lights in addition to the scene's own
 
-  // The surfaces of a tile through the places of a primary sample, and the background around them. behind: what to look past; null for
-  // the nearest surfaces. Returns where those lie.
+  // Fills a tile with the surfaces through the places of a primary sample, and the background around them. behind: distances to look past;
+  // null for the nearest surfaces. Returns the distances of the surfaces.
   TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr);
-  // SurfaceTile::seed: by what the pixels are, not by what they show, which is a rounding off where others find it.
+  // SurfaceTile::seed. It depends on the pixels' places, not on their surfaces, which may differ by a rounding on another back end.
   std::uint64_t seed(int index, int sample) const {
     return static_cast<std::uint64_t>(sample) * static_cast<std::uint64_t>(tile_count()) + static_cast<std::uint64_t>(index);
   }
-  // The background where a tile holds nothing, for those who fill it otherwise.
+  // Adds the background where a tile holds no surface, for callers that fill the tile in another way.
   void add_background(int index, int sample, SurfaceTile& tile) const;
-  // Adds all of the environment's light but its spots'.
+  // Adds all of the environment's light except that of its spots.
   void add_environment(SurfaceTile& tile);
 
   double environment_build_ms() const { return environment_build_ms_; }
-  // `rays` and `gbuffer`; `environment` where there is one.
+  // Times of the passes `rays` and `gbuffer`, and of `environment` if the scene has one.
   PassTime rays_time(int threads) const { return rays_clock_.time(threads); }
   PassTime gbuffer_time(int threads) const { return gbuffer_clock_.time(threads); }
   PassTime environment_time(int threads) const { return environment_clock_.time(threads); }
@@ -63,10 +63,10 @@ class FrameSurfaces {
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, environment_clock_{"environment"};
 };
 
-// Multiplies the shares by what the tile's surfaces let through, and moves `behind` past them: 0 where nothing comes through.
+// Multiplies `shares` by what the tile's surfaces let through, and moves `behind` past them: 0 where nothing comes through.
 void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind);
 
-// Adds `weight` of a tile's values to the pixels of a picture; shares: what of them arrives, null for all.
+// Adds `weight` times a tile's values to the pixels of a picture. shares: fraction of them that arrives; null for all.
 void add_to_picture(const TileVector& values, TileArea area, const TileVector* shares, float weight, std::vector<Vec3f>& pixels, int width);
 
 }  // namespace steradian

@@ -11,7 +11,7 @@
 namespace steradian {
 namespace {
 
-// Unit normals nearer than this share a horizon: 1e-5 of a light's solid angle.
+// Unit normals closer than this share a horizon, which moves by 1e-5 of a light's solid angle.
 constexpr float kSameNormal = 1e-5f;
 
 void put(TileVector& v, std::size_t i, Vec3f a) {
@@ -20,7 +20,7 @@ void put(TileVector& v, std::size_t i, Vec3f a) {
   v.z[i] = a.z;
 }
 
-// What the tile holds, now that it holds this surface.
+// Updates the kinds that the tile holds after this surface was added.
 void note(SurfaceTile& tile, const Surface& s) {
   tile.any_surface = true;
   tile.any_passing |= weighs(s.passes);
@@ -110,7 +110,7 @@ bool take_coats(SurfaceTile& from, SurfaceTile& to) {
     put_surface(to, i, coat, get(from.view, i));
     from.coat[i] = 0;
   }
-  to.any_override = false;  // the lobes of a material that replace what lies below the coat
+  to.any_override = false;  // lobes of a material that replace the layers below the coat
   return true;
 }
 
@@ -166,7 +166,7 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
         any |= valid[i] = traced ? -1 : 0;
         packet.ray.tnear[i] = behind != nullptr ? (*behind)[slot] : 0;
       }
-      if (any == 0 && behind != nullptr) {  // of a first layer every direction is wanted, the background's too
+      if (any == 0 && behind != nullptr) {  // a first layer needs every direction, also for the background
         std::fill_n(&hits.geometry[first], 16, RTC_INVALID_GEOMETRY_ID);
         continue;
       }
@@ -189,9 +189,9 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
 
 namespace {
 
-constexpr std::size_t kBlock = 16;  // slots that packets of rays and packs have together
+constexpr std::size_t kBlock = 16;  // slots that packets of rays and packs handle together
 
-// A block behind which nothing is.
+// Empties a whole block.
 void put_nothing_in_block(SurfaceTile& tile, std::size_t first) {
   const auto fill = [&](TilePlane& plane, float value) { std::fill_n(plane.data() + first, kBlock, value); };
   for (TileVector* v : vectors_of(tile))
@@ -201,15 +201,15 @@ void put_nothing_in_block(SurfaceTile& tile, std::size_t first) {
   std::fill_n(tile.material.data() + first, kBlock, nullptr);
 }
 
-// The mesh that was hit last: neighbours mostly hit the same.
+// The mesh of the last hit: neighbours mostly hit the same mesh.
 struct LastMesh {
   unsigned geometry = RTC_INVALID_GEOMETRY_ID;
   SurfaceKind kind = SurfaceKind::layered;
-  bool covers = false;  // its textures are means over what pixels cover of them
-  Surface like;         // of a plain mesh
+  bool covers = false;  // its textures are means over pixel footprints
+  Surface like;         // for a plain mesh
 };
 
-// Onto the surfaces that the normals of their vertices describe.
+// Moves positions onto the surfaces that the normals of their vertices describe.
 void smooth_positions(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
   for (std::size_t i = 0; i < kTilePixels; ++i)
     if (tile.material[i] != nullptr)
@@ -217,8 +217,8 @@ void smooth_positions(const Scene& scene, const TileHits& hits, SurfaceTile& til
           smooth_position(scene.meshes[hits.geometry[i]], hits.triangle[i], hits.u[i], hits.v[i], get(tile.geometric_normal, i)));
 }
 
-// Off the flat lights that they are the faces of, to the side that is seen: there the light lies below the horizon and shines away, if it
-// has one side. Between roundings of its own plane it would be all of the sky at one pixel and nothing at the next.
+// Moves positions off the flat lights whose faces they are, towards the visible side. There the light lies below the horizon and, if it has
+// one side, shines away. Within roundings of its own plane, it would fill the sky at one pixel and vanish at the next.
 void lift_off_lights(const Scene& scene, const TileHits& hits, SurfaceTile& tile) {
   std::int32_t last = -1;
   float lift = 0;

@@ -10,9 +10,9 @@
 namespace steradian {
 
 struct HalfVectorTable {
-  // GGX with shadowing, of the points' widths and tangents, for radiance 1: into `plain` with F = 1, into `fresnel` with F = (1 - v.h)^5.
+  // GGX with shadowing, with the points' widths and tangents, for radiance 1: `plain` with F = 1, `fresnel` with F = (1 - v.h)^5.
   void (*ggx)(const PackLight& light, const Points& points, const HalfVectorOptions& options, float* plain, float* fresnel);
-  // A Beckmann or Blinn-Phong lobe, the same at all points but for the tangent, for radiance 1.
+  // A Beckmann or Blinn-Phong lobe for radiance 1. All points have the same lobe, except for its tangent.
   void (*lobe)(const PackLight& light, const Points& points, const Material& lobe, const HalfVectorOptions& options, float* result);
 };
 

@@ -6,7 +6,7 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-// A lobe, its width about which a round light's corners gather, and its tangent.
+// A lobe, the width about which a round light's corners gather, and its tangent.
 template <class Arcs>
 struct LobeHere {
   Arcs arcs;
@@ -14,7 +14,7 @@ struct LobeHere {
   PackVec3 tangent;
 };
 
-// lobe_at(i): the lobe of the points from i on.
+// lobe_at(i): the lobe for the points from i on.
 template <class LobeAt>
 __attribute__((flatten)) void radiance(const PackLight& light, const Points& points, const HalfVectorOptions& options, LobeAt lobe_at,
                                        float* plain, float* fresnel) {

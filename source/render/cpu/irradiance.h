@@ -8,7 +8,7 @@
 namespace steradian {
 
 struct IrradianceTable {
-  // Irradiance of radiance 1 in [0, pi] at every point, of an area light: what of it reaches the diffuse lobe.
+  // Irradiance in [0, pi] that reaches the diffuse lobe at every point, from an area light of radiance 1.
   void (*irradiance)(const PackLight& light, const Points& points, float* result);
 };
 

@@ -1,4 +1,4 @@
-// For tests: a picture with exact shadows beside what judges it.
+// For tests: a picture with exact shadows, and the pictures that judge it.
 #pragma once
 
 #include "image/z_test.h"
@@ -9,10 +9,10 @@ namespace steradian {
 struct JudgedPictures {
   Picture open;       // by the method `auto`, without shadows
   Picture analytic;   // by the method `auto`, with exact shadows
-  Picture reference;  // by rays, with their variance, rare samples' included
+  Picture reference;  // by rays, with their variance and that of rare samples
 };
 
-// options: of all three but method, shadows and target error.
+// options: for all three pictures, except method, shadows and target error.
 inline JudgedPictures judged_pictures(const Scene& scene, RenderOptions options, double target_error) {
   JudgedPictures p;
   options.method = "auto";

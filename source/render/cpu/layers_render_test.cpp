@@ -1,4 +1,4 @@
-// Surfaces that let light from behind through: blended ones and thin walls.
+// Surfaces that let light from behind pass: blended ones and thin walls.
 #include <gtest/gtest.h>
 
 #include "scene/test_meshes.h"
@@ -17,7 +17,7 @@ SurfaceMaterial unlit(Vec4f color) {
   return m;
 }
 
-// Squares across the view, the first material nearest to the camera, which looks along -z.
+// Squares across the view of a camera that looks along -z. The first material is nearest to it.
 Scene stack(std::vector<SurfaceMaterial> materials) {
   Scene scene;
   scene.materials = std::move(materials);
@@ -44,7 +44,7 @@ void expect_near(Vec3f a, Vec3f b) { EXPECT_LT(length(a - b), 1e-5f) << a.x << "
 
 TEST(Layers, BlendedSurfacesCoverByTheirAlphaNearestFirst) {
   expect_near(middle(stack({unlit({1, 0, 0, 0.25f}), unlit({0, 1, 0, 0.5f}), unlit({0, 0, 1, 1})})), {0.25f, 0.375f, 0.375f});
-  expect_near(middle(stack({unlit({1, 0, 0, 0.25f})})), {0.25f, 0, 0});  // black behind
+  expect_near(middle(stack({unlit({1, 0, 0, 0.25f})})), {0.25f, 0, 0});  // the background is black
   expect_near(middle(stack({unlit({1, 0, 0, 0}), unlit({0, 1, 0, 1})})), {0, 1, 0});
   SurfaceMaterial opaque = unlit({1, 0, 0, 0.25f});
   opaque.alpha_mode = AlphaMode::opaque;
@@ -62,7 +62,7 @@ TEST(Layers, EndAfterEight) {
   std::vector<SurfaceMaterial> many(30, unlit({0, 0, 0, 0.05f}));
   many.push_back(unlit({1, 1, 1, 1}));
   expect_near(middle(stack(many)), {0, 0, 0});
-  many.erase(many.begin(), many.begin() + 23);  // seven and the white one
+  many.erase(many.begin(), many.begin() + 23);  // seven, and the white one
   const float left = 0.95f * 0.95f * 0.95f * 0.95f * 0.95f * 0.95f * 0.95f;
   expect_near(middle(stack(many)), {left, left, left});
 }
@@ -74,13 +74,13 @@ TEST(Layers, AThinWallShowsWhatIsBehindInItsColour) {
   glass.specular = 0;
   glass.transmission = 1;
   expect_near(middle(stack({glass, unlit({1, 1, 1, 1})})), {0.5f, 1, 0.8f});
-  glass.specular = 1;  // index 1.5, seen from straight above: 0.04 is reflected, of nothing
+  glass.specular = 1;  // index 1.5, seen from straight above: it reflects 0.04 of nothing
   expect_near(middle(stack({glass, unlit({1, 1, 1, 1})})), {0.48f, 0.96f, 0.768f});
   glass.metallic = 1;
   expect_near(middle(stack({glass, unlit({1, 1, 1, 1})})), {0, 0, 0});
 }
 
-// A wall of which half is diffuse, lit from the camera's side: half of the diffuse light stays.
+// A wall that is half diffuse, lit from the camera's side: half of the diffuse light remains.
 TEST(Layers, TransmissionTakesFromTheDiffuseLobe) {
   SurfaceMaterial wall;
   wall.metallic = 0;

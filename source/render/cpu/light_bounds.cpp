@@ -22,11 +22,11 @@ struct LightBox {
 };
 LightBox box_of(Vec3f low, Vec3f high) { return {{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}; }
 
-// Largest and least product of two numbers from two intervals.
+// Largest and least products of two numbers from two intervals.
 float largest_product(Interval a, Interval b) { return std::max({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
 float least_product(Interval a, Interval b) { return std::min({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
 
-// Largest, or least, height of the vertex v above the horizons of the surfaces.
+// Largest or least height of the vertex v above the surfaces' horizons.
 float height(Vec3f v, const LightBox& positions, const LightBox& normals, float (*product)(Interval, Interval)) {
   const auto along = [&](float c, Interval p, Interval n) { return product({c - p.high, c - p.low}, n); };
   return along(v.x, positions.x, normals.x) + along(v.y, positions.y, normals.y) + along(v.z, positions.z, normals.z);
@@ -34,7 +34,7 @@ float height(Vec3f v, const LightBox& positions, const LightBox& normals, float 
 float largest_height(Vec3f v, const LightBox& positions, const LightBox& normals) { return height(v, positions, normals, largest_product); }
 float least_height(Vec3f v, const LightBox& positions, const LightBox& normals) { return height(v, positions, normals, least_product); }
 
-// Distance range of the box from a plane.
+// Range of the box' heights above a plane.
 Interval heights(const LightBox& box, Vec3f normal, Vec3f point) {
   Interval h;
   for (int i = 0; i < 8; ++i) {
@@ -64,7 +64,7 @@ bool reaches(const PackLight& light, const LightBox& positions, const LightBox& 
       light.shape);
 }
 
-// Whether a shape that is larger by `spread` than the light's is all above the horizons.
+// True if the light's shape lies completely above the horizons. (SeenWhole enlarges it by `spread`.)
 bool above(const auto& shape, const LightBox& positions, const LightBox& normals) {
   return !shape.any_bound([&](Vec3f point, float radius) { return !(least_height(point, positions, normals) > radius); });
 }

@@ -1,4 +1,4 @@
-// What a tile's bounds say of its lights, against points within them.
+// Tests of a tile's bounds against lights, compared with points within the bounds.
 #include "render/cpu/light_bounds.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ PackLight disk(Random& random) {
   return prepare_lights(scene).front();
 }
 
-// The least height above a surface's horizon, and whether the lit side is seen.
+// The least height above a surface's horizon, and the visibility of the lit side.
 struct Looked {
   float least = INFINITY;
   bool lit = false;
@@ -78,7 +78,7 @@ TEST(LightBounds, WhatIsSeenWholeIsSoByEverySurface) {
     EXPECT_TRUE(!says || reaches(light, bounds));
   }
   std::printf("%d of %d that 64 points of the bounds see whole are known to be\n", whole, seen_whole_by_all);
-  EXPECT_GT(2 * whole, seen_whole_by_all);  // bounds of intervals cost some, not most
+  EXPECT_GT(2 * whole, seen_whole_by_all);  // interval bounds lose some lights, but not most
 }
 
 TEST(LightBounds, ARoundLightThatCountsAsLargerIsNoLongerSeenWhole) {
@@ -95,7 +95,7 @@ TEST(LightBounds, ARoundLightThatCountsAsLargerIsNoLongerSeenWhole) {
   EXPECT_TRUE(sees_whole(disk, floor));
   EXPECT_TRUE(sees_whole(disk, floor, 1.9f));
   EXPECT_FALSE(sees_whole(disk, floor, 2.1f));
-  floor.low.z = -1;  // some are behind it
+  floor.low.z = -1;  // some of it is behind the light
   EXPECT_FALSE(sees_whole(disk, floor));
 }
 

@@ -32,7 +32,7 @@ PackLight from_area_light(const AreaLight& a) {
   return light;
 }
 
-// Whether it has an area or a volume.
+// True if the light has an area or a volume.
 bool has_extent(const packed::Polygon& light) { return !light.vertices.empty(); }
 bool has_extent(const packed::Disk& light) { return is_finite(light.normal); }
 bool has_extent(const packed::Ellipsoid& light) { return is_finite(light.inverse_x); }
@@ -40,9 +40,9 @@ bool has_extent(const packed::Capsule& light) { return light.radius > 0; }
 bool has_extent(const packed::Punctual&) { return true; }
 bool has_extent(const packed::Pieces&) { return true; }
 
-// Where an edge passes the ball, if points of the ball see it under nearly half a turn.
+// Foot of the ball's centre on an edge, if points of the ball see the edge under nearly half a turn.
 std::optional<Vec3d> foot_on_long_edge(Vec3d a, Vec3d b, Vec3d center, double radius) {
-  constexpr double kBend = 0.014;  // what is left of half a turn [rad] where an edge's plane is known to 1e-5
+  constexpr double kBend = 0.014;  // rest to half a turn [rad] at which an edge's plane is known to 1e-5
   constexpr double kLong = 20;     // an edge's least length on each side, in the ball's radii: points of a tile may touch any shorter edge
   const double span = length(b - a);
   if (!(span > 2 * kLong * radius)) return std::nullopt;
@@ -91,7 +91,7 @@ std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLi
 }
 
 std::optional<packed::Polygon> with_long_edges_cut(const PreparedPolygon& light, Vec3d center, double radius) {
-  PreparedPolygon cut;  // stays empty up to the first long edge: there is none in most tiles
+  PreparedPolygon cut;  // stays empty up to the first long edge; most tiles have none
   std::size_t contour = 0;
   for (std::size_t i = 0; i < light.vertices.size(); ++i) {
     while (i == light.contours[contour + 1]) ++contour;

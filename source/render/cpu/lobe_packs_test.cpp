@@ -1,4 +1,4 @@
-// The methods and lobes that are not the renderer's usual ones: packs against one point at a time, for every instruction set.
+// Methods and lobes other than the renderer's usual ones: packs against one point at a time, for every instruction set.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ struct Cloud {
   ShadingPoint point(std::size_t i) { return {at(0, i), normalized(at(3, i)), normalized(at(6, i))}; }
 };
 
-// Points about a light, of any normals and views, so that it is often cut by the horizon.
+// Points about a light with arbitrary normals and views, so that the horizon often cuts the light.
 Cloud any_cloud(Random& random) {
   const auto direction = [&] { return Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
   Cloud cloud;
@@ -55,7 +55,7 @@ Cloud any_cloud(Random& random) {
 
 struct Case {
   std::string name;
-  Material lobe;  // of ggx, the width is the point's
+  Material lobe;  // for ggx, the width is the point's
   Method method;
   std::function<void(const PackLight&, const Points&, Simd, float* plain, float* fresnel)> packs;
 };
@@ -114,7 +114,7 @@ PackLight round_light(const AreaLight& light) {
 
 }  // namespace
 
-// A polygon is the same to both: what differs is the order of operations in float, of which cancelling edges make most.
+// A polygon is the same to both. They differ in the order of float operations, mostly where edges cancel.
 TEST(LobePacks, FollowOnePointAtATimeUnderPolygons) {
   Random random(31);
   Cloud cloud = any_cloud(random);
@@ -150,7 +150,7 @@ TEST(LobePacks, FollowOnePointAtATimeUnderPolygons) {
     }
 }
 
-// Disks and balls: both stand a polygon in for the outline, each within 0.14 % of the lobe, with its corners elsewhere.
+// Disks and balls: both replace the outline by a polygon, each within 0.14 % of the lobe, but with different corners.
 TEST(LobePacks, FollowOnePointAtATimeUnderRoundLights) {
   Random random(32);
   Cloud cloud = any_cloud(random);
@@ -177,8 +177,8 @@ TEST(LobePacks, FollowOnePointAtATimeUnderRoundLights) {
   }
 }
 
-// A point's light is its own, whoever shares its pack: beside one next to the rim, others had its finer polygon, and were up to 6 %
-// brighter or darker than beside the next.
+// A point's light does not depend on its neighbours in the pack. Next to a point near the rim, others used to get its finer polygon. They
+// were up to 6 % brighter or darker than next to another point.
 TEST(LobePacks, NeighboursNextToTheRimChangeNothing) {
   Random random(33);
   Cloud cloud = any_cloud(random);
@@ -187,7 +187,7 @@ TEST(LobePacks, NeighboursNextToTheRimChangeNothing) {
     const double angle = random.uniform(0, 6.28);
     cloud.put(0, i, Vec3d{0.82 * std::cos(angle), 0.82 * std::sin(angle), 0.28});
   }
-  Cloud alone = cloud;  // the points next to the rim are elsewhere
+  Cloud alone = cloud;  // points next to the rim are moved elsewhere
   for (std::size_t i = 0; i < kPoints; i += 3) alone.put(0, i, Vec3d{0, 0, -3});
   const PackLight light = round_light(disk);
   std::vector<Case> all = cases();

@@ -1,4 +1,4 @@
-// Lambert and GGX from polygon lights by linearly transformed cosines, on many points at once, on packs.
+// Lambert and GGX from polygon lights by linearly transformed cosines, at many points at once, on packs.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace steradian {
 
-// A table as packs read it: nodes of four floats, so that one load takes a node.
+// A table in the form that packs read: nodes of four floats, so that one load reads a node.
 struct PackTable {
   int size = 0;
   std::vector<float> nodes;
 };
 
-// The shipped tables. classic: matrix and magnitude; compact: shapes and magnitudes. fresnel: classic, and those of the lobe times
-// (1 - v.h)^5, which are empty otherwise: then f_A stands for it.
+// The shipped tables. classic: matrix and magnitude; compact: shapes and magnitudes. fresnel: classic, and tables of the lobe times
+// (1 - v.h)^5. If the latter are empty, f_A replaces them.
 struct LtcPackTables {
   PackTable matrix, magnitude;
   PackTable fresnel_matrix = {}, fresnel_magnitude = {};
@@ -28,11 +28,11 @@ LtcPackTables ltc_fresnel_pack_tables();
 LtcPackTables ltc_pack_tables(const ClassicTable& table);
 LtcPackTables ltc_compact_pack_tables();
 
-// What light of radiance 1 does to every point.
+// Results of light of radiance 1, for every point.
 struct LtcSums {
-  float* irradiance;  // that reaches the diffuse lobe, in [0, pi]; null: not wanted
+  float* irradiance;  // irradiance that reaches the diffuse lobe, in [0, pi]; null: not wanted
   float* specular;    // for F0 = 1 and F90 = 1: n_A times the lobe's integral
-  float* grazing;     // what F90 - F0 multiplies: f_A times the same, or the Fresnel lobe's own
+  float* grazing;     // factor of F90 - F0: f_A times the same, or the Fresnel lobe's own integral
 };
 
 struct LtcPackTable {

@@ -13,7 +13,7 @@ struct Both {
   integrals::Part<Pack> specular;
 };
 
-// One walk for both lobes, or for the one.
+// Walks once, for both lobes or for one.
 template <bool with_diffuse, class Outline>
 STERADIAN_INLINE Both integrate_over(const Outline& outline, const integrals::Shading<Pack>& shading, const Lobe& lobe) {
   if constexpr (with_diffuse) {
@@ -26,7 +26,7 @@ STERADIAN_INLINE Both integrate_over(const Outline& outline, const integrals::Sh
   }
 }
 
-// Functions of their own, so that each holds one walk in registers.
+// These are functions of their own, so that each holds one walk in registers.
 template <bool with_diffuse, class Outline>
 __attribute__((flatten, noinline)) Both integrate_polygon(const Outline& outline, const PackVec3& view, const Lobe& lobe) {
   return integrate_over<with_diffuse>(outline, outline.seen.shading(view), lobe);

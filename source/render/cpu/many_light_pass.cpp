@@ -5,7 +5,7 @@
 namespace steradian {
 namespace {
 
-// Where in a tile a slot is: x + y times the tile's side.
+// Place of each slot in a tile: x + y times the tile's side.
 constexpr std::array<std::uint16_t, kTilePixels> places_of_slots() {
   std::array<std::uint16_t, kTilePixels> places{};
   for (int y = 0; y < kTileSide; ++y)

@@ -15,24 +15,24 @@ namespace steradian {
 
 class ManyLightPass {
  public:
-  // As lights::ManyLights.
+  // Arguments as for lights::ManyLights.
   ManyLightPass(const std::vector<PackLight>& lights, Vec3f eye, float error);
 
   bool serves_all() const { return serves_all_; }
   const lights::FarLights& lights() const { return sum_.lights(); }
   float error() const { return sum_.error(); }
 
-  // How far the radiance of this thread's tile may be off.
+  // Bound of the error of this thread's tile, in radiance.
   TileVector& bound() { return workspace().bound; }
 
-  // Adds the light of those that it serves to a tile, and to bound(). Returns the others.
+  // Adds the diffuse light of the lights that it serves to a tile, and their error to bound(). Returns the other lights.
   std::vector<const PackLight*> add_to_tile(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
   std::vector<const PackLight*> others(const std::vector<const PackLight*>& lights) const;
 
-  // Blocks: points of this thread, from many tiles, that all lights it serves reach together.
+  // Blocks: points of this thread from many tiles, lit together by all lights that it serves.
   void clear_block() { workspace().block.points.clear(); }
   void take(const SurfaceTile& tile, TileArea area, int width);
-  // `weight` of their light to the picture, and of its bound to the layer light_bound.
+  // Adds `weight` times the block's light to the picture, and `weight` times its bound to the layer light_bound.
   void add_block(float weight, Picture& picture);
 
   void report(RenderStats& stats) const;

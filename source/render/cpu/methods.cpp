@@ -8,11 +8,11 @@
 namespace steradian {
 namespace {
 
-// A lobe that a surface shows, as the table of methods is asked about it.
+// A lobe that a surface shows, in the form in which the table of methods is queried.
 struct SpecularLobe {
   std::string material;
   Material lobe;
-  bool layered = false;  // of a metallic-roughness surface or a coat
+  bool layered = false;  // belongs to a metallic-roughness surface or a coat
 };
 
 Material ggx_of_any_width(bool anisotropic) {
@@ -29,7 +29,7 @@ Material sheen() {
   return m;
 }
 
-// The specular lobes that meshes of the scene show, by the materials' factors.
+// The specular lobes of the scene's meshes, by the materials' factors.
 std::vector<SpecularLobe> specular_lobes_in(const Scene& scene) {
   std::vector<SpecularLobe> lobes;
   for (const Mesh& mesh : scene.meshes) {
@@ -65,9 +65,9 @@ DirectMethod chosen(const std::vector<SpecularLobe>& lobes, const std::string& n
   bool layered = false;
   for (const SpecularLobe& l : lobes) {
     const methods::Row* row = methods::find(method_for(*asked_for, l.lobe), l.lobe, quality);
-    if (row == nullptr || !row->in_float)  // in a picture, auto is no reference
+    if (row == nullptr || !row->in_float)  // in a picture, auto never means a reference
       throw UsageError("--method " + name, "does not serve the " + describe(l), "use auto, sampled or reference, or another material");
-    // One method for all of them: the first that a lobe asks for, or the closed form where another cannot have that.
+    // All layered lobes use one method: the first that a lobe asks for, or the closed form if another lobe cannot have that.
     if (l.layered) {
       method.ggx = !layered || method.ggx == row->method ? row->method : Method::closed_form;
       layered = true;
@@ -113,7 +113,7 @@ DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
     method.kind = method.name == "reference" ? MethodKind::reference : MethodKind::sampled;
     const bool uneven = std::any_of(scene.area_lights.begin(), scene.area_lights.end(),
                                     [](const AreaLight& light) { return light.texture.has_value() || light.emission.has_value(); });
-    // Under an uneven light or an environment, no closed form is exact.
+    // Under a textured or profiled light or an environment, no closed form is exact.
     method.exact_diffuse = method.kind == MethodKind::sampled && options.shadows == Shadows::off && !uneven && !scene.environment;
     method.estimated_lobes = method.exact_diffuse ? LobeChoice::specular : LobeChoice::all;
   } else {

@@ -1,4 +1,4 @@
-// Textures in whole pictures: pixels show what they cover of them.
+// Textures in whole pictures: pixels show the mean of their footprints.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace steradian::mip_render_test {
 namespace {
 
-// A floor of squares to the horizon, that shines by itself.
+// A checkered floor up to the horizon, that shines by itself.
 Scene checkered_floor() {
   Scene scene;
   Image image{"squares", 64, 64, {}};
@@ -35,7 +35,7 @@ Scene checkered_floor() {
 
 constexpr int kWidth = 160, kHeight = 90;
 
-// The floor's mean over a grid of n x n points of every pixel, its texture looked up at each.
+// The floor's mean over n x n points of every pixel, with a texture look-up at each point.
 std::vector<double> means_of_points(const Scene& scene, int n) {
   const CameraRays camera(scene.cameras[0], kWidth, kHeight);
   std::vector<double> means;
@@ -64,7 +64,7 @@ double rms(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-// A picture of one ray a pixel is nearer to the truth than one of sixteen points of the texture a pixel.
+// A picture with one ray per pixel is closer to the truth than one with sixteen texture points per pixel.
 TEST(Textures, PixelsShowTheMeanOfWhatTheyCover) {
   const Scene scene = checkered_floor();
   RenderOptions options;
@@ -76,11 +76,11 @@ TEST(Textures, PixelsShowTheMeanOfWhatTheyCover) {
   EXPECT_LT(rms(one, truth), rms(points, truth));
   double sum = 0;
   for (std::size_t i = 0; i < one.size(); ++i) sum += one[i] - truth[i];
-  // And no darker, no brighter: by half a code of what its levels hold, in linear light at most.
+  // Nor is it darker or brighter: at most by half a code of its levels' values, in linear light.
   EXPECT_LT(std::fabs(sum / static_cast<double>(one.size())), 0.5 / 255 * 2.275);
 }
 
-// The barycentric coordinates of neighbouring pixels' hits, by rays in double that differ by a thousandth of a pixel.
+// Barycentric coordinates of hits in neighbouring pixels, by rays in double that differ by a thousandth of a pixel.
 TEST(Textures, FootprintsFollowTheNextPixel) {
   reference::Random random(11);
   const auto any = [&](double from, double to) { return random.uniform(from, to); };
@@ -95,7 +95,7 @@ TEST(Textures, FootprintsFollowTheNextPixel) {
     const Vec3d right{0.002, 0, 0}, down{0, -0.002, 0}, forward{0, 0, -1};
     const Vec3d ray{any(-0.5, 0.5), any(-0.5, 0.5), -1};  // ends on the plane at distance 1
     if (std::fabs(dot(normalized(n), normalized(ray))) < 0.05 || length(n) < 0.5) continue;
-    const auto hit = [&](Vec3d d) {  // barycentric, from the camera at the origin
+    const auto hit = [&](Vec3d d) {  // barycentric coordinates, from the camera at the origin
       const Vec3d q = d * (dot(n, p0) / dot(n, d)) - p0;
       return std::pair{dot(cross(q, e2), n) / dot(n, n), dot(cross(e1, q), n) / dot(n, n)};
     };

@@ -19,7 +19,8 @@ namespace {
 using lobes::Lobe;
 using reference::AzimuthSampler;
 
-// Mean of samples as they come, and its variance.
+// Running mean of samples, and its variance.
+//
 // Source: Welford 1962.
 class RunningMean {
  public:
@@ -38,7 +39,7 @@ class RunningMean {
   int count_ = 0;
 };
 
-// Sum over the lobes; radiance of a unit of incident radiance.
+// Sum over the lobes: radiance per unit of incident radiance.
 Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
   Vec3d sum{};
   for (const Lobe& lobe : lobes) sum += lobe.radiance(lobe.evaluate(l));
@@ -49,7 +50,7 @@ Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
 
 struct DirectSampler::Light {
   const AreaLight* area;
-  std::optional<PreparedPolygon> flat;  // none: a sphere or capsule, whose outline depends on the point
+  std::optional<PreparedPolygon> flat;  // empty for a sphere or capsule, whose outline depends on the point
 };
 
 struct DirectSampler::Scratch {
@@ -77,7 +78,7 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
   std::vector<SurfaceLobe> rest = lobes_of(surface);
   if (choice == LobeChoice::specular) std::erase_if(rest, [](const SurfaceLobe& l) { return l.diffuse; });
   Estimate sum;
-  while (!rest.empty()) {  // the lobes about one normal share their samples; a coat may have a normal of its own
+  while (!rest.empty()) {  // lobes about one normal share their samples; a coat may have a normal of its own
     const Vec3f normal = rest.front().normal;
     const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(normal)), static_cast<Vec3d>(surface.tangent));
     const Vec3d v = normalized(frame.to_local(static_cast<Vec3d>(view)));
@@ -94,7 +95,7 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
   return sum;
 }
 
-// Of scratch_->lobes, as an area light's: the map's density and the lobes', balance heuristic.
+// Estimates the environment as an area light: by the map's density and those of scratch_->lobes, with the balance heuristic.
 Estimate DirectSampler::estimate_environment(const Frame& frame, Vec3d p, Vec3d geometric, int spp, reference::Random& random) const {
   const std::vector<Lobe>& lobes = scratch_->lobes;
   const auto contribution = [&](Vec3d l, Vec3d direction) -> Vec3d {
@@ -122,7 +123,7 @@ Estimate DirectSampler::estimate_environment(const Frame& frame, Vec3d p, Vec3d 
 Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random) {
   Scratch& scratch = *scratch_;
   const std::vector<Lobe>& lobes = scratch.lobes;
-  // With shadows from where closed forms look from (shadow::Viewpoint): off the triangle, and never below it.
+  // With shadows, the point is where closed forms look from (shadow::Viewpoint): off the triangle, and never below it.
   const auto geometric = static_cast<Vec3d>(surface.geometric_normal);
   auto p = static_cast<Vec3d>(surface.position);
   if (shadows_ != nullptr) p += geometric * shadow::offset_from_surface(p);
@@ -158,11 +159,11 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
     const auto* capsule = std::get_if<Capsule>(&light.area->shape);
     const LightTexture* texture = light.area->texture ? &*light.area->texture : nullptr;
     const LightEmission* emission = light.area->emission ? &*light.area->emission : nullptr;
-    // What arrives from the light's point in direction l.
+    // Radiance that arrives from the light's point in direction l.
     const auto incident = [&](Vec3d l) -> Vec3d {
       if (shadows_ == nullptr && texture == nullptr && emission == nullptr) return polygon.radiance;
       const Vec3d direction = frame.to_world(l);
-      // A tube is too long for one plane to stand for it.
+      // A tube is too long to be represented by one plane.
       const double distance = capsule != nullptr ? distance_along(*capsule, p, direction) : plane_height / dot(direction, polygon.normal);
       const Vec3d there = p + direction * distance;
       if (shadows_ != nullptr) {

@@ -76,7 +76,7 @@ void OpenLights::build(std::uint32_t node, std::vector<Node>& leaves, std::size_
   build(children + 1, leaves, half, end);
 }
 
-// Where a point's triangle has a horizon of its own, the light must be above it.
+// True if the light lies above the horizons of the points' triangles, for points that have such a horizon.
 bool OpenLights::is_above(const TilePoints& points, const std::vector<std::uint32_t>& slots, const Node& node) const {
   const Vec3d c = (node.box.low + node.box.high) * 0.5, h = (node.box.high - node.box.low) * 0.5;
   return std::all_of(slots.begin(), slots.end(), [&](std::uint32_t i) {

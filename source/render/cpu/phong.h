@@ -9,8 +9,8 @@
 namespace steradian {
 
 struct PhongTable {
-  // Radiance of albedo 1 under radiance 1 in [0, 1] at every point, of a polygon. Options as in steradian/phong.h, unchecked;
-  // exact is the quadrature with 14 nodes. Arvo's recurrence wants denormals flushed (core/float_mode.h).
+  // Radiance in [0, 1] of albedo 1 at every point, under a polygon of radiance 1. Options as in steradian/phong.h, unchecked; exact is the
+  // quadrature with 14 nodes. Arvo's recurrence wants denormals flushed (core/float_mode.h).
   void (*radiance)(const PackLight& light, const Points& points, double exponent, const PhongOptions& options, float* result);
 };
 

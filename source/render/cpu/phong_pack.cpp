@@ -64,8 +64,8 @@ void radiance(const PackLight& light, const Points& points, double exponent, con
     curved([&](const auto& a, const auto& b, const auto& axis) { return lobe.template share<Method::series, quality>(a, b, axis); });
   };
   if (!light.is_pieces() && !light.is_round())
-    integrals::with_phong_share<Pack>(
-        lobe, options, [&](const auto& share) { polygon_radiance(share, exponent, options, light, points, result); });
+    integrals::with_phong_share<Pack>(lobe, options,
+                                      [&](const auto& share) { polygon_radiance(share, exponent, options, light, points, result); });
   else if (options.method != Method::series)
     integrals::with_phong_share<Pack>(lobe, options, [&](const auto& share) { curved(CalledShare(share)); });
   else if (options.quality == Quality::high)

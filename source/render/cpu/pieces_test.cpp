@@ -1,4 +1,4 @@
-// Parts of lights in one pack: points that are near to their part beside points that are far from theirs.
+// Parts of lights in one pack: points near their part next to points far from theirs.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::size_t kPoints = 16;
 
-// A square in the direction of z, in walk order.
+// A square in direction z, in walk order.
 void add_square(packed::Pieces& pieces, std::size_t point, float half, float distance) {
   const std::array<Vec3f, 4> corners = {
       Vec3f{-half, -half, distance}, {half, -half, distance}, {half, half, distance}, {-half, half, distance}};
   for (std::size_t k = 0; k < 4; ++k) pieces.set_edge(point, k, corners[k], corners[(k + 1) % 4]);
 }
 
-// The closed form at points that look alike; every other one sees a square from so far that elements stand for it, if asked for.
+// The closed form at equal points. If asked for, every other point sees a square from so far that elements replace it.
 std::array<float, kPoints> radiance(bool some_are_far) {
   packed::Pieces pieces;
   pieces.add_block(4);

@@ -1,5 +1,4 @@
-// Lights that shine by a profile, in whole pictures: against sums of points, and the sampled picture, which asks for the emission ray by
-// ray.
+// Profiled lights in whole pictures, against sums of points, and against the sampled picture, which evaluates the emission ray by ray.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +29,7 @@ std::shared_ptr<const LightProfile> lamp_profile() {
   return std::make_shared<const LightProfile>(p);
 }
 
-// A floor at y = 0 seen from above and aside, a panel at y = 1.5 that looks down.
+// A floor at y = 0, seen obliquely from above, and a panel at y = 1.5 that faces down.
 Scene lit_floor(bool round, float roughness, float specular) {
   SurfaceMaterial m;
   m.name = "floor";
@@ -84,7 +83,7 @@ TEST(ProfiledRender, DiffuseLightIsTheReferences) {
   }
 }
 
-// The mean is of directions; what a boundary keeps from all of them is in the integral that it is multiplied by.
+// The mean is over directions. Light that a boundary keeps back from all of them is in the integral that multiplies the mean.
 TEST(ProfiledRender, ABoundaryAboveTheDiffuseLobeLeavesTheMeanAsItIs) {
   const Scene scene = lit_floor(false, 0.5f, 1);
   const std::vector<PackLight> lights = prepare_lights(scene);
@@ -114,7 +113,7 @@ TEST(ProfiledRender, ABoundaryAboveTheDiffuseLobeLeavesTheMeanAsItIs) {
   }
 }
 
-// Sheen, coat and a lobe of an extra each ask for their own mean.
+// Sheen, coat and a custom lobe each use their own mean.
 TEST(ProfiledRender, EveryLobeAgreesWithTheSampledPicture) {
   Material phong;
   phong.brdf = Brdf::phong;
@@ -136,13 +135,13 @@ TEST(ProfiledRender, EveryLobeAgreesWithTheSampledPicture) {
       squares += (x - y) * (x - y), all += y * y;
     }
     std::printf("kind %d: mean %.5f, rms %.2e\n", kind, a / b, std::sqrt(squares / all));
-    EXPECT_NEAR(a / b, 1, 5e-3) << kind;  // of 960 pixels with a hundredth of noise each, and the lobes' own error
+    EXPECT_NEAR(a / b, 1, 5e-3) << kind;  // for 960 pixels with a hundredth of noise each, and the lobes' own error
     EXPECT_LT(std::sqrt(squares / all), 0.03) << kind;
   }
 }
 
-// Past an occluder the mean is that of the whole light: what that costs where part of it is seen (docs/lights.md).
-// What docs/lights.md says of penumbras. The bounds are half as much again.
+// Behind an occluder, the mean is that of the whole light. This measures the error where part of the light is visible. docs/lights.md
+// states the errors in penumbras. The bounds are half as much again.
 TEST(ProfiledRender, WhatTheMeanOfAllCostsInPenumbrasIsMeasured) {
   const auto narrow = std::make_shared<LightProfile>(*lamp_profile());
   for (std::size_t i = 0; i < narrow->candela.size(); ++i) {

@@ -34,7 +34,7 @@ const char* text_of(RTCError error) {
   }
 }
 
-// What Embree has noted since it was last asked, on this thread; of no device, why there is none.
+// Throws the error that Embree has noted on this thread since the last query; for a null device, the reason why there is none.
 void throw_noted_error(RTCDevice device, const char* doing) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE && device != nullptr) return;
@@ -45,14 +45,14 @@ void throw_noted_error(RTCDevice device, const char* doing) {
 }  // namespace
 
 float unit_of_size(float size) {
-  const auto steps = [&] { return std::clamp(static_cast<int>(std::lround(std::ilogb(size) / 16.0)), -7, 7); };  // 2^128 is no float
+  const auto steps = [&] { return std::clamp(static_cast<int>(std::lround(std::ilogb(size) / 16.0)), -7, 7); };  // 2^128 exceeds float
   return size > 0 ? std::ldexp(1.0f, -16 * steps()) : 1.0f;
 }
 
 void RayScene::Release::operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 void RayScene::Release::operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 
-// Cut-out materials: a hit where alpha is below the cutoff is none.
+// Cut-out materials: discards hits whose alpha is below the cutoff.
 struct RayScene::AlphaTest {
   const Scene* scene;
   const Mesh* mesh;
@@ -89,15 +89,15 @@ float unit_of(const Scene& scene) {
   return unit_of_size(size);
 }
 
-// Of sixteen rays.
+// Multiplies arrays of sixteen rays.
 void multiply(std::initializer_list<float*> numbers, float by) {
   if (by == 1) return;
   for (float* sixteen : numbers)
     for (std::size_t i = 0; i < 16; ++i) sixteen[i] *= by;
 }
 
-// Gives a lane that nobody asks for finite numbers and an empty interval. Where the processor has no packets of sixteen, Embree splits
-// them, and its halves must be valid rays in every lane.
+// Gives an unused lane finite numbers and an empty interval. If the processor has no packets of sixteen, Embree splits them, and its halves
+// must be valid rays in every lane.
 void disable(RTCRay16& rays, std::size_t lane) {
   rays.org_x[lane] = rays.org_y[lane] = rays.org_z[lane] = rays.dir_x[lane] = rays.dir_y[lane] = rays.time[lane] = 0;
   rays.dir_z[lane] = rays.tnear[lane] = 1;
@@ -110,7 +110,7 @@ void disable(RTCRay16& rays, std::size_t lane) {
 RayScene::RayScene(const Scene& scene, Lasts lasts) : device_(rtcNewDevice("")) {
   throw_noted_error(device_.get(), "starting");
   rtc_.reset(rtcNewScene(device_.get()));
-  // Robust: without it one in seven of the ways through sides and corners of a closed mesh leaves it.
+  // Robust: without it, one in seven of the paths through sides and corners of a closed mesh leaves the mesh.
   rtcSetSceneFlags(rtc_.get(), lasts == Lasts::many_scenes ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(rtc_.get(), RTC_BUILD_QUALITY_MEDIUM);
   follow(scene);
@@ -163,7 +163,7 @@ bool RayScene::put(unsigned number, const Mesh& mesh, const Scene& scene) {
   }
   part.mask = mask;
   if ((mask & kCutOut) != 0) {
-    // Where the scene is another one, its materials are elsewhere even if the triangles are the same.
+    // Another scene has its materials elsewhere, even if the triangles are the same.
     if (part.alpha == nullptr) {
       part.alpha = std::make_unique<AlphaTest>();
       rtcSetGeometryIntersectFilterFunction(part.geometry, AlphaTest::filter);
@@ -237,12 +237,12 @@ bool RayScene::blocked(Vec3f from, Vec3f direction, float near, float far, unsig
   rtcInitIntersectContext(&context);
   RTCRay ray = {from.x, from.y, from.z, near, direction.x, direction.y, direction.z, 0.0f, far, mask, 0, 0};
   rtcOccluded1(rtc_.get(), &context, &ray);
-  return ray.tfar < 0;  // Embree's sign of a hit
+  return ray.tfar < 0;  // Embree's sign for a hit
 }
 
 namespace {
 
-// How far the origin of a shadow ray keeps off its surface: a few roundings of its coordinates.
+// Distance of a shadow ray's origin from its surface: a few roundings of its coordinates.
 float offset_of(Vec3f p) { return 1e-5f + 4e-6f * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
 }  // namespace

@@ -25,14 +25,14 @@
 namespace steradian {
 namespace {
 
-// What a pilot run of `reference` says of a tile.
+// Result of a pilot run of `reference` for a tile.
 struct Pilot {
-  double variance = 0;  // of one pair of samples, summed over pixels and channels
-  double square = 0;    // of the radiance, likewise
+  double variance = 0;  // variance of one pair of samples, summed over pixels and channels
+  double square = 0;    // square of the radiance, likewise
 };
 
 constexpr int kPilotPairs = 32;  // enough to rank tiles; the final estimate does not use them
-constexpr int kMinPairs = 64;    // below, the estimated variance is too rough for a z-test
+constexpr int kMinPairs = 64;    // with fewer, the estimated variance is too rough for a z-test
 constexpr int kMaxPairs = 1 << 16;
 
 class Renderer {
@@ -63,7 +63,7 @@ class Renderer {
     if (method_.kind == MethodKind::reference && options_.target_error > 0) pairs = plan_pairs();
     if (in_blocks()) {
       each_block([&](const std::vector<int>& tiles) {
-        // A block is done as a whole or not at all.
+        // A block is either completely done or not at all.
         const auto done = [&](int index) -> std::uint8_t& { return state.done[static_cast<std::size_t>(index)]; };
         if (std::all_of(tiles.begin(), tiles.end(), done)) {
           for (const int index : tiles) take_surfaces(index);
@@ -77,11 +77,11 @@ class Renderer {
         const auto tile = static_cast<std::size_t>(index);
         if (state.done[tile] != 0) return take_surfaces(index);
         render_tile(index, pairs[tile], state.picture);
-        // Asked to stop on its way, it has left out samples: what it has is of no use.
+        // A tile that was stopped on its way lacks samples, so its result is discarded.
         stopped() ? clear_tile(index, state.picture) : void(state.done[tile] = 1);
       });
     }
-    Picture picture = options_.stop != nullptr ? state.picture : std::move(state.picture);  // who cannot stop it needs no copy
+    Picture picture = options_.stop != nullptr ? state.picture : std::move(state.picture);  // no copy is needed if nothing can stop it
     if (indirect_ && !stopped()) arena_.execute([&] { indirect_->add_to(picture); });
     return picture;
   }
@@ -129,7 +129,7 @@ class Renderer {
   Sorted sorted() const { return options_.shadows != Shadows::off && !method_.estimates() ? Sorted::for_rays_and_edges : Sorted::for_rays; }
 
   std::unique_ptr<ManyLightPass> prepare_many_lights() {
-    constexpr std::size_t kMany = 64;  // from here on automatic takes the tree
+    constexpr std::size_t kMany = 64;  // from this many on, automatic uses the tree
     const bool wanted = options_.lights == LightSum::tree || (options_.lights == LightSum::automatic && lights_.size() >= kMany);
     if (!wanted || method_.estimates()) return nullptr;
     return std::make_unique<ManyLightPass>(lights_, surfaces_.camera().origin(), static_cast<float>(options_.light_error));
@@ -139,7 +139,7 @@ class Renderer {
   int tile_count() const { return surfaces_.tile_count(); }
   TileArea area(int index) const { return surfaces_.area(index); }
 
-  // A new state, or one to go on with.
+  // Begins a new state, or checks one that is to be continued.
   void begin(RenderState& state) const {
     const auto tiles = static_cast<std::size_t>(tile_count());
     Picture& picture = state.picture;
@@ -166,7 +166,7 @@ class Renderer {
     for (auto& [name, layer] : picture.layers) clear(layer);
   }
 
-  // Of a tile whose direct light is done: what the bounce wants of it.
+  // Hands the surfaces of a tile whose direct light is done to the bounce.
   void take_surfaces(int index) {
     if (!indirect_) return;
     surfaces_.fill(index, 0, *workspace());
@@ -185,7 +185,7 @@ class Renderer {
     });
   }
 
-  // Squares of tiles.
+  // Calls work(tiles) for squares of tiles.
   template <class Work>
   void each_block(Work work) {
     constexpr int kSide = 4;
@@ -205,13 +205,13 @@ class Renderer {
     });
   }
 
-  // What a surface's samples are for: primary sample, layer of surfaces that light passes, pilot run (1) or picture (0).
+  // Purpose of a surface's samples: primary sample, layer of surfaces that light passes, pilot run (1) or picture (0).
   struct Purpose {
     int sample, layer;
     std::uint64_t phase;
   };
 
-  // One stream of random numbers per pixel and purpose: no result depends on who computes what.
+  // One stream of random numbers per pixel and purpose, so that no result depends on the order of the work.
   reference::Random random_of(TileArea a, int x, int y, Purpose purpose) const {
     const auto pixel =
         static_cast<std::uint64_t>(a.y + y) * static_cast<std::uint64_t>(options_.width) + static_cast<std::uint64_t>(a.x + x);
@@ -232,10 +232,10 @@ class Renderer {
       }
   }
 
-  // A thread's own: memory fresh from the system for every tile would cost more than its rays.
+  // Each thread has its own tile: fresh memory from the system for every tile would cost more than its rays.
   SurfaceTile* workspace() { return tiles_.local().get(); }
 
-  // Pairs per tile so that the rms standard error is the target's share of the rms radiance, from a pilot run.
+  // Plans pairs per tile by a pilot run. The rms standard error becomes the target's fraction of the rms radiance.
   std::vector<int> plan_pairs() {
     steps_ *= 2;
     std::vector<Pilot> pilots(static_cast<std::size_t>(tile_count()));
@@ -255,7 +255,7 @@ class Renderer {
       square += pilot.square;
       sigma += std::sqrt(pilot.variance);
     }
-    // Least work for a given sum of variances over pairs: pairs in proportion to the tile's standard deviation.
+    // Least work for a given sum of variances over pairs: pairs are proportional to the tile's standard deviation.
     std::vector<int> pairs;
     for (const Pilot& pilot : pilots) {
       const double wanted = options_.target_error * options_.target_error * square * options_.aa;
@@ -265,10 +265,10 @@ class Renderer {
     return pairs;
   }
 
-  // Whether blocks of tiles are to be lit together.
+  // True if blocks of tiles are lit together.
   bool in_blocks() const { return many_lights_ && !lighting_.has_shadows() && method_.exact_diffuse; }
 
-  // All light of a tile but the diffuse one of many lights, for which its block takes it. Whether there is any.
+  // Adds all light of a tile except many lights' diffuse light, which its block adds. Returns false if there is no such light.
   bool light_tile_of_block(SurfaceTile& tile, TileArea a) {
     if (tile.any_diffuse) block_clock_.run([&] { many_lights_->take(tile, a, options_.width); });
     const bool diffuse_alone = !(tile.any_specular || tile.any_sheen || tile.any_coat || tile.any_override);
@@ -280,7 +280,7 @@ class Renderer {
   }
 
   enum class Sum { tile, block };
-  // What the surfaces of a tile send to the camera, in its radiance; `shares` of it arrive.
+  // Computes the light that a tile's surfaces send to the camera, in the tile's radiance. The fraction `shares` of it arrives.
   void light_tile(SurfaceTile& tile, TileArea a, int sample, int layer, int pairs, const TileVector* shares, Picture& picture, Sum sum) {
     const float weight = 1.0f / static_cast<float>(options_.aa);
     bool bounded = many_lights_ != nullptr;
@@ -351,7 +351,7 @@ class Renderer {
   FrameSurfaces surfaces_;
   const std::vector<PackLight> lights_;
   const std::vector<const PackLight*> light_pointers_ = pointers_to(lights_);
-  const std::unique_ptr<ManyLightPass> many_lights_;  // null where each light is done by itself
+  const std::unique_ptr<ManyLightPass> many_lights_;  // null if each light is summed by itself
   TileLighting lighting_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};

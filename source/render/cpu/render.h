@@ -5,8 +5,7 @@
 
 namespace steradian {
 
-// As render (steradian/render.h).
-// cache: null keeps nothing.
+// The same as render (steradian/render.h). cache: null caches nothing.
 Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderCache* cache, RenderStats* stats, RenderState* state);
 
 }  // namespace steradian

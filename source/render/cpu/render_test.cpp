@@ -33,7 +33,7 @@ SurfaceMaterial diffuse(float albedo) {
   return m;
 }
 
-// A floor of albedo 0.5 and a camera above it, looking down at an angle.
+// A floor of albedo 0.5, and a camera above it that looks down at an angle.
 Scene diffuse_floor() {
   Scene scene = floor_scene(diffuse(0.5f), 8, {0, 3, 4});
   scene.cameras[0].name = "main";
@@ -54,7 +54,7 @@ AreaLight tube_light(Vec3d center, Vec3d half_axis, double radius) {
 }
 
 AreaLight ceiling_light() { return polygon({{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}}, {5, 4, 3}); }
-AreaLight wall_light() {  // half below the floor
+AreaLight wall_light() {  // half of it is below the floor
   return polygon({{-2, -1, -1}, {-2, -1, 1}, {-2, 1.5, 1}, {-2, 1.5, -1}}, {1, 2, 3});
 }
 
@@ -90,11 +90,11 @@ TEST(Render, DiffuseFloorIsThePolygonIntegralAtEveryPixel) {
         expected += light.radiance * (polygon_irradiance(prepare_polygon(flat_polygon(light)), p, {0, 1, 0}) * 0.5 / M_PI);
       worst = std::max(worst, length(static_cast<Vec3d>(picture.at(x, y)) - expected));
     }
-  // Radiance up to 5: float irradiances are good to 5e-7 (docs/accuracy.md), hit points to 2e-6 of 10 m.
+  // Radiance up to 5: float irradiances are accurate to 5e-7 (docs/accuracy.md), hit points to 2e-6 of 10 m.
   EXPECT_LT(worst, 2e-5);
 }
 
-// A light of a thousandth of the size and a million times the radiance is the same light, to the square of its size over its distance.
+// A light with a thousandth of the size and a million times the radiance gives the same light, to the square of size over distance.
 TEST(Render, SmallLightsKeepTheirPower) {
   const auto lights = [](double size) {
     const Vec3d power = Vec3d{3, 2, 1} / (size * size), center{0.3, 3, -0.5};
@@ -123,15 +123,15 @@ TEST(Render, SmallLightsKeepTheirPower) {
         for (int k = 0; k < 3; ++k) worst[k] = std::max(worst[k], length(pictures[k].pixels[i] - pictures[3].pixels[i]));
       }
       EXPECT_GT(largest, 0.01f);
-      // 3 cm at 3 m: 1e-4 of the value times the lobe's curvature; polygons of round lights are off by a thousandth.
+      // 3 cm at 3 m: 1e-4 of the value times the lobe's curvature. Polygons of round lights are off by a thousandth.
       EXPECT_LT(worst[0], 5e-3f * largest) << shape << " " << method;
       EXPECT_LT(worst[1], 2e-4f * largest) << shape << " " << method;
       EXPECT_LT(worst[2], 2e-4f * largest) << shape << " " << method;
     }
 }
 
-// An edge of kilometres is the sum of its parts: the picture under a panel with corners written along its edges. Ends that are a million
-// metres to either side leave single precision no direction between them.
+// An edge of kilometres is the sum of its parts: the same picture as under a panel with extra corners along its edges. Ends that are a
+// million metres to either side leave single precision no direction between them.
 TEST(Render, LargeLightsAreTheSumOfTheirParts) {
   for (const double size : {1e3, 1e5, 1e7, 1e9}) {
     const AreaLight whole = polygon({{-size, 0.7, -7}, {size, 0.7, -7}, {size, size, -7}, {-size, size, -7}}, {1, 1, 1});
@@ -155,8 +155,8 @@ TEST(Render, LargeLightsAreTheSumOfTheirParts) {
         worst = std::max(worst, length(a.pixels[i] - b.pixels[i]));
       }
       EXPECT_GT(largest, 0.1f);
-      // Planes of edges are good to 1e-5, four of them and two lobes. The other two average shadowing and Fresnel over nodes along the
-      // edges as they are given, to 0.15 % (docs/ggx.md).
+      // Planes of edges are accurate to 1e-5, for four of them and two lobes. The other two methods average shadowing and Fresnel over
+      // nodes along the given edges, to 0.15 % (docs/ggx.md).
       const bool table = method.starts_with("ltc");
       EXPECT_LT(worst, (table ? 1e-4f : 1.5e-3f) * largest) << method << " " << size;
     }
@@ -188,16 +188,16 @@ TEST(Render, SphereLightIsItsClosedForm) {
     for (int x = 0; x < options.width; ++x) {
       const Vec3d p = floor_point(scene, options, x, y);
       if (std::fabs(p.x) > 7.9 || std::fabs(p.z) > 7.9) continue;
-      const Vec3d to = sphere.center - p;  // a sphere wholly above the horizon: pi R^2 cos / d^2
+      const Vec3d to = sphere.center - p;  // a sphere completely above the horizon: pi R^2 cos / d^2
       const double irradiance = M_PI * 0.25 * to.y / std::pow(length(to), 3);
       worst = std::max(worst, std::fabs(picture.at(x, y).x / (2 * irradiance * 0.5 / M_PI) - 1));
     }
-  // In float, absolute 1e-4 of irradiance at most (ellipse_light_test.cpp), here of 0.05 and more.
+  // The float error is at most 1e-4 of irradiance, absolute (ellipse_light_test.cpp). Irradiance here is 0.05 and more.
   EXPECT_LT(worst, 1e-3);
   std::printf("largest relative error %.1e\n", worst);
 }
 
-// A slanted ellipse that the floor cuts, two-sided, against the form factor in double.
+// A slanted, two-sided ellipse that the floor cuts, against the form factor in double.
 TEST(Render, DiskLightIsItsFormFactor) {
   Scene scene = diffuse_floor();
   const Ellipse disk = {{-2, 0.5, 0}, {0.3, 1, 0}, {0, 0, 1.5}};
@@ -220,7 +220,7 @@ TEST(Render, DiskLightIsItsFormFactor) {
   std::printf("largest error of the radiance %.1e\n", worst);
 }
 
-// A glossy floor under disk and sphere: the polygons about the lobe against polygon lights of 256 vertices.
+// A glossy floor under disk and sphere: polygons about the lobe against polygon lights of 256 vertices.
 TEST(Render, RoundLightsOnGlossAgreeWithFinePolygons) {
   for (float roughness : {0.1f, 0.5f}) {
     Scene scene = diffuse_floor();
@@ -239,15 +239,15 @@ TEST(Render, RoundLightsOnGlossAgreeWithFinePolygons) {
         worst = std::max(worst, std::fabs(static_cast<double>(round.at(x, y).x - truth.at(x, y).x)));
         largest = std::max(largest, static_cast<double>(truth.at(x, y).x));
       }
-    // Of the full lobe, K = 12: 0.003 (ellipse_light_test.cpp); cubature nodes differ with the edges: 0.003 more
-    // (docs/accuracy.md, "GGX with shadowing and Fresnel").
+    // The full lobe, K = 12, is off by 0.003 (ellipse_light_test.cpp). Cubature nodes differ with the edges: 0.003 more (docs/accuracy.md,
+    // "GGX with shadowing and Fresnel").
     EXPECT_LT(worst, 0.006) << "roughness " << roughness;
     EXPECT_GT(largest, 0.02) << "roughness " << roughness;
     std::printf("roughness %.1f: largest difference %.1e of %.2f\n", static_cast<double>(roughness), worst, largest);
   }
 }
 
-// One tube above the floor, one that pierces it: on packs, against the closed form in double.
+// One tube above the floor, and one that pierces it: on packs, against the closed form in double.
 TEST(Render, TubesAreTheirClosedForm) {
   Scene scene = diffuse_floor();
   scene.area_lights = {tube_light({0.5, 1.5, -1}, {1.5, 0.4, 0}, 0.1), tube_light({-2, 0.2, 0}, {0.3, 0.8, -0.2}, 0.25)};
@@ -264,13 +264,13 @@ TEST(Render, TubesAreTheirClosedForm) {
       worst = std::max(worst, std::fabs(static_cast<double>(picture.at(x, y).x) - e * 0.5 / M_PI));
       lit += e > 0.01;
     }
-  // Irradiance in float to 1e-5 (capsule_light_test.cpp); hit points to 2e-6 of 10 m, 0.1 m or more from the tubes' surfaces.
+  // Irradiance in float is accurate to 1e-5 (capsule_light_test.cpp), hit points to 2e-6 of 10 m, 0.1 m or more from the tubes' surfaces.
   EXPECT_LT(worst, (1e-5 + M_PI * 2e-5 / 0.1) * 0.5 / M_PI);
   EXPECT_GT(lit, 1000);
   std::printf("largest error of the radiance %.1e, %d pixels lit\n", worst, lit);
 }
 
-// A glossy floor, by every method that runs on packs or point by point, against high quality and the double library.
+// A glossy floor by every method that runs on packs or point by point, against high quality and the double library.
 TEST(Render, TubesOnGlossAgreeWithFinePolygons) {
   for (float roughness : {0.2f, 0.5f}) {
     Scene scene = diffuse_floor();
@@ -296,7 +296,7 @@ TEST(Render, TubesOnGlossAgreeWithFinePolygons) {
           worst = std::max(worst, std::fabs(static_cast<double>(picture.at(x, y).x) - truth));
           largest = std::max(largest, truth);
         }
-      // Of the full lobe: closed form 0.01 of K = 12 and 0.005 of its cubature; LTC's fit 0.05, without a clip worse.
+      // Errors of the full lobe: closed form 0.01 for K = 12 and 0.005 for its cubature; LTC's fit 0.05, worse without a clip.
       EXPECT_LT(worst, method == std::string("closed-form") ? 0.015 : 0.08) << method << ", roughness " << roughness;
       EXPECT_GT(largest, 0.2) << "roughness " << roughness;
       std::printf("%-12s roughness %.1f: largest difference %.1e of %.2f\n", method, static_cast<double>(roughness), worst, largest);
@@ -362,10 +362,10 @@ TEST(Render, ExactDiffuseLightAgreesWithTheReferenceAtEveryPixel) {
   options.target_error = 0.01;
   RenderStats stats;
   const Picture reference = render(scene, options, &stats);
-  // Float radiances round by 2e-6 where the irradiance is not small (see DiffuseFloorIsThePolygonIntegral...).
+  // Float radiances round by 2e-6 unless the irradiance is small (see DiffuseFloorIsThePolygonIntegral...).
   const ZTest test = z_test(exact, reference, 1e-5);
   EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma, threshold " << test.threshold;
-  // And it can fail: a light stronger by a tenth is seen.
+  // The test can fail: it notices a light that is a tenth stronger.
   Picture brighter = exact;
   for (Vec3f& p : brighter.pixels) p *= 1.1f;
   EXPECT_LT(z_test(brighter, reference, 1e-5).share(), 0.9975);
@@ -396,7 +396,7 @@ TEST(Render, ShadowsDarkenOnlyWhatTheLightDoesNotSee) {
       const Vec3d p = floor_point(scene, options, x, y);
       const auto d = static_cast<Vec3d>(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
       const Vec3d o = scene.cameras[0].position, at_plate = o + d * ((1 - o.y) / d.y);
-      if (std::fabs(at_plate.x) < 0.65 && std::fabs(at_plate.z) < 0.65) continue;  // the plate hides the floor
+      if (std::fabs(at_plate.x) < 0.65 && std::fabs(at_plate.z) < 0.65) continue;  // the plate occludes the floor
       if (std::fabs(p.x) < 0.15 && std::fabs(p.z) < 0.15) {
         EXPECT_EQ(shadowed.at(x, y).x, 0.0f) << x << ", " << y;
         ++umbra;
@@ -436,7 +436,7 @@ TEST(Render, AnUnknownCameraIsNamedWithThoseThereAre) {
   }
 }
 
-// The layers of one cloth: base under sheen, each pixel by the library's own calls; sampling agrees within its variance.
+// The layers of cloth: base under sheen, each pixel by the library's own calls. Sampling agrees within its variance.
 TEST(Render, SheenIsItsCubatureOverADimmedBase) {
   Scene scene = diffuse_floor();
   scene.materials[0].sheen_color = {0.8f, 0.5f, 0.2f};
@@ -468,7 +468,7 @@ TEST(Render, SheenIsItsCubatureOverADimmedBase) {
     sampled_sum += static_cast<double>(sampled.pixels[i].y);
   }
   EXPECT_NEAR(analytic_sum / sampled_sum, 1,
-              0.01);  // of both lobes: the cubature to 0.002, and three standard errors of the mean of 6,000 pixels
+              0.01);  // error of both lobes: the cubature to 0.002, and three standard errors of the mean of 6,000 pixels
 }
 
 TEST(Render, MultipleScatteringBrightensARoughMetal) {
@@ -491,7 +491,7 @@ TEST(Render, MultipleScatteringBrightensARoughMetal) {
     const Material scaled = with_multiple_scattering(m, {p, {0, 1, 0}, normalized(scene.cameras[0].position - p)});
     const double ratio = static_cast<double>(all.at(48, y).x / one.at(48, y).x);
     EXPECT_GT(ratio, 1.1);
-    // F90 grows with F0, so that the whole lobe does.
+    // F90 grows with F0, so the whole lobe does too.
     EXPECT_NEAR(ratio, scaled.f0.x / 0.9, 1e-4);
   }
 }

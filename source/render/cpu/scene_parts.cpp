@@ -16,7 +16,7 @@ SceneParts RenderCache::Parts::follow(const Scene& scene, Sorted sorted) {
         shadows.reset();
         device_rays.reset();
       }
-    } catch (...) {  // what it is half way to is of no use
+    } catch (...) {  // a half-finished state is of no use
       rays.reset();
       shadows.reset();
       device_rays.reset();

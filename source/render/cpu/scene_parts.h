@@ -1,5 +1,4 @@
-// SceneParts: what the meshes of a scene are sorted into for rays and shadows, and its pictures at smaller sizes, whatever looks at them
-// and shines on them.
+// SceneParts: structures over a scene's meshes for rays and shadows, and its images at smaller sizes. They serve any camera and any lights.
 #pragma once
 
 #include <memory>
@@ -19,7 +18,7 @@ struct KeptOnDevice;
 class SceneRays;
 }  // namespace vulkan
 
-// The edges that cast shadows, and the trees over them.
+// The edges that cast shadows, and the trees over them and their triangles.
 struct ShadowEdges {
   explicit ShadowEdges(const Scene& scene) : mesh(shadow::build_edges(scene)), edges(mesh), triangles(mesh) {}
   ShadowEdges(const ShadowEdges&) = delete;
@@ -28,20 +27,20 @@ struct ShadowEdges {
   const shadow::TriangleTree triangles;
 };
 
-// edges: for shadows without sampling.
+// for_rays_and_edges: also for shadows without sampling.
 enum class Sorted { for_rays, for_rays_and_edges };
 
 struct SceneParts {
   std::shared_ptr<const RayScene> rays;
-  std::shared_ptr<const ShadowEdges> shadows;  // null for rays alone
-  std::shared_ptr<const MipMaps> maps;         // of the scene's images, which must stay
+  std::shared_ptr<const ShadowEdges> shadows;  // null if only rays are needed
+  std::shared_ptr<const MipMaps> maps;         // mip maps of the scene's images, which must outlive them
 
   static SceneParts of(const Scene& scene, Sorted sorted);
 };
 
-// Those of the last scene.
+// Parts of the last scene.
 struct RenderCache::Parts {
-  // Of this scene, made of the last one's where they are the same.
+  // Parts of this scene. Parts of the last scene that are the same are reused.
   SceneParts follow(const Scene& scene, Sorted sorted);
 
   std::shared_ptr<RayScene> rays;

@@ -1,4 +1,4 @@
-// Area lights as packs of points see them: lit or not, their outlines, their irradiance. One file a shape in source/shapes.
+// Area lights as packs of points see them: lit or not, with their outlines and irradiance. Each shape has one file in source/shapes.
 #pragma once
 
 #include "core/pack.h"
@@ -35,7 +35,7 @@ struct SeenLight {
   }
 };
 
-// What integrate asks of an outline's light (shapes/small_light.h). The elements are a function of their own, seldom called.
+// Properties of an outline's light that integrate reads (shapes/small_light.h). The elements are in a function of their own, called rarely.
 __attribute__((flatten, noinline)) inline PackKernels::LightElements elements_in(const SeenLight& light, const PackKernels::mat3& frame,
                                                                                  const PackVec3& p) {
   if (const auto* polygon = std::get_if<packed::Polygon>(&light.light.shape)) return shapes::elements_in<Pack>(*polygon, frame, p);
@@ -57,8 +57,8 @@ STERADIAN_INLINE PackReal distance2_of(const PackLight& light, const PackVec3& p
   return result;
 }
 
-// The contours of a polygon that no lane sees as small. Where the walk is short, the elements in the same function cost it an eighth,
-// by the registers that they take: a caller may ask PolygonOutline::may_be_small first, and have a function for each.
+// The contours of a polygon that no lane sees as small. Elements in the same function would cost a short walk an eighth, by the registers
+// that they take. A caller may therefore ask PolygonOutline::may_be_small first, and have a function for each case.
 struct PolygonEdges {
   const SeenLight& seen;
   const PackKernels::mat3& frame;
@@ -81,7 +81,7 @@ struct PolygonOutline : PolygonEdges {
   }
 };
 
-// What bounds the visible part behind occluders, for each point by itself. Edges lie above the horizon of the surface's normal.
+// The outline of the visible part behind occluders, for each point by itself. Its edges lie above the horizon of the surface's normal.
 struct PiecesOutline {
   const SeenLight& seen;
   const PackKernels::mat3& frame;
@@ -116,7 +116,7 @@ struct PiecesOutline {
   }
 };
 
-// A function of its own: inlined, it would take registers from the walks.
+// This is a function of its own: inlined, it would take registers from the walks.
 __attribute__((flatten, noinline)) inline int fill_round_corners(const PackLight& light, const AboutLobe& lobe,
                                                                  const PackKernels::mat3& frame, const PackVec3& p,
                                                                  shapes::Corners<Pack>& corners) {
@@ -125,8 +125,8 @@ __attribute__((flatten, noinline)) inline int fill_round_corners(const PackLight
   return count;
 }
 
-// The polygon that stands in for a round light under the lobe: of its outline's area, its corners gathered where the lobe is
-// sharp.
+// The polygon that stands for a round light under the lobe. It has the area of the light's outline, and its corners gather where the lobe
+// is sharp.
 struct RoundOutline {
   const SeenLight& seen;
   const PackKernels::mat3& frame;
@@ -145,7 +145,7 @@ struct RoundOutline {
   STERADIAN_INLINE PackReal distance2() const { return distance2_of(seen.light, p); }
 };
 
-// Any of the three, where one place in the code must serve all.
+// Any of the three outlines, where one place in the code must serve all.
 struct AnyOutline {
   RoundOutline round;
 
@@ -167,15 +167,15 @@ struct AnyOutline {
   STERADIAN_INLINE PiecesOutline pieces() const { return {round.seen, round.frame}; }
 };
 
-// Over pieces: a function of its own, so that it takes no registers from the walk along a polygon.
+// Irradiance vector over pieces. This is a function of its own, so that it takes no registers from the walk along a polygon.
 __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector_of_pieces(const SeenLight& light, const PackKernels::mat3& frame) {
   integrals::Irradiance<Pack> integral;
   return integrate(PiecesOutline{light, frame}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
 }
 
-// Irradiance of radiance 1, in [0, pi], and the irradiance vector in the frame, whose z it is. Functions of their own: g++
-// flattens nothing that reaches it through a caller that is itself always inlined. The irradiance alone is an eighth
-// quicker than the vector.
+// Irradiance of radiance 1, in [0, pi], and the irradiance vector in the frame, whose z is that irradiance. They are functions of their
+// own: g++ flattens nothing that it reaches through a caller that is itself always inlined. The irradiance alone is an eighth faster than
+// the vector.
 __attribute__((flatten, noinline)) inline PackReal irradiance_of(const SeenLight& light, const PackKernels::mat3& frame,
                                                                  const PackVec3& p) {
   if (light.light.is_pieces()) return irradiance_vector_of_pieces(light, frame).z;
@@ -200,12 +200,12 @@ __attribute__((flatten, noinline)) inline PackVec3 irradiance_vector(const SeenL
   return integrate(PolygonOutline{{light, frame, p}}, light.shading(PackVec3(0.0, 0.0, 1.0)), integral);
 }
 
-// What of it reaches a diffuse lobe under a dielectric's boundary (kernels/lobe/lambert.glsl). view: in the frame.
+// Part of the irradiance that reaches a diffuse lobe under a dielectric's boundary (kernels/lobe/lambert.glsl). view: in the frame.
 STERADIAN_INLINE PackReal irradiance_below(const PackVec3& e, const PackVec3& view, const PackReal& loss) {
   return any_lane(loss > PackReal(0.0)) ? PackKernels().lambert_irradiance_below(e, view, loss) : e.z;
 }
 
-// The loss at points i and on; 0 where there is no boundary.
+// The loss at a pack of points from i on; 0 without a boundary.
 STERADIAN_INLINE PackReal fresnel_loss(const Points& points, std::size_t i) {
   return points.fresnel_loss != nullptr ? load(points.fresnel_loss + i) : PackReal(0.0);
 }

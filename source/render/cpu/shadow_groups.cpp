@@ -14,7 +14,7 @@ using shadow::Box;
 using shadow::coordinate;
 using shadow::longest_side;
 
-// Of the longest side of all: a gap between neighbours as wide as this splits them.
+// Fraction of the longest side of all members: a gap between neighbours of this width splits them.
 constexpr double kGap = 0.35;
 
 struct Member {
@@ -22,7 +22,7 @@ struct Member {
   Box box;
 };
 
-// Splits members where boxes leave a gap along the longest side of them all.
+// Splits members at gaps between their boxes along the longest side of all members.
 void split(std::vector<Member>& members, std::vector<std::vector<std::uint32_t>>& result) {
   std::vector<std::pair<std::size_t, std::size_t>> ranges = {{0, members.size()}};
   while (!ranges.empty()) {
@@ -52,7 +52,7 @@ void split(std::vector<Member>& members, std::vector<std::vector<std::uint32_t>>
   }
 }
 
-// Squares of 8 x 8 pixels: four blocks of slots.
+// Number of a slot's square of 8 x 8 pixels, which is four blocks of slots.
 std::uint32_t square_of(std::uint32_t slot) {
   constexpr std::uint32_t kBlocks = kTileSide / 4;
   const std::uint32_t block = slot / 16;

@@ -1,4 +1,4 @@
-// Groups: neighbouring surface points that look at a light together.
+// Groups: neighbouring surface points whose shadows are computed together.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace steradian {
 
-// Slots of a tile in groups of 8 x 8 pixels, split at depth gaps: a shaft around both sides of a depth edge holds too much. Clusters
-// are groups without a gap between them.
+// Slots of a tile in groups of 8 x 8 pixels, split at depth gaps: a shaft around both sides of a depth edge contains too much. Clusters are
+// groups without a gap between them.
 struct PointGroups {
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<std::vector<std::uint32_t>> clusters;  // numbers of groups
 };
 
-// Of lit surfaces. positions: of every slot with one.
+// Groups of lit surfaces. positions: for every slot with a surface.
 PointGroups groups_of(const SurfaceTile& tile, const std::vector<Vec3d>& positions);
 
 }  // namespace steradian

@@ -1,4 +1,4 @@
-// The shadow pass: sixteen points at a time.
+// The shadow pass for sixteen points at a time.
 #include <algorithm>
 
 #include "render/cpu/shadow_work.h"
@@ -9,7 +9,7 @@ namespace steradian {
 using shadow::Viewpoint;
 using Seen = TileShadow::Seen;
 
-// Up to sixteen slots at once; side by side in the tile's order, so that they see nearly the same edges.
+// Finds the visible parts for up to sixteen slots. They are neighbours in the tile's order, so that they see nearly the same edges.
 void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, Work& work) const {
   shadow::PointLanes::Point points[shadow::kPoints];
   RayScene::Sixteen rays;
@@ -48,7 +48,7 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
   if ((free & ~whole) != 0) add_lanes(sides, slots, count, free & ~whole, work);
 }
 
-// The edges of lanes that see a part.
+// Adds the edges of lanes that see a part of the light.
 void ShadowPass::add_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes,
                            Work& work) const {
   TileShadow::Batch& batch = work.result->batch_with_room();

@@ -1,4 +1,4 @@
-// Every lobe behind occluders, from every kind of light, in pictures against rays.
+// Every lobe behind occluders, under every kind of light, in pictures against rays.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 
 using scene::quad_mesh;
 
-// What a strip of the floor is made of, and what the method of its lobes is off by in a penumbra, of the value: a few times the rms of the
-// table of methods.
+// The material of a strip of the floor, and the relative error of its lobes' method in a penumbra: a few times the rms in the table of
+// methods.
 struct Strip {
   std::string name;
   SurfaceMaterial material;
@@ -26,7 +26,7 @@ struct Strip {
 };
 
 constexpr float kStripWidth = 0.2f;
-constexpr int kBentNormals = 0;  // image
+constexpr int kBentNormals = 0;  // index of the image
 
 SurfaceMaterial dielectric(float specular, float roughness) {
   SurfaceMaterial m;
@@ -61,7 +61,7 @@ std::vector<Strip> strips() {
   brushed.anisotropy = 0.6f;
   sheen.sheen_color = {0.6f, 0.6f, 0.6f};
   sheen.sheen_roughness = 0.6f;
-  for (SurfaceMaterial* m : {&coat, &bent_coat}) m->base_color = {0, 0, 0, 1};  // nothing but the coat
+  for (SurfaceMaterial* m : {&coat, &bent_coat}) m->base_color = {0, 0, 0, 1};  // only the coat
   for (SurfaceMaterial* m : {&coat, &bent_coat, &bent_under_coat}) {
     m->clearcoat = 1;
     m->clearcoat_roughness = 0.5f;
@@ -86,8 +86,8 @@ std::vector<Strip> strips() {
           {"bent normals under a coat", bent_under_coat, 0.01}};
 }
 
-// A floor in strips, and a camera that looks at it from below the occluders: a slanted bar with a plate through it, and a plate whose
-// edge-on neighbour it shares an edge with.
+// A floor in strips, and a camera that looks at it from below the occluders: a slanted bar pierced by a plate, and a plate that shares an
+// edge with its edge-on neighbour.
 Scene scene_of(const std::vector<Strip>& strips) {
   Scene scene;
   const auto count = static_cast<float>(strips.size());
@@ -96,7 +96,7 @@ Scene scene_of(const std::vector<Strip>& strips) {
     const float x = (static_cast<float>(i) - count / 2) * kStripWidth;
     scene.meshes.push_back(quad_mesh({x, 0, 1}, {x + kStripWidth, 0, 1}, {x + kStripWidth, 0, -1}, {x, 0, -1}, static_cast<int>(i)));
   }
-  // 0.17 of the normal's z, which is across the strips and away from the camera.
+  // The normal's z is 0.17, which is across the strips and away from the camera.
   scene.images = {{"bent", 1, 1, {118, 150, 250, 255}}};
   const int gray = static_cast<int>(scene.materials.size());
   scene.materials.push_back(dielectric(0, 1));
@@ -119,10 +119,10 @@ struct Light {
   std::string name;
   std::vector<AreaLight> area = {};
   std::vector<PunctualLight> punctual = {};
-  double error = 0;  // of what stands for the shape
+  double error = 0;  // error of the shape's approximation
 };
 
-// Off a flat light's own penumbra by its mean colour alone (docs/shadows.md).
+// A textured light differs from a flat light's own penumbra by its mean colour alone (docs/shadows.md).
 AreaLight textured_panel(Scene& scene) {
   Image image{"stripes", 8, 1, {}};
   for (std::uint8_t i = 0; i < 8; ++i) {
@@ -142,7 +142,7 @@ AreaLight textured_panel(Scene& scene) {
   return light;
 }
 
-// A glowing box: six lights, whose mesh stands between them and the floor where they look away.
+// A glowing box: six lights. Its mesh lies between the floor and the lights that face away from it.
 std::vector<AreaLight> glowing_box(Scene& scene) {
   SurfaceMaterial m = dielectric(0, 1);
   m.emissive = static_cast<Vec3f>(kColor);
@@ -179,7 +179,7 @@ std::vector<Light> lights_of(Scene& scene) {
     ring.holes[0].push_back(kCenter - d * 0.35);
   }
   std::reverse(ring.vertices.begin(), ring.vertices.end());
-  // So small against its distance that elements stand for what is seen of it.
+  // It is so small for its distance that elements replace its visible part.
   Polygon far = panel_shape();
   for (Vec3d& v : far.vertices) v = Vec3d{3, 40, 5} + (v - kCenter) * 1.5;
   PunctualLight point{"", PunctualKind::point, {0.3, 2, -0.3}, {0, -1, 0}, {3, 2, 1}};
@@ -226,7 +226,7 @@ std::vector<std::vector<std::size_t>> pixels_by_strip(const Scene& scene, std::s
   return result;
 }
 
-// Every lobe of a surface, under the part that is seen of every kind of light: its mean over rays.
+// Every lobe of a surface under the visible part of every kind of light: its mean agrees with rays.
 TEST(ShadowedLobes, AgreeWithRaysUnderEveryKindOfLight) {
   const std::vector<Strip> all = strips();
   Scene made = scene_of(all);
@@ -256,8 +256,8 @@ TEST(ShadowedLobes, AgreeWithRaysUnderEveryKindOfLight) {
   }
 }
 
-// A plate with holes by its texture's alpha, half under the bar: what it lets through is an estimate by 64 rays, whose standard error is
-// at most half an eighth of the light.
+// A plate with holes by its texture's alpha, half of it under the bar. The light through it is estimated by 64 rays, with a standard error
+// of at most half an eighth of the light.
 TEST(ShadowedLobes, CutOutsLetThroughWhatRaysFind) {
   const std::vector<Strip> all = strips();
   Scene scene = scene_of(all);
@@ -284,13 +284,13 @@ TEST(ShadowedLobes, CutOutsLetThroughWhatRaysFind) {
   for (const AreaLight& light : {panel, ball}) {
     scene.area_lights = {light};
     auto [open, analytic, reference] = judged_pictures(scene, options, 0.05);
-    // Spread by the cosine alone, so for the diffuse strip.
+    // The rays are distributed by the cosine alone, so only the diffuse strip is tested.
     for (std::size_t i = 0; i < open.pixels.size(); ++i)
       reference.layers.at("variance")[i] += open.pixels[i] * open.pixels[i] * (0.25f / 64);
     const image::ZTest z = image::z_test(pixels_of(analytic, by_strip[0]), pixels_of(reference, by_strip[0]), 5e-3);
     EXPECT_GT(z.tested, 100u);
     EXPECT_GE(z.share(), 0.99) << "worst " << z.worst;
-    // In the mean the noise of both goes.
+    // The mean averages out the noise of both.
     double sum = 0, expected = 0, squares = 0;
     for (const std::size_t i : by_strip[0]) {
       sum += static_cast<double>(analytic.pixels[i].y);

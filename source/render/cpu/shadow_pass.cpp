@@ -185,14 +185,14 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
       find_point(*side, i, work);
       continue;
     }
-    // Nothing can come between: what one point's ray finds, all find.
+    // Without occluders, the result of one point's ray holds for all points.
     if (!free) {
       work.scratch.set.clear();
       shadow::add_surroundings(side->frame, at, *side->outline, work.scratch.set);
       find_visible_on_packs(packs_, side->frame, at.position, RayBlockers(rays_), work.scratch, work.region);
       if (work.region.rays > 0) free = !work.region.boundary.empty();
     }
-    if (!free) continue;  // below this point's horizons
+    if (!free) continue;  // the light is below this point's horizons
     if (*free && is_cut(side->frame, at)) {
       find_point(*side, i, work);
       continue;

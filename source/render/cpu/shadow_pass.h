@@ -1,4 +1,4 @@
-// Exact soft shadows for pictures: how the lights of a scene reach the surfaces of a tile. docs/shadows.md.
+// Exact soft shadows for pictures: visibility of a scene's lights from the surfaces of a tile. docs/shadows.md.
 #pragma once
 
 #include <cstdint>
@@ -19,33 +19,33 @@
 
 namespace steradian {
 
-// Counts of all tiles, for --stats.
+// Counts over all tiles, for --stats.
 struct ShadowCounts {
-  std::uint64_t points = 0;    // pairs of a surface and a light that were asked for
-  std::uint64_t parts = 0;     // of these, in a penumbra
-  std::uint64_t fallback = 0;  // of these, by rays
+  std::uint64_t points = 0;    // pairs of a surface and a light that were tested
+  std::uint64_t parts = 0;     // pairs in a penumbra
+  std::uint64_t fallback = 0;  // pairs estimated by rays
 };
 
 class ShadowPass {
  public:
-  // Keeps references.
+  // Keeps references to its arguments.
   ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const SceneParts& parts, Shadows mode);
 
-  // Lights before which nothing stands, for all of a tile: they are seen whole, and find() would tell no more.
+  // Finds lights that nothing occludes for all of a tile. They are wholly visible, and find() would tell no more.
   void find_open(const TilePoints& points, const std::vector<const PackLight*>& lights, OpenLights::Work& work) const {
     open_.find(points, lights, work);
   }
-  // taker: where it is not null, some groups are its to find.
+  // taker: if not null, it may take over some groups.
   void find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts,
             ShadowTaker* taker = nullptr) const;
-  // The same for some points in their slots, before an area light.
+  // The same for some points in their slots, under an area light.
   void find_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const;
 
  private:
   struct Flat {
-    PreparedPolygon polygon;            // no vertices: it is not flat
-    std::optional<LightSide> sides[2];  // the lit one, the other
-    std::vector<std::uint32_t> near;    // of a round light: triangles that may reach into the planes that stand for it
+    PreparedPolygon polygon;            // no vertices: the light is not flat
+    std::optional<LightSide> sides[2];  // the lit side, the other side
+    std::vector<std::uint32_t> near;    // for a round light: triangles that may reach into the planes that stand for it
   };
   struct Work;
   Work& begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const;
@@ -54,7 +54,7 @@ class ShadowPass {
   void find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
   void find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const;
   using SideAt = ShadowTaker::SideAt;
-  // work.group holds what the group needs.
+  // work.group holds the data that the group needs.
   void find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const;
   void gather_round(const Flat& flat, const shadow::Shaft& shaft, Work& work) const;
   void find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together, Work& work) const;
@@ -74,9 +74,9 @@ class ShadowPass {
   const std::vector<PackLight>& lights_;
   const shadow::EdgeMesh& mesh_;
   const shadow::EdgeTree& tree_;
-  std::vector<shadow::Box> cut_outs_;                            // of meshes whose material has holes
+  std::vector<shadow::Box> cut_outs_;                            // boxes of meshes whose material has holes
   std::shared_ptr<const std::vector<shadow::Segment>> ellipse_;  // outline of the polygons that stand for ellipsoids
-  std::vector<Flat> flats_;                                      // one a light; without frames where it is not flat
+  std::vector<Flat> flats_;                                      // one per light; without sides if the light is not flat
   OpenLights open_;
 };
 

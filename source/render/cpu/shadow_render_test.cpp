@@ -36,7 +36,7 @@ void add_box(Scene& scene, Vec3f low, Vec3f high, int material) {
   face({x0, y0, z0}, {x1, y0, z0}, {x1, y0, z1}, {x0, y0, z1});
 }
 
-// A floor with a standing box, a ball that touches it, a plate in the air and one that leans on the box.
+// A floor with a standing box, a ball that touches it, a plate in the air and a plate that leans on the box.
 Scene still_life() {
   Scene scene;
   scene.materials = {diffuse(0.6f), diffuse(0.4f)};
@@ -65,14 +65,14 @@ RenderOptions small() {
   return options;
 }
 
-// Every lobe's value at every pixel is that of rays, contacts and curved meshes' terminators included.
+// The value at every pixel agrees with rays, contacts and curved meshes' terminators included.
 TEST(ShadowRender, AgreesWithTheReferenceAtEveryPixel) {
   for (const AreaLight& light : {panel(), disk(), ball(), tube()}) {
     Scene scene = still_life();
     scene.area_lights = {light};
     const auto [open, analytic, reference] = judged_pictures(scene, small(), 0.02);
-    // Round lights: polygons of 24 corners against 64 in the reference, 1e-3 of the light at most, which is a larger share of
-    // what a penumbra leaves.
+    // Round lights use polygons of 24 corners, against 64 in the reference: 1e-3 of the light at most. That is a larger fraction of the
+    // light left in a penumbra.
     const ZTest z = z_test(analytic, reference, std::holds_alternative<Polygon>(light.shape) ? 2e-4 : 5e-3);
     EXPECT_GT(z.tested, 3000u);
     EXPECT_GE(z.share(), 0.9975) << "shape " << light.shape.index() << ", worst " << z.worst;
@@ -90,13 +90,13 @@ TEST(ShadowRender, LobesUnderPartsOfLightsAgreeWithTheReference) {
   const Picture analytic = render(scene, options);
   options.method = "reference";
   options.target_error = 0.02;
-  // The closed form's own error: 0.3 % rms, a few per cent at single points.
+  // Error of the closed form itself: 0.3 % rms, a few per cent at single points.
   const ZTest z = z_test(analytic, render(scene, options), 0.03);
   EXPECT_GE(z.share(), 0.9975) << "worst " << z.worst;
 }
 
-// Points right beside a long tube, far from both of its ends, and points beyond an end along its axis: all of them see it, and as much
-// of it as without shadows where nothing stands between: a speck of a mesh keeps the tiles from going the ordinary way.
+// Points close to a long tube, far from both of its ends, and points beyond an end along its axis. All of them see the tube, and as much of
+// it as without shadows if nothing occludes it. A speck of a mesh keeps the tiles off the path without occluders.
 TEST(ShadowRender, SeesALongTubeFromRightBesideItAndBeyondItsEnd) {
   Scene scene = still_life();
   scene.meshes.resize(1);
@@ -115,7 +115,7 @@ TEST(ShadowRender, SeesALongTubeFromRightBesideItAndBeyondItsEnd) {
   }
 }
 
-// A ball of few facets with a ball's normals, from the side of its terminator.
+// A ball with few facets and a ball's normals, seen from the side of its terminator.
 Scene ball_scene(unsigned columns, unsigned rows) {
   Scene scene = still_life();
   scene.meshes = {ball_mesh({0, 1, 0}, 0.8f, 1, columns, rows)};
@@ -123,14 +123,14 @@ Scene ball_scene(unsigned columns, unsigned rows) {
   return scene;
 }
 
-// Pixels whose surface turns to the light, and that shadows take more than half of.
+// Counts pixels whose surface faces the light and that lose more than half of it to shadows.
 int shadowed_pixels(const Picture& shadowed, const Picture& open) {
   int count = 0;
   for (std::size_t i = 0; i < open.pixels.size(); ++i) count += open.pixels[i].x > 0.01f && shadowed.pixels[i].x < 0.5f * open.pixels[i].x;
   return count;
 }
 
-// A ball alone hides no light from itself but what lies below its horizon, which the normals say without any shadow; its facets do.
+// A ball alone occludes only the light below its own horizon, and the normals give that without any shadow. Its facets occlude more.
 TEST(ShadowRender, ASmoothTerminatorIsThatOfTheSurfaceThatNormalsDescribe) {
   const Scene scene = ball_scene(16, 8);
   RenderOptions options = small();

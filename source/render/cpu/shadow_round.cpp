@@ -1,4 +1,4 @@
-// The shadow pass before round lights: each point looks at a polygon of its own.
+// The shadow pass for round lights: each point sees a polygon of its own.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,7 +48,7 @@ void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, c
       if (!work.slots.empty()) with_light.push_back(work.slots);
     }
     if (with_light.empty()) continue;
-    // For all of the cluster where a frame holds it; else each group gathers by itself.
+    // Gathers once for the cluster if one frame holds it; otherwise, each group gathers by itself.
     const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
     const bool together = behind.has_value();
     if (together) gather_round(flat, Shaft(*behind, work.positions, work.up, shadow::Sections::anywhere), work);
@@ -56,10 +56,10 @@ void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, c
   }
 }
 
-// Fills work.tile with what points that see a round light need.
+// Fills work.tile with the edges and triangles that points with a view of a round light need.
 void ShadowPass::gather_round(const Flat& flat, const Shaft& shaft, Work& work) const {
   tree_.gather(packs_, shaft, work.edges);
-  // Planes differ from point to point: any triangle near the light may cross one.
+  // The planes differ from point to point: any triangle near the light may cross one of them.
   work.crossing.clear();
   for (const std::uint32_t t : flat.near)
     if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
@@ -74,7 +74,7 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   const shadow::Box box = box_around(work.positions);
   const int axis = longest_side(box);
   if (!behind && !together && coordinate(box.high - box.low, axis) > ball.radius) {
-    // Too wide for a frame behind the light: halves may have one.
+    // The group is too wide for a frame behind the light, but its halves may have one.
     const double middle = coordinate(box.low + box.high, axis) / 2;
     std::array<std::vector<std::uint32_t>, 2> halves;
     for (const std::uint32_t i : slots) halves[coordinate(work.at(i).position, axis) < middle ? 0 : 1].push_back(i);

@@ -13,8 +13,8 @@ using shadow::Viewpoint;
 
 constexpr int kShareRays = 64;
 
-// The share of a light by stratified rays, weighted by what each place sends to a diffuse surface: of the places that count,
-// those that are open. counts(x, y) in the light's frame, open(to) for the way there, short of the light.
+// Visible fraction of a light by stratified rays, weighted by each place's light on a diffuse surface. It is the open part of the places
+// that count. counts(x, y) is in the light's frame. open(to) tests the way there, which ends short of the light.
 template <class Counts, class Open>
 double stratified_share(const LightFrame& frame, const Viewpoint& at, Counts counts, Open open) {
   constexpr int kSide = 8;

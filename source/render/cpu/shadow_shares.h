@@ -1,4 +1,4 @@
-// Shares of a light by stratified rays: where there is too much to arrange, and what cut-outs let through.
+// Fractions of a light by stratified rays: where there are too many edges to arrange, and for light through cut-outs.
 #pragma once
 
 #include "render/cpu/ray_scene.h"
@@ -7,10 +7,10 @@
 
 namespace steradian {
 
-// Of the light, above the point's horizons: past everything.
+// Visible fraction of the light above the point's horizons, past all occluders.
 double share_by_rays(const RayScene& rays, const LightSide& side, const shadow::Viewpoint& at);
 
-// Of the light, or of the part of it that `seen` found in `segments`: past cut-outs.
+// Fraction of the light that passes cut-outs. The second function takes only the part of the light that `seen` found in `segments`.
 double share_past_cut_outs(const RayScene& rays, const LightSide& side, const shadow::Viewpoint& at);
 double share_past_cut_outs(const RayScene& rays, const LightSide& side, const shadow::Viewpoint& at, const shadow::SegmentSet& segments,
                            const shadow::VisibleRegion& seen);

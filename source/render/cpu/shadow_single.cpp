@@ -1,4 +1,4 @@
-// The shadow pass: a point by itself.
+// The shadow pass for a single point.
 #include <algorithm>
 
 #include "render/cpu/shadow_shares.h"
@@ -9,7 +9,7 @@ namespace steradian {
 namespace {
 
 constexpr std::size_t kMostSegments = 2048;  // a point that sees more takes rays, unless exact is asked for
-constexpr double kLift = 1e-6;               // integrals are taken in float
+constexpr double kLift = 1e-6;               // integrals are computed in float
 
 }  // namespace
 
@@ -22,7 +22,7 @@ void ShadowPass::take_rays(const LightSide& side, std::uint32_t slot, Work& work
   work.result->share[slot] = static_cast<float>(share_by_rays(rays_, side, work.at(slot)));
 }
 
-// The segments are those of the point.
+// Finds the visible part; work.scratch holds the point's segments.
 void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Work& work) const {
   const Viewpoint& at = work.at(slot);
   find_visible_on_packs(packs_, side.frame, at.position, RayBlockers(rays_), work.scratch, work.region);
@@ -36,7 +36,7 @@ void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Wor
   TileShadow::Part part;
   part.slot = slot;
   const Vec3d eye = side.frame.to_local(at.position);
-  // Edges between places of the light's plane, relative to the point.
+  // Makes an outline of edges between places in the light's plane. Its edges are relative to the point.
   const auto outline_of = [&](auto each_edge) {
     TileShadow::Outline outline;
     std::vector<TileShadow::Edge>& edges = work.result->edges;
@@ -59,7 +59,7 @@ void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Wor
     const double x = side.frame.box_x / shadow::kCells, y = side.frame.box_y / shadow::kCells;
     for (const shadow::Boundary& b : work.region.boundary) edge(b.ax * x, b.ay * y, b.bx * x, b.by * y);
   });
-  // Lifted to the horizon, so that no rounding puts an edge below.
+  // Edges are lifted to the horizon, so that no rounding puts one below it.
   for (std::size_t i = part.visible.first; i < part.visible.first + part.visible.count; ++i)
     for (Vec3f* v : {&work.result->edges[i].a, &work.result->edges[i].b}) {
       const auto d = static_cast<Vec3d>(*v);
@@ -86,7 +86,7 @@ void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& wor
     take_rays(side, slot, work);
     return;
   }
-  // Nothing to arrange: one ray to any place of the light above the horizons decides.
+  // Without segments to arrange, one ray to any place of the light above the horizons decides.
   const auto sees = [&](Vec3d normal) { return dot(*side.middle - at.position, normal) > 0; };
   if (set.occluders == 0 && side.middle && sees(at.normal) && !is_cut(side.frame, at)) {
     const double z = -side.frame.to_local(at.position).z;
@@ -99,7 +99,7 @@ void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& wor
   if (work.cut_outs && work.result->seen[slot] != Seen::none) pass_cut_outs(side, slot, work);
 }
 
-// What cut-outs let through of what a slot sees. A part's levels are still in work.
+// Applies the fraction that cut-outs let through of the light that a slot sees. For a part, work still holds its levels.
 void ShadowPass::pass_cut_outs(const LightSide& side, std::uint32_t slot, Work& work) const {
   const Viewpoint& at = work.at(slot);
   const bool part = work.result->seen[slot] == Seen::part;

@@ -1,4 +1,4 @@
-// ShadowTaker: who lights surfaces past blockers in the host's place, another back end.
+// ShadowTaker: another back end that lights surfaces behind occluders in place of the host.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace steradian {
 class ShadowTaker {
  public:
   virtual ~ShadowTaker() = default;
-  // The side of a light that a slot sees, or null. It may be the same for all and stay, or be valid for sixteen calls.
+  // The side of a light that a slot sees, or null. It may be one side for all slots that stays valid, or be valid for sixteen calls.
   using SideAt = std::function<const LightSide*(std::uint32_t slot)>;
-  // Points before an area light, and what stands between.
+  // Points under an area light, and the occluders between them and the light.
   struct Group {
     const shadow::EdgeArrays& edges;
-    const shadow::LightFrame* base;  // in whose coordinates they are, where each point sees a side of its own; else null
-    bool shares;                     // of the outline's light count: what share of it a part sends
+    const shadow::LightFrame* base;  // frame of the edges' coordinates, if each point sees a side of its own; else null
+    bool shares;                     // true: a part counts as a fraction of the light of its whole outline
     const std::vector<std::uint32_t>& slots;
     const std::vector<shadow::Viewpoint>& points;  // by slot
     const SideAt& side_at;
   };
-  // Whether it finds what they see. They are Seen::elsewhere then.
+  // Returns true if it computes the visibility of these points. They are Seen::elsewhere then.
   virtual bool find(const Group& group) = 0;
-  // How the light reaches the tile; after find() for its groups.
+  // Takes the light's visibility over the tile. Called after find() for the tile's groups.
   virtual void take(const PackLight& light, const TileShadow& shadow) = 0;
 };
 

@@ -51,13 +51,13 @@ void TileShadow::batch_parts() {
       for (std::size_t i = first; i < last; ++i) {
         const Outline& outline = parts[i].*which;
         for (std::size_t k = 0; k < most; ++k) {
-          // Edges of no length where the list is shorter.
+          // Shorter lists are padded with edges of no length.
           const Edge& e = edges[outline.first + std::min(k, outline.count - 1)];
           pieces.set_edge(at + i - first, k, k < outline.count ? e.a : e.b, e.b);
         }
         if (outline.elements) pieces.set_elements(at + i - first, *outline.elements, outline.area);
       }
-      // The last block's other lanes hold no surface.
+      // The other lanes of the last block hold no surface.
       for (std::size_t i = last; i < first + kBlock; ++i)
         for (std::size_t k = 0; k < most; ++k) pieces.set_edge(at + i - first, k, {0, 1, 0}, {0, 1, 0});
     };

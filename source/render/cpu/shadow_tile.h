@@ -1,4 +1,4 @@
-// What of a light reaches the surfaces of a tile: nothing, all of it, or the pieces that triangles leave.
+// The part of a light that reaches the surfaces of a tile: nothing, all of it, or the pieces that triangles leave visible.
 #pragma once
 
 #include <array>
@@ -11,48 +11,48 @@
 
 namespace steradian {
 
-// How one light reaches a tile.
+// Visibility of one light over a tile.
 struct TileShadow {
-  // dark: the surface looks away from all of the light, which sends nothing past its horizon, whatever stands between. elsewhere: a
-  // ShadowTaker finds out.
+  // dark: the surface faces away from all of the light, which sends nothing past its horizon, with or without occluders. elsewhere: a
+  // ShadowTaker computes it.
   enum class Seen : std::uint8_t { dark, none, whole, part, share, elsewhere };
-  // Edges, and where it is small the elements that stand for it, relative to the point.
+  // Edges relative to the point, and, if the outline is small, the elements that stand for it.
   struct Outline {
     std::size_t first = 0, count = 0;
     std::optional<LightQuarters> elements;
-    Vec3d area{};  // of the elements, towards the point
+    Vec3d area{};  // area vector of the elements, towards the point
   };
-  // A slot that sees a part of the light, found by itself.
+  // A slot that sees a part of the light, computed by itself.
   struct Part {
     std::uint32_t slot = 0;
     Outline visible;   // edges in no order
-    Outline all;       // round and textured lights: the polygon of which `visible` is the part, in walk order
-    float passes = 1;  // share that cut-outs let through
+    Outline all;       // round, textured and profiled lights: the polygon of which `visible` is the part, in walk order
+    float passes = 1;  // fraction that passes cut-outs
   };
   struct Edge {
-    Vec3f a, b;  // relative to the point, in the world's frame
+    Vec3f a, b;  // relative to the point, in world axes
   };
-  // Slots that see a part, side by side, for packs: not more than a tile has.
+  // Slots that see a part of the light, side by side for packs. A batch has at most as many slots as a tile.
   struct Batch {
     std::vector<std::uint32_t> slots;  // kNoSlot: none
-    std::vector<float> passes;         // shares that cut-outs let through
+    std::vector<float> passes;         // fractions that pass cut-outs
     packed::Pieces visible, all;
 
     void clear();
   };
   std::array<Seen, kTilePixels> seen;
-  std::array<float, kTilePixels> share;  // of Seen::share: by rays
+  std::array<float, kTilePixels> share;  // visible fraction by rays, for Seen::share
   std::vector<Part> parts;
   std::vector<Edge> edges;
-  std::vector<Batch> batches;  // of these, batch_count; the others are memory
+  std::vector<Batch> batches;  // the first batch_count are in use; the others keep their memory
   std::size_t batch_count = 0;
 
   void clear();
-  // Whether it is as if nothing stood between.
+  // True if nothing occludes the light.
   bool is_plain() const;
-  // Where the next sixteen slots go.
+  // The batch for the next sixteen slots.
   Batch& batch_with_room();
-  // Moves the parts into batches, those of about one length side by side.
+  // Moves the parts into batches. Parts of similar length stand side by side.
   void batch_parts();
 };
 

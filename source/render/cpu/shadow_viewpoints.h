@@ -1,4 +1,4 @@
-// The surface points of a tile as shadows see them.
+// The surface points of a tile, in the form that shadows use.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct TilePoints {
   std::vector<shadow::Viewpoint> points;  // by slot
   PointGroups groups;
 };
-// Moved off their surfaces; with Terminator::strict, below the horizons of their triangles nothing is seen.
+// The tile's points, moved off their surfaces. With Terminator::strict, nothing below the horizons of their triangles is visible.
 TilePoints points_for_shadows(const SurfaceTile& tile, Terminator terminator);
 
 }  // namespace steradian

@@ -1,4 +1,4 @@
-// A tile of the shadow pass in work, and its thread's memory.
+// State of the shadow pass for one tile, and the memory of one thread.
 #pragma once
 
 #include "render/cpu/shadow_pass.h"
@@ -7,10 +7,10 @@
 
 namespace steradian {
 
-// From less than ten half diagonals away, no integral takes a light's elements (least_distance2 of shapes/small_light.h).
+// Closer than ten half diagonals, no integral uses a light's elements (least_distance2 of shapes/small_light.h).
 inline constexpr double kNeverSmall = 100;
 
-// What blocks light, as rays find it.
+// Occluders of lights, found by rays.
 class RayBlockers : public shadow::Blockers {
  public:
   explicit RayBlockers(const RayScene& rays) : rays_(rays) {}
@@ -30,16 +30,16 @@ struct ShadowPass::Work {
   shadow::VisibleRegion region;
   shadow::PointLanes lanes;
   std::vector<Vec3d> positions;
-  Vec3d up;  // where their surfaces look, on the whole
+  Vec3d up;  // sum of their surfaces' normals
   std::vector<std::uint32_t> slots, edges, crossing;
-  shadow::LightFrame base;     // of round lights: in whose coordinates the arrays are
-  bool turned = false;         // they are
-  bool in_lanes = false;       // the points' sides of the light have one outline
+  shadow::LightFrame base;     // for round lights: the frame of the arrays' coordinates
+  bool turned = false;         // the arrays are in that frame
+  bool in_lanes = false;       // the points' sides of the light have the same outline
   bool whole_outline = false;  // parts come with their light's polygon
-  bool cut_outs = false;       // whether the group's shaft meets any
+  bool cut_outs = false;       // the group's shaft meets cut-outs
 
   const shadow::Viewpoint& at(std::uint32_t slot) const { return (*points)[slot]; }
-  // Replaces `positions` and `up` by those of slots, or adds to them.
+  // Replaces `positions` and `up` by those of some slots; add() appends them.
   void take(const std::vector<std::uint32_t>& of) {
     positions.clear();
     up = {};

@@ -8,7 +8,7 @@
 namespace steradian {
 
 struct SheenTable {
-  // Radiance of Charlie's lobe of colour 1 and width points.alpha_x towards the views, for radiance 1.
+  // Radiance of Charlie's lobe towards the views, for radiance 1. The lobe has colour 1 and width points.alpha_x.
   void (*radiance)(const PackLight& light, const Points& points, float* result);
 };
 

@@ -18,7 +18,7 @@ __attribute__((flatten)) void radiance(const PackLight& light, const Points& poi
     }
     const auto frame = k.frame_from_normal(n);
     integral.alpha = load(points.alpha_x + i);
-    // About the normal and wide: the lobe has no peak about which a round light's corners should gather.
+    // About the normal, and wide: the lobe has no peak for a round light's corners to gather about.
     const AboutLobe lobe = {PackVec3(0.0, 0.0, 1.0), PackReal(1.0), 12};
     store(result + i, integrate(AnyOutline{{seen, frame, p, lobe}}, seen.shading(transform_transposed(frame, v)), integral).x);
   }

@@ -28,12 +28,12 @@
 
 namespace steradian {
 
-// One GGX lobe of every pixel of a tile: normal, widths and Fresnel's two reflectances.
+// One GGX lobe at every pixel of a tile: normal, widths and Fresnel's two reflectances.
 struct SpecularPass::Lobe {
   const TileVector& normal;
   const TilePlane &alpha_x, &alpha_y;
   TileVector f0, f90;
-  bool over_diffuse = false;  // the lobe whose walk may serve the diffuse one
+  bool over_diffuse = false;  // the walk for this lobe may serve the diffuse one
 };
 
 namespace {
@@ -44,7 +44,7 @@ void add_to(TileVector& v, std::size_t i, Vec3f a) {
   v.z[i] += a.z;
 }
 
-// One channel of every pixel; the fresnel part is what (1 - v.h)^5 leaves of the plain one.
+// Adds one channel at every pixel. The fresnel part is the plain one weighted by (1 - v.h)^5.
 void add_coloured(TilePlane& radiance, const TilePlane& f0, const TilePlane& f90, const TilePlane& plain, const TilePlane& fresnel,
                   float light) {
   for (std::size_t i = 0; i < kTilePixels; ++i) radiance[i] += light * (f0[i] * (plain[i] - fresnel[i]) + f90[i] * fresnel[i]);
@@ -61,7 +61,7 @@ ShadingPoint shading_point(const SurfaceTile& tile, const TileVector& normal, st
 }
 ShadingPoint shading_point(const SurfaceTile& tile, std::size_t i) { return shading_point(tile, tile.normal, i); }
 
-// The ellipse that a point sees of a round light, if it shines there.
+// The ellipse that a point sees of a round light; empty if the light does not shine there.
 std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
   if (const auto* ellipsoid = std::get_if<Ellipsoid>(&light.shape)) return silhouette(*ellipsoid, position);
   const auto& disk = std::get<Ellipse>(light.shape);
@@ -70,7 +70,7 @@ std::optional<Ellipse> outline_at(const AreaLight& light, Vec3d position) {
   return {};
 }
 
-// The light as the point sees it: round ones as a polygon about the lobe. No vertices: it does not shine there.
+// The light as the point sees it: a round light as a polygon about the lobe. No vertices: the light does not shine there.
 PreparedPolygon polygon_at(const PackLight& light, std::size_t slot, const ShadingPoint& at, const Material& material, Quality quality) {
   if (light.is_polygon()) return light.polygon;
   if (const auto* pieces = std::get_if<packed::Pieces>(&light.shape)) {
@@ -90,10 +90,10 @@ PreparedPolygon polygon_at(const PackLight& light, std::size_t slot, const Shadi
   return prepare_polygon(seen);
 }
 
-// Of the round lobe that stands for an anisotropic one where a texture is looked up.
+// Width of the round lobe that replaces an anisotropic one in texture look-ups.
 double width(double alpha_x, double alpha_y) { return std::sqrt(alpha_x * alpha_y); }
 
-// One lobe of one point under an area light of its mean radiance, by the library's float functions.
+// Radiance of one lobe at one point under an area light of its mean radiance, by the library's float functions.
 Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const PackLight& light, std::size_t slot, const ShadingPoint& at,
                              const Material& material) {
   const PreparedPolygon polygon = polygon_at(light, slot, at, material, quality);
@@ -103,9 +103,10 @@ Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const Pac
 
 double largest_of(Vec3d v) { return std::max({v.x, v.y, v.z}); }
 
-// The mean radiance of an uneven light as a lobe sees it; of textured ones, other lobes than GGX take the mean (lobes_under_means).
+// Mean radiance of a textured or profiled light as a lobe sees it. Lobes other than GGX use the mean of textured lights
+// (lobes_under_means).
 //
-//   even  what the lobe sends to the view under radiance 1
+//   even  light that the lobe sends to the view under radiance 1
 Vec3d seen_by(const PackLight& light, const Material& material, const ShadingPoint& at, Vec3d even, TextureWay way = TextureWay::either) {
   if (light.profiled != nullptr) return light.profiled->seen_by(material, at, largest_of(even));
   if (light.textured != nullptr && material.brdf == Brdf::ggx)
@@ -113,7 +114,7 @@ Vec3d seen_by(const PackLight& light, const Material& material, const ShadingPoi
   return static_cast<Vec3d>(light.radiance);
 }
 
-// The same, as the lobe sees an uneven light.
+// The same, with the textured or profiled light as the lobe sees it.
 Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, std::size_t slot, const ShadingPoint& at,
                      const Material& material) {
   const Vec3d r = point_radiance_of_mean(row, quality, light, slot, at, material);
@@ -124,7 +125,7 @@ Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& 
   return even * seen_by(light, material, at, even);
 }
 
-// The same under a punctual light: the lobe in one direction.
+// The same under a punctual light: the lobe is evaluated in one direction.
 Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, const Material& material) {
   const auto incident = shapes::incident<double>(*std::get_if<packed::Punctual>(&light.shape), shapes::to_kernel<double>(at.position));
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
@@ -161,7 +162,7 @@ Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, s
   return m;
 }
 
-// False where the method does not run on packs.
+// Returns false if the method does not run on packs.
 bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const {
   const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
   if (!light.is_area()) {
@@ -237,7 +238,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
   }
 }
 
-// Elements serve sixteen points at a time. A light's other points stand side by side for its outline.
+// Elements serve sixteen points at a time. The other points of a light stand side by side for its outline.
 void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights, const Far& far) const {
   std::vector<const PackLight*> together, others;
   std::vector<std::uint32_t> numbers;
@@ -274,7 +275,7 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
     else
       (method_.ggx == Method::ltc ? outlines.classic : outlines.compact)(light, some, tables_, result);
   };
-  // Sixteen slots that stand side by side stay so.
+  // Blocks of sixteen neighbouring slots stay together.
   TileVector position, normal, view, tangent;
   alignas(64) TilePlane alpha_x, alpha_y, plain, fresnel;
   const std::pair<const TilePlane*, TilePlane*> copies[] = {
@@ -306,7 +307,7 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
   if (!others.empty()) add_ggx(tile, lobe, others);
 }
 
-// By its cubature whatever the method of GGX.
+// Sheen uses its cubature with any method of GGX.
 void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
   alignas(64) TilePlane plain;
   for (const PackLight* light : lights) {
@@ -333,7 +334,7 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
   }
 }
 
-// As the layers' lobes go. False where the lobe asks for what those do not have.
+// Adds a lobe in the way of the layers' lobes. Returns false if the lobe needs features that those lack.
 bool SpecularPass::add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,
                                     const std::vector<const PackLight*>& lights) const {
   if (m.brdf != Brdf::ggx || !m.shadowing || m.multiple_scattering || m.tangent != Vec3d{} || method_.row_for(m).method != method_.ggx)
@@ -401,7 +402,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
 }
 
 void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Walk walk, const Far* far) const {
-  // The lobe times (1 - v.h)^5 of quality high has a table of its own, and no elements.
+  // At quality high, the lobe times (1 - v.h)^5 has a table of its own, and no elements.
   const bool elements = far != nullptr && tables_.fresnel_matrix.size == 0 &&
                         (method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact || method_.ggx == Method::closed_form);
   const auto add_lobe = [&](const Lobe& lobe) {

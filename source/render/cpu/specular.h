@@ -16,19 +16,19 @@ namespace lights {
 struct FarLights;
 }
 
-// The lobes of metallic-roughness surfaces and their coats run on packs; so do Phong lobes under flat lights. Other
-// lobes, and the methods that exist for comparison only, run point by point in float.
+// Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong lobes under flat lights. Other lobes, and methods that
+// exist for comparison only, run point by point in float.
 class SpecularPass {
  public:
   // table: as RenderOptions::table.
   SpecularPass(const DirectMethod& method, const std::string& table);
 
-  // Whether add() also brings the diffuse light of a light: a walk along a polygon serves both lobes.
+  // True if add() also adds the diffuse light of a light: one walk along a polygon serves both lobes.
   bool brings_diffuse(const SurfaceTile& tile, const PackLight& light) const;
 
-  // Adds the specular light of the lights to tile.radiance, and the diffuse light that it brings, if that is wanted.
+  // Adds the specular light of the lights to tile.radiance, and the diffuse light that comes with it, if wanted.
   enum class Walk { both_lobes, specular_alone };
-  // far: flat lights are elements where they err by no more than that, in methods of transformed cosines; `bound` grows by what they err.
+  // far: flat lights become elements if their error is at most that, in methods of transformed cosines. Their errors are added to `bound`.
   struct Far {
     const lights::FarLights& lights;
     float error;
@@ -49,7 +49,7 @@ class SpecularPass {
 
   const DirectMethod method_;
   const LtcPackTables tables_;
-  const LtcPackTables compact_tables_;  // that tell how wide a lobe is
+  const LtcPackTables compact_tables_;  // these also give the width of a lobe
 };
 
 }  // namespace steradian

@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto kMinAlpha = static_cast<float>(kSmallestAlpha);
 
-// Values at the corners of a triangle, blended.
+// Interpolation of values at the corners of a triangle.
 struct Corner {
   std::uint32_t i0, i1, i2;
   float w0, u, v;
@@ -29,7 +29,7 @@ struct Corner {
   Vec2f operator()(const std::vector<Vec2f>& a) const {
     return {a[i0].x * w0 + a[i1].x * u + a[i2].x * v, a[i0].y * w0 + a[i1].y * u + a[i2].y * v};
   }
-  // Where u and v change.
+  // Change of a value with u and v.
   Vec2f change(const std::vector<Vec2f>& a, Vec2f by) const {
     return {(a[i1].x - a[i0].x) * by.x + (a[i2].x - a[i0].x) * by.y, (a[i1].y - a[i0].y) * by.x + (a[i2].y - a[i0].y) * by.y};
   }
@@ -60,13 +60,14 @@ inline Vec3f unit(Vec3f a) {
   return square > 1e-30f && square < 1e30f ? a * (1 / std::sqrt(square)) : normalized(a);
 }
 
-// As Frame::from_normal has it, in float: most surfaces have no tangents, and no use for this one.
+// The same as Frame::from_normal, in float. Most surfaces have no tangents, and do not use this one.
 Vec3f any_tangent(Vec3f n) {
   const float s = std::copysign(1.0f, n.z), a = -1 / (s + n.z);
   return {1 + s * n.x * n.x * a, n.x * n.y * a * s, -s * n.x};
 }
 
-// Of a unit vector, across a normal, unit: twice, since a small part is mostly rounding. Any direction across where there is none.
+// The part of a unit vector across a normal, as a unit vector. It is computed twice, because a small part is mostly rounding. Returns any
+// direction across the normal if there is no such part.
 Vec3f perpendicular_part(Vec3f a, Vec3f n) {
   const Vec3f once = a - n * dot(n, a);
   if (!(dot(once, once) > 1e-10f)) return any_tangent(n);
@@ -74,7 +75,7 @@ Vec3f perpendicular_part(Vec3f a, Vec3f n) {
   return unit(x - n * dot(n, x));
 }
 
-// The frame of tangent-space textures, of the front face: the vertices' normal, and the mesh's tangent made perpendicular.
+// The frame of tangent-space textures on the front face: the vertices' normal, and the mesh's tangent made perpendicular to it.
 struct TangentFrame {
   Vec3f x, y, z;
 };
@@ -89,7 +90,7 @@ TangentFrame tangent_frame(const Mesh& mesh, const Corner& at, Vec3f n) {
   return {x, cross(n, x), n};
 }
 
-// The normal that a normal map shows, of the front face; the vertices' where the map points below the surface.
+// Normal from a normal map, on the front face; the vertices' normal if the map points below the surface.
 Vec3f bent_normal(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use, const TangentFrame& frame) {
   if (!use.present()) return frame.z;
   const Vec4f c = texel(scene, mesh, at, use);
@@ -119,7 +120,7 @@ void scatter_between_facets(Surface& s, Vec3f view) {
   s.f90 = static_cast<Vec3f>(m.f90);
 }
 
-// KHR_materials_sheen: what the fibres reflect does not reach the layers below.
+// KHR_materials_sheen: light that the fibres reflect does not reach the layers below.
 void add_sheen(Surface& s, const Scene& scene, const Mesh& mesh, const Corner& at, Vec3f view) {
   const SurfaceMaterial& m = *s.material;
   s.sheen = m.sheen_color;
@@ -146,7 +147,7 @@ float covered(const SurfaceMaterial& m, const Vec4f& base) {
   return m.alpha_mode == AlphaMode::blend ? std::clamp(base.w, 0.0f, 1.0f) : 1.0f;
 }
 
-// The rest of the surface's place shows what lies behind.
+// Scales a surface by its coverage. The rest of its place shows the surfaces behind.
 void cover(Surface& s, float share) {
   if (share == 1) return;
   for (Vec3f* part : {&s.emission, &s.albedo, &s.f0, &s.f90, &s.sheen, &s.passes}) *part *= share;
@@ -154,10 +155,10 @@ void cover(Surface& s, float share) {
   s.passes += Vec3f{1, 1, 1} * (1 - share);
 }
 
-// A surface that is seen is seen from above: where interpolation or a normal map turns the normal away from the viewer, it is
-// turned back until the view stands just above its horizon.
+// A visible surface is seen from above. If interpolation or a normal map turns the normal away from the viewer, this turns it back until
+// the view lies just above its horizon.
 //
-//   facing   cosine between the view and the triangle, which is never changed itself
+//   facing   cosine between the view and the triangle, which itself never changes
 Vec3f turned_to(Vec3f n, Vec3f view, float facing) {
   const float least = std::min(0.01f, 0.5f * facing), c = dot(n, view);
   return c >= least ? n : unit(n + view * (least - c));
@@ -182,7 +183,7 @@ SurfaceKind kind_of(const Scene& scene, const Mesh& mesh) {
                                 &m.specular_texture, &m.specular_color_texture}) {
     if (!use->present()) continue;
     textured = true;
-    // Places along longer sides are no whole numbers in float.
+    // Places along longer sides are not whole numbers in float.
     const Image& image = scene.images[static_cast<std::size_t>(use->image)];
     if (std::max(image.width, image.height) > 1 << 20) return SurfaceKind::layered;
   }
@@ -213,7 +214,7 @@ SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned tr
   const float facing = dot(n, direction), area2 = dot(n, n), depth = distance * dot(direction, steps.forward);
   SurfaceFootprint covered{&maps, {}, {}};
   if (!(area2 > 0) || facing == 0) return covered;
-  const auto change = [&](Vec3f step) {  // of the hit, then of its coordinates
+  const auto change = [&](Vec3f step) {  // change of the hit, then of its coordinates
     const Vec3f q = (step - direction * (dot(n, step) / facing)) * (depth / area2);
     return Vec2f{dot(cross(q, e2), n), dot(cross(e1, q), n)};
   };
@@ -316,7 +317,7 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
     float coat_roughness = m.clearcoat_roughness;
     if (m.clearcoat_roughness_texture.present()) coat_roughness *= texel(scene, mesh, at, m.clearcoat_roughness_texture).y;
     s.coat_alpha = std::clamp(coat_roughness * coat_roughness, kMinAlpha, 1.0f);
-    // KHR_materials_clearcoat: what the coat reflects at the view's angle does not reach the layers below.
+    // KHR_materials_clearcoat: light that the coat reflects at the view's angle does not reach the layers below.
     const float c = std::clamp(1 - dot(s.coat_normal, view), 0.0f, 1.0f);
     const float under = 1 - s.coat * (kCoatF0 + (1 - kCoatF0) * c * c * c * c * c);
     s.albedo *= under;

@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t kBlock = 16;
 
-// What blends the corners of each lane's triangle.
+// Interpolates the corners of each lane's triangle.
 struct Corners {
   alignas(64) std::array<std::uint32_t, kLanes> i0, i1, i2;
   alignas(64) std::array<float, kLanes> w0, u, v;
 
   Corners(const Mesh& mesh, const TileHits& hits, std::size_t slot, std::uint32_t slots) {
     for (std::size_t k = 0; k < kLanes; ++k) {
-      const bool here = (slots >> k & 1) != 0;  // other lanes take the first triangle: what they give is not kept
+      const bool here = (slots >> k & 1) != 0;  // other lanes use the first triangle; their results are discarded
       const std::uint32_t* corner = &mesh.indices[here ? 3 * std::size_t{hits.triangle[slot + k]} : 0];
       i0[k] = corner[0];
       i1[k] = corner[1];
@@ -28,7 +28,7 @@ struct Corners {
       w0[k] = 1.0f - u[k] - v[k];
     }
   }
-  // A function of its own, on numbers: the compiler makes more of it than of gathers.
+  // This is a function of its own, on numbers: the compiler optimizes it better than gathers.
   PackVec3 operator()(const std::vector<Vec3f>& values) const {
     alignas(64) std::array<float, kLanes> x, y, z;
     for (std::size_t k = 0; k < kLanes; ++k) {
@@ -50,7 +50,7 @@ struct Corners {
     }
     return {{load(x.data()), load(y.data()), load(z.data())}, load(w.data())};
   }
-  // From the first corner to another.
+  // Edge from the first corner to another one.
   PackVec3 edge(const std::vector<Vec3f>& positions, const std::array<std::uint32_t, kLanes>& other) const {
     alignas(64) std::array<float, kLanes> x, y, z;
     for (std::size_t k = 0; k < kLanes; ++k) {
@@ -75,7 +75,7 @@ struct Corners {
 
 using Mask = PackKernels::mask;
 
-// Writes the lanes that are kept.
+// Writes the lanes in `kept`.
 struct Writer {
   std::size_t slot;
   Mask kept;
@@ -94,7 +94,7 @@ struct Writer {
   STERADIAN_INLINE void operator()(TileVector& v, Vec3f value) const { (*this)(v, broadcast(value)); }
 };
 
-// surface_at's turned_to.
+// The same as surface_at's turned_to.
 STERADIAN_INLINE PackVec3 turned_to(const PackVec3& n, const PackVec3& view, const PackReal& facing) {
   const PackReal least = min(PackReal(0.01), PackReal(0.5) * facing), c = dot(n, view);
   const Mask above = !(c < least);
@@ -103,13 +103,13 @@ STERADIAN_INLINE PackVec3 turned_to(const PackVec3& n, const PackVec3& view, con
   return select(above, n, turned * inversesqrt(max(dot(turned, turned), PackReal(1e-30))));
 }
 
-// Where the lanes' rays meet the mesh.
+// Hits of the lanes' rays on the mesh.
 struct Hits {
   Corners at;
   std::uint32_t kept = 0;     // lanes with a normal whose square is in the range of float
-  PackVec3 edges, view;       // edges: across the triangle, as long as twice its area
-  PackVec3 geometric, blend;  // unit normals of the front face: the triangle's, the vertices'
-  PackReal towards, side;     // the triangle's cosine to the view; -1 where that is its back
+  PackVec3 edges, view;       // edges: normal of the triangle, as long as twice its area
+  PackVec3 geometric, blend;  // unit normals of the front face: the triangle's, and the interpolated one
+  PackReal towards, side;     // cosine between the triangle and the view; side: -1 on the back
 
   STERADIAN_INLINE Hits(const Mesh& mesh, const TileHits& hits, std::size_t slot, std::uint32_t slots) : at(mesh, hits, slot, slots) {
     edges = at.edges_product(mesh.positions);
@@ -127,13 +127,13 @@ struct Hits {
   }
 };
 
-// The lobes of surface.h, but for the layers that no packed surface has.
+// The lobes of surface.h, except for layers that no packed surface has.
 struct Lobes {
   PackVec3 albedo, f0, f90, emission, passes;
   PackReal fresnel_loss, alpha;
 };
 
-// Returns the lanes that it has written.
+// Returns the lanes that it wrote.
 STERADIAN_INLINE Mask write_surfaces(const Mesh& mesh, const Hits& hits, const PackVec3& normal, const PackVec3& tangent,
                                      const Lobes& lobes, const SurfaceMaterial* material, std::size_t slot, SurfaceTile& tile) {
   alignas(64) std::array<float, kLanes> here;
@@ -178,7 +178,7 @@ class Textures {
  public:
   Textures(const Mesh& mesh, const Hits& hits, const Shading& shading, const TileHits& tile_hits, std::size_t slot)
       : mesh_(mesh), hits_(hits), maps_(*shading.maps) {
-    // footprint_on, lane by lane.
+    // The same as footprint_on, lane by lane.
     const Corners& at = hits.at;
     const PackVec3 e1 = at.edge(mesh.positions, at.i1), e2 = at.edge(mesh.positions, at.i2), &n = hits.edges, direction = -hits.view;
     const PackReal facing = dot(n, direction), area2 = dot(n, n);
@@ -193,7 +193,7 @@ class Textures {
     down_ = change(shading.steps.down);
   }
 
-  // White without a texture.
+  // Returns white without a texture.
   PackColor operator()(const TextureUse& use) const {
     const PackReal one(1.0);
     if (!use.present()) return {{one, one, one}, one};
@@ -236,7 +236,7 @@ STERADIAN_INLINE PackVec3 mix(const PackVec3& a, const PackVec3& b, PackReal t) 
 STERADIAN_INLINE PackVec3 by_channel(const PackVec3& a, const PackVec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 STERADIAN_INLINE PackVec3 grey(PackReal x) { return {x, x, x}; }
 
-// surface.cpp's tangent_frame.
+// The same as surface.cpp's tangent_frame.
 struct TangentFrame {
   PackVec3 x, y, z;
 };
@@ -253,7 +253,7 @@ STERADIAN_INLINE TangentFrame tangent_frame(const Mesh& mesh, const Hits& hits) 
   return {x, cross(n, x) * handed, n};
 }
 
-// surface.cpp's bent_normal.
+// The same as surface.cpp's bent_normal.
 STERADIAN_INLINE PackVec3 bent_normal(const Textures& textures, const TextureUse& use, const TangentFrame& frame) {
   if (!use.present()) return frame.z;
   const PackVec3 c = textures(use).rgb;
@@ -272,7 +272,7 @@ __attribute__((flatten)) std::uint32_t fill_textured_pack(const Scene& scene, co
   const Textures textures(mesh, hits, shading, tile_hits, slot);
   const PackReal zero(0.0), one(1.0);
 
-  // What surface_at does, in its order.
+  // The same steps as surface_at, in its order.
   PackColor base = textures(m.base_color_texture);
   base = {by_channel(base.rgb, broadcast(Vec3f{m.base_color.x, m.base_color.y, m.base_color.z})), base.alpha * broadcast(m.base_color.w)};
   if (!mesh.colors.empty()) {
@@ -332,7 +332,7 @@ __attribute__((flatten)) std::uint32_t fill_textured_pack(const Scene& scene, co
   return hits.kept;
 }
 
-// fill(slot, slots): of a pack.
+// fill(slot, slots): fills the slots of a pack.
 template <class Fill>
 std::uint32_t by_packs(std::size_t first, std::uint32_t slots, Fill fill) {
   std::uint32_t filled = 0;

@@ -32,7 +32,7 @@ Mesh triangles(Random& random, int material) {
   return mesh;
 }
 
-// Of any use of one of the images.
+// A random use of one of the images.
 TextureUse any_use(Random& random, const Scene& scene, ColorSpace space) {
   const auto one_of = [&](int n) { return static_cast<int>(random.uniform(0, n - 0.001)); };
   TextureUse use;
@@ -46,8 +46,8 @@ TextureUse any_use(Random& random, const Scene& scene, ColorSpace space) {
   return use;
 }
 
-// Smooth pictures: where a texture jumps, so does the rounding of its coordinates. Blue as of a normal map: its vectors are no shorter
-// than 0.17.
+// Smooth pictures: where a texture jumps, the rounding of its coordinates does too. Blue is that of a normal map: its vectors are no
+// shorter than 0.17.
 void add_images(Scene& scene) {
   for (const auto& [width, height] : {std::pair{64, 32}, {33, 7}}) {
     Image image{"", width, height, {}};
@@ -95,7 +95,7 @@ Scene scene_of_triangles(Random& random) {
   scene.materials[1].double_sided = true;
   scene.materials[1].base_color = {0.2f, 0.5f, 0.7f, 0.25f};
   scene.materials[1].alpha_mode = AlphaMode::blend;
-  scene.materials[2].emissive = {3, 2, 1};  // on one side
+  scene.materials[2].emissive = {3, 2, 1};  // shines on one side
   scene.materials[3].clearcoat = 0.5f;
   for (int m = 0; m < 4; ++m) scene.meshes.push_back(triangles(random, m));
   add_images(scene);
@@ -103,7 +103,7 @@ Scene scene_of_triangles(Random& random) {
   return scene;
 }
 
-// Blocks of one mesh, of one triangle, of any meshes, and with nothing in some slots or all.
+// Blocks that hit one mesh, one triangle or any meshes, and blocks with nothing in some or all slots.
 std::unique_ptr<TileHits> any_hits(Random& random) {
   auto hits = std::make_unique<TileHits>();
   for (std::size_t i = 0; i < kTilePixels; ++i) {
@@ -126,11 +126,11 @@ std::unique_ptr<TileHits> any_hits(Random& random) {
 
 }  // namespace
 
-// Every slot against the surface of its own, by one call a pixel. A component of a unit vector is some roundings off, of which the
-// turning of a normal that is nearly across the view makes more; a position those of its coordinates, at most 8. A textured mesh also
-// has the roundings of its texture coordinates, at most 12, times the slope of what is looked up, at most 39: of a picture 4.9, of sRGB's
-// decoding 2.3, of emission's factor 2, for three channels. A bent normal has twice that over its vector's length, and where it pointed
-// away from the view, within a fiftieth of its opposite, turning it back makes fifty times as much.
+// Compares every slot with the surface from one scalar call a pixel. A component of a unit vector is some roundings off. Turning a normal
+// that is nearly across the view increases this. A position is off by the roundings of its coordinates, at most 8. A textured mesh also has
+// the roundings of its texture coordinates, at most 12, times the slope of the looked-up value, at most 39. Its factors are 4.9 of a
+// picture, 2.3 of sRGB's decoding, 2 of emission's factor, and three channels. A bent normal has twice that over its vector's length. If it
+// pointed away from the view, within a fiftieth of its opposite, turning it back multiplies this by fifty.
 TEST(SurfacePacks, FollowTheSurfaceOfEverySlot) {
   Random random(5);
   const Scene scene = scene_of_triangles(random);
@@ -169,7 +169,7 @@ TEST(SurfacePacks, FollowTheSurfaceOfEverySlot) {
         double& sum = textured ? worst_textured : worst_plain;
         const auto lobe = [&](Vec3f a, Vec3f b) { sum = std::max(sum, static_cast<double>(length(a - b))); };
         if (textured) {
-          const bool turned = dot(truth.normal, view) < 0.011f;  // back to the viewer
+          const bool turned = dot(truth.normal, view) < 0.011f;  // turned back to the viewer
           double& bent = turned ? worst_turned : worst_bent;
           bent = std::max(bent, static_cast<double>(length(found.normal - truth.normal)));
         } else {

@@ -17,7 +17,7 @@ using namespace scene;
 
 using namespace image;
 
-// A floor at y = 0, its tangent along x; glTF's bitangent, cross(normal, tangent) w with w = 1, runs along -z.
+// A floor at y = 0 with its tangent along x. glTF's bitangent, cross(normal, tangent) w with w = 1, runs along -z.
 Scene floor_scene(SurfaceMaterial material) {
   Scene scene;
   scene.materials = {std::move(material)};
@@ -28,7 +28,7 @@ Scene floor_scene(SurfaceMaterial material) {
   return scene;
 }
 
-// One texel; returns its use.
+// Adds an image of one texel and returns its use.
 TextureUse add_texel(Scene& scene, std::uint8_t r, std::uint8_t g, std::uint8_t b) {
   scene.images.push_back({"", 1, 1, {r, g, b, 255}});
   TextureUse use;
@@ -97,14 +97,14 @@ TEST(Surface, ANormalThatTurnsAwayFromTheViewerIsTurnedBack) {
     if (dot(bent, view) > 0.01f) {
       expect_near(n, bent);
     } else {
-      EXPECT_LT(dot(n, view), 0.05f) << elevation;  // no further than it must: a hundredth over the length of what is left
+      EXPECT_LT(dot(n, view), 0.05f) << elevation;  // no further than needed: a hundredth over the length of the rest
     }
   }
   scene.materials[0].normal_texture = {};
   expect_near(seen(scene, {1, 1e-4f, 0}).normal, {0, 1, 0});
 }
 
-// A black base under a coat, both bent, each its own way: pixels are the coat alone, by the library's own call.
+// A black base under a coat, each with its own bent normal: pixels show the coat alone, by the library's own call.
 TEST(Surface, PicturesShowTheCoatAboutItsOwnNormal) {
   Scene scene = floor_scene({});
   SurfaceMaterial& m = scene.materials[0];
@@ -142,7 +142,7 @@ TEST(Surface, PicturesShowTheCoatAboutItsOwnNormal) {
       const auto d = static_cast<Vec3d>(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
       const Vec3d p = camera.position - d * (camera.position.y / d.y);
       if (std::fabs(p.x) > 7.9 || std::fabs(p.z) > 7.9) continue;
-      // The base is a black metal, but F90 of a metal is 1: it is there at grazing angles, dimmed by the coat.
+      // The base is a black metal, but a metal's F90 is 1: it is visible at grazing angles, dimmed by the coat.
       const Surface s = seen(scene, static_cast<Vec3f>(-d));
       Material base = coat;
       base.alpha_x = base.alpha_y = static_cast<double>(s.alpha_x);
@@ -161,7 +161,7 @@ TEST(Surface, PicturesShowTheCoatAboutItsOwnNormal) {
   options.method = "reference";
   options.target_error = 0.04;
   const Picture reference = render(scene, options);
-  // The closed form's own error with Fresnel, of rms 0.0021 (docs/accuracy.md), thrice.
+  // Three times the closed form's own error with Fresnel, of rms 0.0021 (docs/accuracy.md).
   const ZTest test = z_test(picture, reference, 0.0063);
   EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma, threshold " << test.threshold;
 }

@@ -1,4 +1,4 @@
-// Bilinear look-up of a table of four floats a node, on packs: four loads a lane, then a transposition.
+// Bilinear look-up in a table of four floats a node, on packs: four loads a lane, then a transposition.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ STERADIAN_INLINE Quad load_quad(const float* p) {
   return q;
 }
 
-// nodes: size * size nodes, u along a row, both in [0, 1], nodes on the ends.
+// nodes: size * size nodes, u along a row. u and v are in [0, 1], with nodes at both ends.
 STERADIAN_INLINE PackKernels::vec4 look_up(const float* nodes, int size, PackReal u, PackReal v) {
   const PackReal last(size - 1), cells(size - 2);
   const PackReal x = clamp(u, 0.0, 1.0) * last, y = clamp(v, 0.0, 1.0) * last;

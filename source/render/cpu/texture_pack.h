@@ -1,4 +1,4 @@
-// Textures on packs: mip_maps.h's mean over a footprint, every lane with its own.
+// Textures on packs: the mean over a footprint as in mip_maps.h, each lane with its own footprint.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct PackColor {
   PackReal alpha;
 };
 
-// A texture that is looked up, and what a block of points covers of it. The coordinates are the mesh's.
+// A texture to look up, and the footprints of a block of points in it. The coordinates are the mesh's.
 struct PackLookup {
   const MipMaps& maps;
   const TextureUse& use;
@@ -26,13 +26,13 @@ struct PackLookup {
 
 namespace {
 
-// What every lane does with a level: its picture, and the weight of each of its taps.
+// The level that each lane reads: its image, and the weight of each of its taps.
 struct LaneLevels {
   std::array<const Image*, kLanes> image;
   alignas(64) std::array<float, kLanes> width, height, weight;
 };
 
-// A coordinate (0 to 1 over the picture) to the two texels about it, and what the second weighs.
+// Texels on both sides of a coordinate (0 to 1 over the image), and the weight of the second.
 struct PackTexels {
   alignas(64) std::array<float, kLanes> low, high, share;
 
@@ -55,7 +55,7 @@ struct PackTexels {
   }
 };
 
-// Adds a tap's four texels, weighed.
+// Adds the four weighted texels of a tap.
 STERADIAN_INLINE void add_texels(const LaneLevels& levels, const PackTexels& x, const PackTexels& y, std::size_t k, const float* linear,
                                  const float* linear_alpha, std::array<std::array<float, kLanes>, 4>& sum) {
   const std::size_t row = 4 * static_cast<std::size_t>(levels.image[k]->width);
@@ -91,18 +91,18 @@ PackColor sample_texture(const PackLookup& l) {
   const PackReal zero(0.0), one(1.0);
   const PackReal width = broadcast(static_cast<float>(image.width)), height = broadcast(static_cast<float>(image.height));
   PackVec2 middle = turned(l.t);
-  // Coordinates that are no numbers, or beyond all that have a fraction, are 0.
+  // Coordinates that are not numbers, or are too large to have a fraction, become 0.
   const auto usual = [&](PackReal u) { return select(abs(u) < PackReal(1e7), u, zero); };
   middle = {usual(middle.x + broadcast(use.uv[2])), usual(middle.y + broadcast(use.uv[5]))};
 
-  // texture_taps, lane by lane.
+  // The same as texture_taps, lane by lane.
   const PackVec2 right = turned(l.right), down = turned(l.down);
   const PackVec2 a{right.x * width, right.y * height}, b{down.x * width, down.y * height};
   const PackReal xx = a.x * a.x + b.x * b.x, xy = a.x * a.y + b.x * b.y, yy = a.y * a.y + b.y * b.y;
   const PackReal half = PackReal(0.5) * (xx - yy), longer2 = PackReal(0.5) * (xx + yy) + sqrt(half * half + xy * xy);
   const auto covers = longer2 > one;
   std::array<Wrap, 2> wraps{use.wrap_u, use.wrap_v};
-  if (use.filter == Filter::nearest) {  // in the middle of a texel, where no neighbour counts
+  if (use.filter == Filter::nearest) {  // the middle of a texel, where neighbours weigh nothing
     const auto centre = [&](PackReal u, PackReal size) { return (floor(u * size) + PackReal(0.5)) / size; };
     middle = {select(covers, middle.x, centre(middle.x, width)), select(covers, middle.y, centre(middle.y, height))};
   }

@@ -1,4 +1,4 @@
-// What the lobes of many points see of a textured light: its mean under each, on packs.
+// Means of a textured light under the lobes of many points, on packs.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace steradian {
 
-// Arrays of as many floats as there are points, a multiple of 16.
+// Arrays with one float per point, a multiple of 16.
 struct TexturedMeans {
   float *r, *g, *b;
-  float* found;  // 1, or 0 where the mean is not wanted, or the lobe sees less than the light's cells: TexturedLight finds those
+  float* found;  // 1; 0 if the mean is not wanted or the lobe sees less than the light's cells (TexturedLight computes those)
 };
 
 struct TexturedMeansTable {
-  // The mean radiance of the light over what each point's lobe sees of it (TexturedLight::seen_by_diffuse, seen_by_ggx), where wanted > 0.
-  // A pack of points splits the same cells, until the last of them has its mean.
+  // Mean radiance of the light as each point's lobe sees it (TexturedLight::seen_by_diffuse, seen_by_ggx), where wanted > 0. A pack of
+  // points splits the same cells, until its last point has its mean.
   void (*diffuse)(const TexturedLight& light, const Points& points, const float* wanted, const TexturedMeans& means);
-  // tables: ltc_compact_pack_tables(), of any widths
+  // tables: ltc_compact_pack_tables(); any widths.
   void (*ggx)(const TexturedLight& light, const Points& points, const LtcPackTables& tables, const float* wanted,
               const TexturedMeans& means);
 };

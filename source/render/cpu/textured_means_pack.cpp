@@ -14,7 +14,7 @@ struct Lobe {
   PackKernels::GgxView half_vectors;
 };
 
-// lobe_at(i): of the points from i on.
+// lobe_at(i): the lobe for the points from i on.
 template <class LobeAt>
 STERADIAN_INLINE void run(const TexturedLight& light, const Points& points, const float* wanted, const TexturedMeans& means,
                           LobeAt lobe_at) {

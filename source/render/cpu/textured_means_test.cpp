@@ -49,16 +49,16 @@ Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(
 
 }  // namespace
 
-// Every point against the double of its own, for every instruction set: each stops splitting cells where their bounds sum to kTolerance of
-// the mean. A pack splits what any of its points wants split, so that the two differ, on a texture as rough as this, by what either is off
-// (2.3 % at most, docs/ltc.md, "Textured lights"), a quarter of that in the mean square.
+// Every point against its own double, for every instruction set. Each stops splitting cells when their bounds sum to kTolerance of the
+// mean. A pack splits the cells that any of its points needs split. On such a rough texture, the two therefore differ by the error of
+// either. That is 2.3 % at most (docs/ltc.md, "Textured lights"), and a quarter of it in the mean square.
 TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
   Random random(21);
   const Window window(random);
   const LtcPackTables tables = ltc_compact_pack_tables();
   auto tile = std::make_unique<SurfaceTile>(), out = std::make_unique<SurfaceTile>();
   for (std::size_t i = 0; i < kTilePixels; ++i) {
-    // Neighbours, as in a tile, and now and then anything.
+    // Neighbours, as in a tile, with an arbitrary point now and then.
     const bool any = i % 64 < 16;
     const double x = any ? random.uniform(-3, 3) : 0.02 * static_cast<double>(i % 32),
                  z = any ? random.uniform(-0.9, 4) : 0.02 * static_cast<double>(i / 32);
@@ -68,7 +68,7 @@ TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
     put(tile->view, i, normalized(Vec3d{random.uniform(-0.5, 0.5), random.uniform(0.3, 1), random.uniform(0.2, 2)}));
     tile->alpha_x[i] = static_cast<float>(std::exp(random.uniform(-3.5, 0)));
     tile->alpha_y[i] = i % 3 == 0 ? tile->alpha_x[i] : static_cast<float>(std::exp(random.uniform(-3.5, 0)));
-    tile->sheen_alpha[i] = i % 7 == 0 ? 0.0f : 1.0f;  // wanted
+    tile->sheen_alpha[i] = i % 7 == 0 ? 0.0f : 1.0f;  // 1 if the mean is wanted
   }
   const Points points = {kTilePixels, arrays_of(tile->position), arrays_of(tile->normal), arrays_of(tile->view),
                          {},          tile->alpha_x.data(),      tile->alpha_y.data()};

@@ -1,4 +1,4 @@
-// Textured lights in whole pictures: against the converged reference, and that one against quadrature.
+// Textured lights in whole pictures against the converged reference, and the reference against quadrature.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace image;
 
-// A floor at y = 0 before a standing square light of side 2 with a texture of 4 x 4 texels.
+// A floor at y = 0 in front of a standing square light of side 2 with a texture of 4 x 4 texels.
 Scene textured_scene(const std::vector<std::uint8_t>& rgb) {
   SurfaceMaterial m;
   m.name = "floor";
@@ -38,7 +38,7 @@ Scene textured_scene(const std::vector<std::uint8_t>& rgb) {
   t.dv = {0, -0.5, 0};
   t.factor = {3, 3, 3};
   light.texture = t;
-  light.radiance = {1, 1, 1};  // the mean; its value is the loader's matter
+  light.radiance = {1, 1, 1};  // the mean; the loader computes its value
   scene.area_lights = {light};
   return scene;
 }
@@ -77,11 +77,11 @@ TEST(TexturedRender, AConstantTextureIsTheUntexturedLight) {
       largest = std::max(largest, length(b.pixels[i]));
     }
     EXPECT_GT(largest, 0.05f) << method;
-    EXPECT_LT(worst, 4e-6f * largest) << method;  // some twenty roundings of single precision, added up in blurs
+    EXPECT_LT(worst, 4e-6f * largest) << method;  // some twenty roundings of single precision, accumulated in blurs
   }
 }
 
-// The ground truth itself: texture times cosine over the light, by a fine sum, at every pixel of a diffuse floor.
+// Checks the ground truth itself: texture times cosine over the light, by a fine sum, at every pixel of a diffuse floor.
 TEST(TexturedRender, ReferenceIsTheIntegralOfTextureTimesCosine) {
   Scene scene = textured_scene(spots());
   scene.materials[0].specular = 0;
@@ -106,13 +106,13 @@ TEST(TexturedRender, ReferenceIsTheIntegralOfTextureTimesCosine) {
         }
       exact.at(x, y) = static_cast<Vec3f>(sum * (4.0 / (kSteps * kSteps) * 0.6 / M_PI));
     }
-  const ZTest test = z_test(exact, reference, 2e-4);  // the sum's own error, where the light touches the floor nearly
+  const ZTest test = z_test(exact, reference, 2e-4);  // the sum's own error, where the light nearly touches the floor
   EXPECT_GT(test.tested, 1000);
   EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma";
 }
 
-// docs/ltc.md, "Textured lights": the mean is off by at most 2 % in L2 and in energy; the tables themselves by 3 %
-// and 2 % (docs/ltc.md), the reference by its target, itself uncertain by a quarter.
+// docs/ltc.md, "Textured lights": the mean is off by at most 2 % in L2 and in energy. The tables themselves are off by 3 % and
+// 2 % (docs/ltc.md), the reference by its target, which is itself uncertain by a quarter.
 TEST(TexturedRender, EveryMethodIsNearTheReference) {
   const Scene scene = load_scene(test::kSourceDir + "/scenes/textured_floor.glb").scene;
   RenderOptions options = small("reference");
@@ -130,7 +130,7 @@ TEST(TexturedRender, EveryMethodIsNearTheReference) {
   Scene mean = scene;
   mean.area_lights[0].texture.reset();
   of_mean = difference(render(mean, options), reference).relative_l2;
-  EXPECT_GT(of_mean, 0.3);  // the mean colour is no answer: the test can fail
+  EXPECT_GT(of_mean, 0.3);  // the mean colour is not the result, so the test can fail
 }
 
 TEST(TexturedRender, SaysWhichLobesSeeTheMean) {

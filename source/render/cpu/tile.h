@@ -14,8 +14,8 @@ struct SurfaceMaterial;
 inline constexpr int kTileSide = 32;
 inline constexpr std::size_t kTilePixels = std::size_t{kTileSide} * kTileSide;
 
-// Slot of pixel (x, y): blocks of 4 x 4 pixels, row by row. Sixteen neighbours in a pack (and in a packet of rays)
-// agree on branches far more often than sixteen pixels of a row.
+// Slot of pixel (x, y): blocks of 4 x 4 pixels, row by row. Sixteen neighbours in a pack (and in a packet of rays) agree on branches far
+// more often than sixteen pixels of a row.
 constexpr std::size_t tile_slot(int x, int y) {
   const int block = (y / 4) * (kTileSide / 4) + x / 4;
   return static_cast<std::size_t>(block * 16 + (y % 4) * 4 + x % 4);
@@ -23,7 +23,7 @@ constexpr std::size_t tile_slot(int x, int y) {
 
 inline constexpr std::uint32_t kNoSlot = UINT32_MAX;
 
-// A line longer than its pixels: planes a multiple of 4 KB apart would fight for the same few lines of the cache when a
+// A plane is one cache line longer than its pixels. Planes a multiple of 4 KB apart would compete for the same few cache lines when a
 // pixel's values are written to all of them.
 using TilePlane = std::array<float, kTilePixels + 16>;
 
@@ -34,19 +34,19 @@ inline Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v
 
 // Slots without a surface hold a normal of zero; every light sends them nothing.
 struct SurfaceTile {
-  std::uint64_t seed = 0;  // of what is decided at random about it: another for each tile and sample of a frame
+  std::uint64_t seed = 0;  // seed of its random decisions: differs for each tile and sample of a frame
   TileVector position, normal, view;
-  TileVector geometric_normal;  // of the triangle, unit, turned to the viewer
+  TileVector geometric_normal;  // triangle's normal, unit, turned to the viewer
   TileVector albedo;            // diffuse
   alignas(64) TilePlane fresnel_loss;
-  TileVector f0, f90;  // specular GGX, zero where there is none
+  TileVector f0, f90;  // specular GGX; zero without such a lobe
   TileVector tangent;
   alignas(64) TilePlane alpha_x, alpha_y;
   alignas(64) TilePlane coat, coat_alpha;
   TileVector coat_normal;
-  TileVector sheen;  // colour of Charlie's lobe, black where there is none
+  TileVector sheen;  // colour of Charlie's lobe; black without sheen
   alignas(64) TilePlane sheen_alpha;
-  TileVector passes;                                         // share of the light from behind; only where any_passing
+  TileVector passes;                                         // fraction of the light from behind that comes through; only where any_passing
   TileVector radiance;                                       // the result
   std::array<const SurfaceMaterial*, kTilePixels> material;  // null without a surface
   bool any_surface, any_diffuse, any_specular, any_sheen, any_coat, any_override, any_passing;

@@ -19,15 +19,15 @@ void add_radiance(SurfaceTile& tile, std::size_t i, Vec3f r) {
 
 }  // namespace
 
-// Shadows of a tile in work, and their thread's memory.
+// State of one tile's shadows, and the memory of one thread.
 struct TileLighting::Work {
   TileShadow shadow;
   ShadowCounts counts;
   OpenLights::Work open;
-  PackLight pieces;                  // what slots see of a light
-  std::vector<std::uint32_t> slots;  // in `some`, side by side
+  PackLight pieces;                  // visible parts of a light, for some slots
+  std::vector<std::uint32_t> slots;  // slots copied to `some`, side by side
   SurfaceTile some;
-  SurfaceTile coats;                 // that have a normal of their own
+  SurfaceTile coats;                 // coats that have a normal of their own
   std::size_t filled = kTilePixels;  // slots of `some` that may hold a surface
 };
 
@@ -42,7 +42,7 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
 }
 
-// plain: of which the diffuse light is still to be done.
+// plain: lights whose diffuse light is still to be added.
 void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain) {
   if (method_.exact_diffuse && tile.any_diffuse && !plain.empty())
     direct_clock_.run([&] {
@@ -55,7 +55,7 @@ void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight
 }
 
 void TileLighting::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-  constexpr std::size_t kFew = 8;  // are done before cells are
+  constexpr std::size_t kFew = 8;  // lights that are summed before cells are built
   if (many_lights_ != nullptr && lights.size() > kFew) {
     std::vector<const PackLight*> plain;
     if (method_.exact_diffuse && tile.any_diffuse) direct_clock_.run([&] { plain = many_lights_->add_to_tile(tile, lights); });
@@ -103,8 +103,8 @@ const TileShadow& TileLighting::find_at(const TilePoints& points, const PackLigh
   return work.shadow;
 }
 
-// A light before which nothing stands goes the usual way, and is returned; of the others, the slots that see all of it or a part are
-// evaluated side by side.
+// Returns the lights that nothing occludes; the caller adds them as usual. For the others, evaluates the slots that see all of the light or
+// a part of it, side by side.
 std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
                                                               ShadowTaker* taker) {
   TilePoints points;
@@ -133,7 +133,7 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
   return plain;
 }
 
-// Slots that see all of a light, or a share of it.
+// Adds the light for slots that see all of it, or a fraction of it.
 void TileLighting::add_whole(SurfaceTile& tile, const PackLight& light, Work& work) {
   using Seen = TileShadow::Seen;
   work.slots.clear();
@@ -147,16 +147,16 @@ void TileLighting::add_whole(SurfaceTile& tile, const PackLight& light, Work& wo
   }
 }
 
-// The radiance that a light sends to some slots alone, in their order.
+// The radiance that a light sends to some slots only, in their order.
 SurfaceTile& TileLighting::light_slots(const SurfaceTile& tile, const PackLight& light, Work& work) {
   work.filled = take_slots(tile, work.slots, work.filled, work.some);
-  // Pieces lie above the surface's horizon, and no coat's normal differs from it by more than rounding (take_coats).
+  // Pieces lie above the surface's horizon, and each coat's normal equals the surface's, except for rounding (take_coats).
   if (light.is_pieces()) work.some.coat_normal = work.some.normal;
   add(work.some, {&light});
   return work.some;
 }
 
-// Slots that see a part of a light.
+// Adds the light for slots that see a part of it.
 void TileLighting::add_parts(SurfaceTile& tile, const PackLight& light, Work& work) {
   for (std::size_t i = 0; i < work.shadow.batch_count; ++i) add_batch(tile, light, work.shadow.batches[i], work);
 }
@@ -170,8 +170,8 @@ void TileLighting::add_batch(SurfaceTile& tile, const PackLight& light, TileShad
     for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance_in(seen, k) * batch.passes[k];
   });
   if (batch.all.point_count() > 0) {
-    // The polygon stands for the light only in what share of it arrives: no step where shadows begin.
-    // Methods that approximate may find more of a part than of all.
+    // The polygon replaces the light only for the fraction that arrives, so there is no step where shadows begin. Approximate methods may
+    // find more light for a part than for the whole.
     const auto over = [](float part, float all) { return all > 0 ? std::min(part / all, 1.0f) : 0.0f; };
     light_pieces(tile, batch.all, work, [&](const SurfaceTile& all) {
       for (std::size_t k = 0; k < count; ++k) {
@@ -186,7 +186,7 @@ void TileLighting::add_batch(SurfaceTile& tile, const PackLight& light, TileShad
     if (batch.slots[k] != kNoSlot) add_radiance(tile, batch.slots[k], radiance[k]);
 }
 
-// use(tile): the radiance that some slots get from pieces, in their order.
+// Calls use(tile) with the radiance that some slots get from pieces, in their order.
 template <class Use>
 void TileLighting::light_pieces(const SurfaceTile& tile, packed::Pieces& pieces, Work& work, Use use) {
   if (!work.pieces.is_pieces()) work.pieces.shape = packed::Pieces();

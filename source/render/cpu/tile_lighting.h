@@ -1,4 +1,4 @@
-// TileLighting: the direct light of a tile's surfaces without sampling, past what blocks it: what every back end has on the CPU.
+// TileLighting: direct light of a tile's surfaces past occluders, without sampling. All back ends share this part on the CPU.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -22,30 +22,30 @@ struct DirectTable;
 
 class TileLighting {
  public:
-  // All must stay; lights: of prepare_lights. many_lights: null where each light is done by itself.
+  // All arguments must outlive this object. lights: from prepare_lights. many_lights: null if each light is summed by itself.
   TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method, const std::vector<PackLight>& lights,
                const SceneParts& parts, ManyLightPass* many_lights);
 
   bool has_shadows() const { return shadows_.has_value(); }
 
-  // Adds the light of lights before which nothing stands to tile.radiance. Under many lights their bound() grows.
+  // Adds the light of lights that nothing occludes to tile.radiance. With many lights, their bound() grows.
   void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
-  // ... of which many lights' diffuse light is done elsewhere: for a block of tiles.
+  // The same, but many lights' diffuse light is added elsewhere, for a block of tiles.
   void add_beside_block(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
     add_many(tile, lights, many_lights_->others(lights));
   }
-  // ... of lights before which something may stand.
+  // Adds the light of lights that may be occluded.
   void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
-  // ... of those of them before which something does stand, and returns the others. Coats with a normal of their own are done with for
-  // good: they weigh nothing in the tile then. taker: where it is not null, they are its to add.
+  // Adds the light of those lights that are occluded, and returns the others. Coats with a normal of their own are then complete: they
+  // weigh nothing in the tile. taker: if not null, it adds the light of these lights.
   std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker = nullptr);
-  // What some points see of an area light. It stays until the thread asks for more.
+  // Visibility of an area light from some points. The result is valid until the thread asks again.
   const TileShadow& find_at(const TilePoints& points, const PackLight& light);
 
   PassTime direct_time(int threads) const { return direct_clock_.time(threads); }
   PassTime specular_time(int threads) const { return specular_clock_.time(threads); }
   PassTime shadow_time(int threads) const { return shadow_clock_.time(threads); }
-  // Share of pairs of a surface and a light whose shadows rays have estimated.
+  // Fraction of pairs of a surface and a light whose shadows were estimated by rays.
   double shadow_fallback() const;
   ShadowCounts shadow_counts() const;
 

@@ -20,7 +20,7 @@ std::vector<const PackLight*> even_ones(const std::vector<const PackLight*>& lig
 }
 
 void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
-  alignas(64) TilePlane irradiance, above;  // above: the boundary, which the lobe of a profile's mean has not
+  alignas(64) TilePlane irradiance, above;  // above: without the boundary, which the lobe of a profile's mean lacks
   for (const PackLight* light : lights) {
     if (light->is_even()) continue;
     const Points points = points_of(tile);

@@ -1,4 +1,4 @@
-// Diffuse light of lights that are not even: the exact irradiance times the texture, or the profile, as the cosine lobe sees it.
+// Diffuse light of textured and profiled lights: exact irradiance times the texture or profile as the cosine lobe sees it.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace steradian {
 
-// Those that packs finish alone.
+// The lights that are neither textured nor profiled. Packs serve these alone.
 std::vector<const PackLight*> even_ones(const std::vector<const PackLight*>& lights);
 
-// Adds albedo / pi times the irradiance of the uneven ones among the lights to tile.radiance. Point by point.
+// Adds albedo / pi times the irradiance of the textured and profiled ones among the lights to tile.radiance, point by point.
 void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
 
 }  // namespace steradian

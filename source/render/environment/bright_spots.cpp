@@ -33,7 +33,7 @@ double threshold(const DirectionGrid& grid, double power) {
   return std::max(16 * median, 2 * power / (4 * std::numbers::pi));
 }
 
-// Texels above the threshold, grown over the eight neighbours; around the map's seam, not over the poles.
+// Texels above the threshold, grown over the eight neighbours, across the map's seam but not over the poles.
 std::vector<Spot> bright_parts(const DirectionGrid& grid, double least) {
   const int width = grid.map.width, height = grid.map.height;
   std::vector<char> seen(grid.map.pixels.size(), 0);
@@ -69,7 +69,7 @@ struct Point {
 };
 double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-// Counter-clockwise.
+// Counter-clockwise hull.
 // Source: Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
 std::vector<Point> convex_hull(std::vector<Point> points) {
   std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
@@ -87,7 +87,7 @@ std::vector<Point> convex_hull(std::vector<Point> points) {
   return hull;
 }
 
-// Without the corners that cost the least area.
+// Removes the corners that cost the least area.
 void simplify(std::vector<Point>& hull) {
   while (hull.size() > kMostCorners) {
     const auto lost = [&](std::size_t i) { return turn(hull[(i + hull.size() - 1) % hull.size()], hull[i], hull[(i + 1) % hull.size()]); };
@@ -98,9 +98,9 @@ void simplify(std::vector<Point>& hull) {
   }
 }
 
-// The plane that touches the unit sphere at a spot's middle; directions become points of it.
+// The plane that touches the unit sphere at a spot's middle. Directions become points of the plane.
 struct TangentPlane {
-  Frame frame;  // z from the spot to the sphere's centre: a polygon counter-clockwise about it is lit towards the centre
+  Frame frame;  // z points from the spot to the sphere's centre: a polygon counter-clockwise about it is lit towards the centre
 
   std::optional<Point> project(Vec3d d) const {
     const double towards = -dot(d, frame.z);
@@ -126,7 +126,7 @@ bool inside(const std::vector<Point>& hull, Point p) {
   return true;
 }
 
-// Mean of the texels that touch the spot and are no part of it.
+// Mean of the texels that touch the spot and do not belong to it.
 Vec3d mean_around(const DirectionGrid& grid, const Spot& spot) {
   const int width = grid.map.width;
   std::vector<std::pair<int, int>> own, around;  // (row, column), sorted
@@ -149,7 +149,7 @@ Vec3d mean_around(const DirectionGrid& grid, const Spot& spot) {
   return weight > 0 ? sum / weight : Vec3d{};
 }
 
-// Takes the polygon's light out of the map: from each texel by the share of it that the polygon covers, of 8 x 8 places.
+// Takes the polygon's light out of the map. The polygon's coverage of a texel is measured at 8 x 8 positions.
 void take_out(DirectionGrid& grid, const Spot& spot, const TangentPlane& plane, const std::vector<Point>& hull, Vec3d radiance) {
   constexpr int kPlaces = 8;
   int first = grid.map.height, last = -1;

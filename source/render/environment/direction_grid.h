@@ -1,4 +1,4 @@
-// DirectionGrid: an environment's map as integrals see it, constant over each of its texels, whose solid angles it knows.
+// DirectionGrid: an environment's map for integrals. It is constant over each of its texels, whose solid angles it knows.
 #pragma once
 
 #include <cmath>
@@ -11,10 +11,10 @@ namespace steradian::environment {
 struct DirectionGrid {
   Picture map;
 
-  // Averaged down by solid angle to at most so many columns, and half as many rows.
+  // The map averaged down by solid angle to at most `most_columns` columns, and half as many rows.
   static DirectionGrid averaged(const Picture& map, int most_columns);
 
-  // The same map in at least so many columns: every texel several times.
+  // The same map in at least `least_columns` columns: every texel is repeated.
   static DirectionGrid repeated(const DirectionGrid& grid, int least_columns);
 
   double solid_angle(int row) const {

@@ -9,11 +9,11 @@
 namespace steradian::environment {
 namespace {
 
-// Of the map that integrals see: the sun's disc is one and a half texels wide.
+// Resolution of the map for integrals: the sun's disc is one and a half texels wide.
 constexpr int kMostColumns = 1024;
-// Cones that stand for a lobe. What they are off by is measured by EnvironmentRender.SpecularAgreesWithTheReference.
+// Number of cones that represent a lobe. EnvironmentRender.SpecularAgreesWithTheReference measures their error.
 constexpr int kCones = 32;
-// Distance of the spots' polygons over the scene's radius: seen from anywhere in the scene they move by less than 1e-4 rad.
+// Distance of the spots' polygons over the scene's radius: across the scene they move by less than 1e-4 rad.
 constexpr double kDistance = 1e4;
 
 std::vector<AreaLight> lights_of(const Scene& scene, const SplitMap& split) {
@@ -38,14 +38,14 @@ double integrate_mean_grazing(double cos_view) {
   double sum = 0;
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
-      const double square = (i + 0.5) / kSteps, phi = std::numbers::pi * (j + 0.5) / kSteps;  // even in the projected area of the sky
+      const double square = (i + 0.5) / kSteps, phi = std::numbers::pi * (j + 0.5) / kSteps;  // uniform in the projected area of the sky
       const Vec3d l{std::sqrt(square) * std::cos(phi), std::sqrt(square) * std::sin(phi), std::sqrt(1 - square)};
       sum += std::pow(1 - dot(view, normalized(view + l)), 5);
     }
   return sum / (kSteps * kSteps);
 }
 
-// Places in the unit square, even in both directions: a Fibonacci lattice.
+// Positions in the unit square, uniform in both directions: a Fibonacci lattice.
 std::array<double, 2> place_of_cone(int i) {
   const double golden = 0.61803398874989485;
   const double v = i * golden;
@@ -80,14 +80,14 @@ EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid
       filtered_(split.rest),
       sampler_(grid) {}
 
-// The irradiance, less what the boundary above takes of an even sky.
+// Irradiance times the fraction that passes the boundary above the surface under a uniform sky.
 Vec3d EnvironmentLight::diffuse(const Material& lobe, Vec3d normal, Vec3d view) const {
   const Vec3d irradiance = environment_.irradiance ? environment_.irradiance->at(normal) : harmonics_.at(normal);
   const double passed = lobe.fresnel_loss > 0 ? 1 - lobe.fresnel_loss * mean_grazing(dot(normal, view)) : 1;
   return lobe.albedo * irradiance * (passed / std::numbers::pi);
 }
 
-// A GGX lobe by half vectors of those that the view sees, in float.
+// Integrates a GGX lobe by half vectors that are visible from the view, in float.
 //
 //   view      in the lobe's frame, above its surface
 //   returns   sums of the map's mean in every cone times G2 / G1, plain and times (1 - v.h)^5
@@ -96,7 +96,7 @@ struct EnvironmentLight::GgxSums {
   Vec3f plain{}, grazing{};
 };
 EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame, Vec3f view, float ax, float ay) const {
-  static const auto discs = [] {  // points of the unit disc, and the square of their radius
+  static const auto discs = [] {  // points of the unit disc, with the square of their radius
     std::array<Vec3f, kCones> d;
     for (int i = 0; i < kCones; ++i) {
       const auto [u, v] = place_of_cone(i);
@@ -135,7 +135,7 @@ EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame
   return sums;
 }
 
-// Any lobe: its own directions of equal chance, each with as much of the sky about it as it stands for.
+// Integrates any lobe: directions of equal probability, each with a cone of the sky as large as it represents.
 Vec3d EnvironmentLight::through_cones(const Material& material, const Surface& surface, Vec3d normal, Vec3d view) const {
   const Vec3d tangent = material.tangent == Vec3d{} ? static_cast<Vec3d>(surface.tangent) : material.tangent;
   const Frame frame = Frame::from_normal_and_tangent(normal, tangent);

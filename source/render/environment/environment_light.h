@@ -1,5 +1,5 @@
-// EnvironmentLight: an environment made ready for a scene. Bright spots are polygon lights; the diffuse lobe takes the rest by spherical
-// harmonics, all other lobes through a few cones of a blurred map. The rest casts no shadows.
+// EnvironmentLight: an environment prepared for a scene. Bright spots become polygon lights. Spherical harmonics of the rest light the
+// diffuse lobe, and a few cones of a blurred map light all other lobes. The rest casts no shadows.
 #pragma once
 
 #include "render/environment/bright_spots.h"
@@ -12,17 +12,17 @@ namespace steradian::environment {
 
 class EnvironmentLight {
  public:
-  explicit EnvironmentLight(const Scene& scene);  // scene.environment is there, and stays
+  explicit EnvironmentLight(const Scene& scene);  // scene.environment must exist and outlive this object
 
   const std::vector<AreaLight>& spots() const { return spots_; }
   double share_of_spots() const { return share_; }
   double diffuse_residual() const { return harmonics_.residual(); }
   const EnvironmentSampler& sampler() const { return sampler_; }
 
-  // What a camera sees beside all meshes.
+  // Radiance that a camera sees past all meshes.
   Vec3f background(Vec3f direction) const { return radiance_from(environment_.map, static_cast<Vec3d>(direction)); }
 
-  // Radiance that a surface sends to a unit view, of all but the spots.
+  // Radiance that a surface reflects to a unit view, without the spots.
   Vec3f reflected(const Surface& surface, Vec3f view) const;
 
  private:
@@ -38,10 +38,10 @@ class EnvironmentLight {
   double share_ = 0;
   HarmonicIrradiance harmonics_;
   FilteredMap filtered_;
-  EnvironmentSampler sampler_;  // of the whole map
+  EnvironmentSampler sampler_;  // samples the whole map
 };
 
-// The mean over the sky, weighed by the cosine, of Schlick's (1 - v.h)^5: what a Lambertian surface loses to the boundary above it.
+// Mean over the sky of Schlick's (1 - v.h)^5, weighted by the cosine: the loss of a Lambertian surface to the boundary above it.
 double mean_grazing(double cos_view);
 
 }  // namespace steradian::environment

@@ -6,7 +6,7 @@
 
 namespace steradian::environment {
 
-// Density before it is scaled: the luminance, and a tenth of its mean everywhere.
+// Unnormalized density: the luminance, plus a tenth of its mean everywhere.
 double EnvironmentSampler::weight(int column, int row) const { return luminance(static_cast<Vec3d>(grid_.map.at(column, row))) + uniform_; }
 
 EnvironmentSampler::EnvironmentSampler(DirectionGrid grid) : grid_(std::move(grid)) {
@@ -30,7 +30,7 @@ Vec3d EnvironmentSampler::sample(double u, double v) const {
   const auto [row, down] = find(rows_.begin(), rows_.end(), v * total_);
   const auto begin = columns_.begin() + std::ptrdiff_t{row} * grid_.map.width, end = begin + grid_.map.width;
   const auto [column, across] = find(begin, end, u * *(end - 1));
-  // Even in solid angle within the texel: in the height.
+  // Uniform in solid angle within the texel, that is in the height.
   const double top = std::cos(std::numbers::pi * row / grid_.map.height),
                bottom = std::cos(std::numbers::pi * (row + 1) / grid_.map.height);
   const double height = top + (bottom - top) * down;

@@ -1,4 +1,4 @@
-// Directions from a map by what it sends from there: for the reference methods.
+// Directions sampled from a map in proportion to its radiance, for the reference methods.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ class EnvironmentSampler {
  public:
   explicit EnvironmentSampler(DirectionGrid grid);
 
-  // For u, v in [0, 1); density pdf(direction) per solid angle, nowhere zero.
+  // Samples a direction for u, v in [0, 1). Its density pdf(direction) per solid angle is nowhere zero.
   Vec3d sample(double u, double v) const;
   double pdf(Vec3d direction) const;
   Vec3d radiance(Vec3d direction) const;
 
  private:
   DirectionGrid grid_;
-  std::vector<double> rows_;     // of the densities' integrals up to a row's end
+  std::vector<double> rows_;     // running integrals of the density up to each row's end
   std::vector<double> columns_;  // the same within every row
   double total_ = 0, uniform_ = 0;
   double weight(int column, int row) const;

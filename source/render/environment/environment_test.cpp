@@ -18,10 +18,10 @@ namespace {
 
 using namespace environment;
 using namespace scene;
-constexpr int kSide = 24;               // of pictures
-constexpr double kTargetError = 0.008;  // of the reference: an error below is lost in its noise
+constexpr int kSide = 24;               // side of the pictures
+constexpr double kTargetError = 0.008;  // error of the reference: smaller errors are lost in its noise
 
-// A smooth map of all degrees up to 4 or so, and coloured.
+// A smooth, coloured map of all degrees up to 4 or so.
 Picture smooth_map(int width) {
   Picture map(width, width / 2);
   for (int j = 0; j < map.height; ++j)
@@ -111,7 +111,7 @@ Picture picture_of(const Scene& scene, const std::string& method, RenderStats* s
   return render(scene, options, stats);
 }
 
-// Root of the sum of the squares of the differences over that of the reference's.
+// Root of the sum of squared differences, relative to that of the reference.
 double relative_l2(const Picture& a, const Picture& reference) {
   double difference = 0, square = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -182,7 +182,7 @@ TEST(EnvironmentSplit, SpotsAndRestAreTheMap) {
   const SplitMap split = split_bright_spots(grid);
   ASSERT_EQ(split.spots.size(), 2u);
   EXPECT_GT(split.share, 0.5);
-  // The irradiance of both together is the map's, to the 1/64 by which the polygons' edges are found in their texels.
+  // The irradiance of both together is the map's, up to the 1/64 by which the polygons' edges are located in their texels.
   reference::Random random(5);
   for (int i = 0; i < 50; ++i) {
     const Vec3d n = random_direction(random);
@@ -212,7 +212,7 @@ TEST(EnvironmentFilter, BlursByTheStatedWidthAndKeepsConstants) {
     EXPECT_NEAR(m.x, 1, 1e-5);
     EXPECT_NEAR(m.z, 3, 1e-5);
   }
-  // A harmonic of degree 2 keeps exp(-l (l + 1) w^2 / 2) = exp(-3 w^2) of itself under a Gaussian of that width.
+  // A harmonic of degree 2 retains exp(-l (l + 1) w^2 / 2) = exp(-3 w^2) of itself under a Gaussian of that width.
   Picture map(512, 256);
   for (int j = 0; j < map.height; ++j)
     for (int i = 0; i < map.width; ++i) {
@@ -227,9 +227,9 @@ TEST(EnvironmentFilter, BlursByTheStatedWidthAndKeepsConstants) {
       worst = std::max(worst, std::fabs(filtered.mean(static_cast<Vec3f>(d), w).x - std::exp(-3.0 * w * w) * (3 * d.y * d.y - 1)));
     }
     std::printf("width %.2f: worst %.4f of 2\n", static_cast<double>(w), worst);
-    // Of an amplitude of 2: linear between widths a factor of two apart, 0.75 w^2; an octahedron's texels differ in length by up to 1.7,
-    // and with them what interpolation adds to the variance, (0.83 w)^2 / 6 in the mean: 3 (1.7^2 - 1) 0.116 w^2. And where texels, of up
-    // to 1.7 times 0.83 w, lie across an edge of the octahedron, a quarter of one times the slope, which is 3 at most.
+    // The bound holds for an amplitude of 2. Linear interpolation between widths a factor of two apart: 0.75 w^2. An octahedron's texels
+    // differ in length by up to 1.7, and so does the variance that interpolation adds, (0.83 w)^2 / 6 in the mean: 3 (1.7^2 - 1) 0.116
+    // w^2. At an edge of the octahedron, with texels of up to 1.7 times 0.83 w: a quarter of one times the slope, which is 3 at most.
     EXPECT_LT(worst, 2 * 1.41 * w * w + 1.06 * w) << w;
   }
 }
@@ -274,8 +274,8 @@ TEST(EnvironmentRender, AWhiteFurnaceHidesAWhiteBall) {
   EXPECT_EQ(picture.at(0, 0), (Vec3f{0, 0, 0})) << "the background is off";
 }
 
-// Under a dielectric's boundary and with its specular lobe, in an even sky: what the cosine-weighted mean of (1 - F) leaves of the base
-// is exact, the specular part is the cones' cubature of the lobe's albedo.
+// Under a dielectric's boundary and with its specular lobe, in a uniform sky. The part of the base that the cosine-weighted mean of (1 -
+// F) leaves is exact. The specular part is the cones' cubature of the lobe's albedo.
 TEST(EnvironmentRender, ADielectricInAFurnaceAgreesWithTheReference) {
   SurfaceMaterial m = white_diffuse();
   m.specular = 1;
@@ -299,7 +299,7 @@ TEST(EnvironmentRender, DiffuseAgreesWithTheReference) {
   }
 }
 
-// The error of the specular lobe, which docs/render.md states.
+// Error of the specular lobe, as docs/render.md states it.
 TEST(EnvironmentRender, SpecularAgreesWithTheReference) {
   for (const float roughness : {0.1f, 0.3f, 0.6f, 1.0f})
     for (const bool room : {false, true}) {
@@ -310,7 +310,7 @@ TEST(EnvironmentRender, SpecularAgreesWithTheReference) {
     }
 }
 
-// Tiles that stick out of the picture by whole blocks of pixels, past what lights of the map throw shadows.
+// Tiles extend beyond the picture by whole blocks of pixels, where lights of the map cast shadows.
 TEST(EnvironmentRender, PicturesOfAnySizeWithShadowsAreFinite) {
   const Scene scene = ball_in(room_map(), metal(0.3f));
   RenderOptions options;

@@ -7,10 +7,10 @@
 namespace steradian::environment {
 namespace {
 
-constexpr double kLargestWidth = 0.3;  // beyond, 32 cones of the roughest lobe do not ask
+constexpr double kLargestWidth = 0.3;  // 32 cones of the roughest lobe need no larger width
 constexpr int kFinestSide = 512, kCoarsestSide = 32, kLevels = 10;
 
-// The octahedron |x| + |y| + |z| = 1, its upper half (y > 0) in the middle of the square [-1, 1]^2, the lower folded outwards.
+// The octahedron |x| + |y| + |z| = 1. Its upper half (y > 0) is the middle of the square [-1, 1]^2, the lower half is folded outwards.
 struct SquarePlace {
   float s, t;
 };
@@ -28,16 +28,16 @@ Vec3d direction_from_square(double s, double t) {
 
 Vec3d texel_direction(double x, double y, int side) { return direction_from_square(2 * x / side - 1, 2 * y / side - 1); }
 
-// Standard deviation by which a level is blurred, as the finest level's texels: the first as it comes, about half of one; from the
-// second on, what interpolating between its texels blurs included, 0.6 times a power of two, and texels of half of that (the coarsest
-// smaller still), so that linear interpolation between them does not show.
+// Standard deviation of a level's blur, in terms of the finest level's texels. The first level has about half a texel, unfiltered. From
+// the second on it is 0.6 times a power of two, including the blur of interpolation. Texels have half of that power of two (the coarsest
+// are smaller), so that linear interpolation does not show.
 float width_of_level(int level, float finest_texel) { return level == 0 ? 0.5f * finest_texel : std::ldexp(0.6f * finest_texel, level); }
 
 }  // namespace
 
 void FilteredMap::Level::fill_border() {
   for (int i = 0; i < side; ++i) {
-    const int mirrored = side - 1 - i;  // across an edge of the square lies the same edge, run the other way
+    const int mirrored = side - 1 - i;  // the neighbour across an edge of the square is the same edge in reverse
     at(i, -1) = at(mirrored, 0);
     at(i, side) = at(mirrored, side - 1);
     at(-1, i) = at(0, mirrored);
@@ -61,11 +61,11 @@ Vec3f FilteredMap::Level::linear(Vec3f direction) const {
   return (row[0] * (1 - fx) + row[1] * fx) * (1 - fy) + (next[0] * (1 - fx) + next[1] * fx) * fy;
 }
 
-// The finer level about every texel by a grid of 7 x 7 places a standard deviation apart: the trapezoidal rule, which is as good as exact
-// for a Gaussian of that spacing.
+// Blurs the finer level about every texel by a grid of 7 x 7 positions a standard deviation apart. This is the trapezoidal rule, which is
+// practically exact for a Gaussian of that spacing.
 FilteredMap::Level FilteredMap::blurred(const Level& finer, int side, double width) {
   struct Node {
-    double x, y, weight;  // of unit length together: sine of the angle, towards the directions of the tangent plane
+    double x, y, weight;  // unit vector in total: sine of the angle, along the directions of the tangent plane
   };
   constexpr int kReach = 3;
   std::vector<Node> nodes;
@@ -73,7 +73,7 @@ FilteredMap::Level FilteredMap::blurred(const Level& finer, int side, double wid
   for (int i = -kReach; i <= kReach; ++i)
     for (int j = -kReach; j <= kReach; ++j) {
       const double angle = std::min(width * std::hypot(i, j), std::numbers::pi);
-      const double sine_over_angle = angle > 0 ? std::sin(angle) / angle : 1;  // the area of the sphere's cell over the plane's
+      const double sine_over_angle = angle > 0 ? std::sin(angle) / angle : 1;  // ratio of the areas of the sphere's cell and the plane's
       nodes.push_back({width * i, width * j, std::exp(-0.5 * (i * i + j * j)) * sine_over_angle});
       sum += nodes.back().weight;
     }
@@ -101,7 +101,7 @@ FilteredMap::FilteredMap(const DirectionGrid& grid) {
   while (side < kFinestSide && side < grid.map.width) side *= 2;
   finest_texel_ = static_cast<float>(std::sqrt(4 * std::numbers::pi) / side);
 
-  // The map's texels in the middle of each quarter of a texel of ours.
+  // Average four map texels, one in the middle of each quarter of a texel of the finest level.
   Level finest;
   finest.side = side;
   finest.texels.resize(static_cast<std::size_t>((side + 2) * (side + 2)));

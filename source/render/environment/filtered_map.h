@@ -1,4 +1,4 @@
-// FilteredMap: an environment's map blurred to ever larger widths, for lobes that look at it through a few cones of directions.
+// FilteredMap: an environment's map blurred to ever larger widths, for lobes that gather it through a few cones of directions.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ class FilteredMap {
  public:
   explicit FilteredMap(const DirectionGrid& grid);
 
-  // The map's mean about a unit direction, by a Gaussian of that standard deviation [rad] in each of its two directions, as far as the
-  // widths go: from half a texel of the finest level to at least 0.3.
+  // Mean of the map about a unit direction, weighted by a Gaussian with standard deviation `width` [rad] in each of its two directions.
+  // Widths range from half a texel of the finest level to at least 0.3.
   Vec3f mean(Vec3f direction, float width) const;
 
  private:
-  // An octahedron's eight faces as a square, with a border that repeats what lies beyond its edges.
+  // The eight faces of an octahedron as a square, with a border that repeats the texels across its edges.
   // Source: Engelhardt, Dachsbacher, "Octahedron environment maps", 2008.
   struct Level {
     int side = 0;

@@ -10,8 +10,8 @@ namespace steradian::environment {
 namespace {
 
 constexpr int kDegree = HarmonicIrradiance::kDegree;
-// Columns of the map that the integrals run over. Against whole texels of the map an average over 1/256 of the circle changes a
-// coefficient of degree l by (l / 256 * 2 pi)^2 / 24: 0.16 % at l = 8, whose share of the irradiance is under 1 %.
+// Columns of the map that the integrals use. An average over 1/256 of the circle changes a coefficient of degree l by (l / 256 * 2 pi)^2 /
+// 24, against whole texels. That is 0.16 % at l = 8, whose fraction of the irradiance is under 1 %.
 constexpr int kColumns = 256;
 constexpr int kNormals = 256;  // a Fibonacci lattice on the sphere, for the residual
 
@@ -39,7 +39,7 @@ std::array<double, 81> harmonics_at(Vec3d d) {
     values[middle + offset] = value * cosine;
     if (m > 0) values[middle - offset] = value * sine;
   };
-  // cosine, sine: of m phi times sin(theta)^m. diagonal: Legendre's P(m, m) over that power.
+  // cosine, sine: those of m phi, times sin(theta)^m. diagonal: Legendre's P(m, m) over that power.
   double cosine = 1, sine = 0, diagonal = 1;
   for (int m = 0; m <= kDegree; ++m) {
     double before = diagonal, at = d.y * (2 * m + 1) * diagonal;
@@ -62,7 +62,7 @@ std::array<double, 81> harmonics_at(Vec3d d) {
 double cosine_coefficient(int degree) {
   if (degree == 1) return 2 * std::numbers::pi / 3;
   if (degree % 2 == 1) return 0;
-  double binomial = 1;  // degree over degree / 2, over 2^degree
+  double binomial = 1;  // binomial coefficient (degree, degree / 2) over 2^degree
   for (int k = 1; k <= degree / 2; ++k) binomial *= (degree / 2.0 + k) / k / 4;
   const double sign = degree % 4 == 2 ? 1 : -1;
   return degree == 0 ? std::numbers::pi : sign * 2 * std::numbers::pi / ((degree + 2.0) * (degree - 1.0)) * binomial;

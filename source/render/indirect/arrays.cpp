@@ -13,11 +13,11 @@ namespace steradian::indirect {
 namespace {
 
 constexpr std::size_t kPage = std::size_t{1} << 21;
-constexpr std::size_t kLarge = kPage / 2;  // from here on large pages pay
+constexpr std::size_t kLarge = kPage / 2;  // large pages pay from this size on
 constexpr std::size_t kKept = std::size_t{768} << 20;
 
-// Memory that was given back, by size. To have the system take and clear pages costs a frame more than to clear what is
-// at hand: a picture of 1920 x 1080 uses planes of some 600 MB, half of them after others have done their work.
+// Returned memory, by size. Clearing memory at hand costs less per frame than letting the system map and clear pages. A picture of
+// 1920 x 1080 uses planes of some 600 MB; half of them reuse the memory of others that have done their work.
 class Pool {
  public:
   void* take(std::size_t bytes) {
@@ -29,7 +29,7 @@ class Pool {
     kept_ -= bytes;
     return p;
   }
-  // False where enough is kept.
+  // Returns false if enough memory is cached.
   bool give(void* p, std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     if (kept_ + bytes > kKept) return false;
@@ -45,7 +45,7 @@ class Pool {
 };
 
 Pool& pool() {
-  static Pool* const p = new Pool;  // arrays may outlive statics
+  static Pool* const p = new Pool;  // arrays may outlive static objects
   return *p;
 }
 

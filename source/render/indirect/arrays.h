@@ -1,4 +1,4 @@
-// Flat arrays of vectors: what every pass of the indirect light reads and writes.
+// Flat arrays of vectors, which every pass of the indirect light reads and writes.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace steradian::indirect {
 void* take_zeroed(std::size_t bytes);
 void give_back(void* p, std::size_t bytes);
 
-// Memory that is zero when it comes. Planes of a picture come in large pages straight from the system, so that nothing
-// touches them before the pass that fills them, on the threads that do.
+// Allocator of zeroed memory. Planes of a picture come in large pages straight from the system. Their first access is in the pass that
+// fills them, on the threads that do so.
 template <class T>
 struct ZeroedPages {
   using value_type = T;
@@ -26,7 +26,7 @@ struct ZeroedPages {
   T* allocate(std::size_t n) { return static_cast<T*>(take_zeroed(n * sizeof(T))); }
   void deallocate(T* p, std::size_t n) { give_back(p, n * sizeof(T)); }
   template <class U>
-  void construct(U*) {}  // zero already
+  void construct(U*) {}  // already zero
   template <class U, class... Arguments>
   void construct(U* p, Arguments&&... arguments) {
     ::new (static_cast<void*>(p)) U(std::forward<Arguments>(arguments)...);

@@ -10,10 +10,10 @@ namespace steradian::indirect {
 namespace {
 
 constexpr int kCount = kMaskSide * kMaskSide;
-constexpr int kReach = 9;       // six standard deviations: what lies beyond is below float
-constexpr double kSigma = 1.5;  // Ulichney's, of the Gaussian that measures crowding
+constexpr int kReach = 9;       // six standard deviations: values beyond are below float's precision
+constexpr double kSigma = 1.5;  // Ulichney's value, for the Gaussian that measures crowding
 
-// Points on a torus and how crowded every place is.
+// Points on a torus, and the crowding at every place.
 class Crowd {
  public:
   Crowd() : taken_(kCount), energy_(kCount) {
@@ -31,7 +31,7 @@ class Crowd {
         energy_[static_cast<std::size_t>(at)] += taken ? e : -e;
       }
   }
-  // The taken place that is crowded most, the free one that is crowded least.
+  // The most crowded taken place, and the least crowded free one.
   int cluster() const { return extreme(true); }
   int gap() const { return extreme(false); }
 
@@ -64,7 +64,7 @@ Mask64 make() {
     start.set(place, true);
     ++n;
   }
-  for (int from = -1, to = -2; from != to;) {  // move from clusters into gaps until nothing moves
+  for (int from = -1, to = -2; from != to;) {  // moves points from clusters into gaps until none moves
     from = start.cluster();
     start.set(from, false);
     to = start.gap();

@@ -2,7 +2,7 @@
 
 namespace steradian::indirect {
 
-// First against the tile, then what passed against its blocks: a block's test is a fortieth of its pairs' work.
+// Culls against the tile first, then culls the rest against its blocks. A block's test costs a fortieth of its pairs' work.
 template <std::size_t planes>
 template <class Cull>
 void TileLists::Kind<planes>::run(Cull cull, const Bounds<planes>& all, const Box& box, const std::array<Box, kBlocks>& blocks) {

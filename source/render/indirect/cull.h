@@ -1,4 +1,4 @@
-// Culling: which virtual lights of a set can matter to a tile of receivers, and to each block of it.
+// Culling: selects the virtual lights of a set that can matter to a tile of receivers, and to each of its blocks.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace steradian::indirect {
 
-// Arrays of bounds of one kind of light, side by side; indices come with them where they are a choice.
+// Arrays of bounds of one kind of light, side by side, with indices if the lights are a selection.
 inline constexpr std::size_t kEggPlanes = 8;
 inline constexpr std::size_t kSpheroidPlanes = 16;
 template <std::size_t planes>
@@ -20,7 +20,7 @@ struct Bounds {
   std::size_t count = 0;
 };
 
-// Where the lights that pass go. Planes may be null: only indices are wanted. Room for 16 more than can pass.
+// Output for the lights that pass. Planes may be null if only indices are wanted. Needs capacity for 16 more than can pass.
 template <std::size_t planes>
 struct Passed {
   std::array<float*, planes> plane{};
@@ -28,15 +28,15 @@ struct Passed {
 };
 
 struct CullTable {
-  // The number of lights that may reach the box.
+  // Returns the number of lights that may reach the box.
   std::size_t (*eggs)(const Bounds<kEggPlanes>& bounds, const Box& box, const Passed<kEggPlanes>& passed);
   std::size_t (*spheroids)(const Bounds<kSpheroidPlanes>& bounds, const Box& box, const Passed<kSpheroidPlanes>& passed);
 };
 
-// The lights of every block of a tile, by their places in the set. Memory of one thread, used again for every tile.
+// The lights of every block of a tile, as indices into the set. The memory of one thread, reused for every tile.
 class TileLists {
  public:
-  // Counts pairs of a block's receiver and a light.
+  // Fills the lists of the tile of receivers that begins at `first`.
   void cull(const CullTable& table, const LightSet& set, const Receivers& receivers, std::size_t first);
 
   struct List {

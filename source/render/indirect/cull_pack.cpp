@@ -12,7 +12,7 @@ using indirect::kSpheroidPlanes;
 using indirect::Passed;
 using PackMask = PackKernels::mask;
 
-// Writes the chosen lanes side by side; room for a whole pack.
+// Writes the chosen lanes side by side. The output needs capacity for a whole pack.
 STERADIAN_INLINE void store_chosen(float* to, const float* from, unsigned bits) {
 #if defined(__AVX512F__)
   _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(bits), _mm512_loadu_ps(from)));
@@ -34,13 +34,13 @@ STERADIAN_INLINE void store_chosen(std::uint32_t* to, const std::uint32_t* from,
 #endif
 }
 
-// test(i): which lights of the pack that begins at i may reach the box.
+// test(i): returns the lights of the pack beginning at i that may reach the box.
 template <std::size_t planes, class Test>
 STERADIAN_INLINE std::size_t run(const Bounds<planes>& bounds, const Passed<planes>& passed, Test test) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < bounds.count; i += kLanes) {
     unsigned bits = bits_of(test(i));
-    // What stands behind the last light is not looked at, whatever it is.
+    // Lanes past the last light are ignored, whatever they hold.
     if (bounds.count - i < kLanes) bits &= (1u << (bounds.count - i)) - 1u;
     if (bits == 0) continue;
     if (passed.plane[0] != nullptr)
@@ -51,9 +51,9 @@ STERADIAN_INLINE std::size_t run(const Bounds<planes>& bounds, const Passed<plan
   return n;
 }
 
-// An egg against a box, by two bounds. d^3 <= range^2 h, with the least distance d and the greatest height h above the light's
-// plane: what lies in the plane itself goes. And the ball that holds the egg, which large boxes want. And nothing comes from below
-// the horizons of all receivers: n.v is largest where each of its three products is.
+// Tests an egg against a box, by two bounds. First, d^3 <= range^2 h, with the least distance d and the greatest height h above the light's
+// plane: boxes in the plane itself are culled. Second, the ball that holds the egg, which large boxes need. In addition, no light comes
+// from below the horizons of all receivers: n.v is largest where each of its three products is.
 __attribute__((flatten)) std::size_t eggs(const Bounds<kEggPlanes>& bounds, const Box& box, const Passed<kEggPlanes>& passed) {
   const PackVec3 c = broadcast(box.center), h = broadcast(box.half), m = broadcast(box.normal), w = broadcast(box.normal_half);
   const auto& p = bounds.plane;
@@ -79,10 +79,10 @@ __attribute__((flatten)) std::size_t eggs(const Bounds<kEggPlanes>& bounds, cons
   });
 }
 
-// The unit ball of q = g - T p against the box under T, which is a parallelepiped. They are apart where the plane that
-// touches the ball below the box' centre keeps all of the box out. And where the egg that the ball holds is missed by the
-// box' bounds along the lobe's axes: |w|^3 <= w_z, w in units of the range. A sharp and bright lobe's ball is so large
-// that all that is near its light is in it; the egg begins at the light, and goes one way.
+// Tests the unit ball of q = g - T p against the box under T, which is a parallelepiped. They are apart if the plane that touches the ball
+// below the box' centre separates the box from it. They are also apart if the box' bounds along the lobe's axes miss the egg in the ball:
+// |w|^3 <= w_z, w in units of the range. A sharp and bright lobe's ball is so large that it contains everything near its light. The egg
+// begins at the light, and extends one way.
 __attribute__((flatten)) std::size_t spheroids(const Bounds<kSpheroidPlanes>& bounds, const Box& box,
                                                const Passed<kSpheroidPlanes>& passed) {
   const PackVec3 c = broadcast(box.center), h = broadcast(box.half);
@@ -94,13 +94,13 @@ __attribute__((flatten)) std::size_t spheroids(const Bounds<kSpheroidPlanes>& bo
     const PackVec3 z(load(p[6] + i), load(p[7] + i), load(p[8] + i)), n(load(p[12] + i), load(p[13] + i), load(p[14] + i));
     const PackReal gz = load(p[11] + i), qz = gz - dot(z, c);
     const PackReal wz = along * qz + middle, deep = along * reach(z);
-    const PackReal highest = wz + deep + PackReal(1.0e-6) * (abs(gz) + PackReal(1.0));  // what float leaves of a difference
+    const PackReal highest = wz + deep + PackReal(1.0e-6) * (abs(gz) + PackReal(1.0));  // the rounding of a difference in float
     const PackMask faces = highest > PackReal(0.0) && dot(n, c) + reach(n) > load(p[15] + i);
     if (!any_lane(faces)) return faces;
     const PackVec3 x(load(p[0] + i), load(p[1] + i), load(p[2] + i)), y(load(p[3] + i), load(p[4] + i), load(p[5] + i));
     const PackVec3 q(load(p[9] + i) - dot(x, c), load(p[10] + i) - dot(y, c), qz);
     const PackReal q2 = dot(q, q);
-    const PackReal gap = q2 - reach(x * q.x + y * q.y + z * q.z);  // T transposed times q
+    const PackReal gap = q2 - reach(x * q.x + y * q.y + z * q.z);  // uses T transposed times q
     const PackVec3 least(across * max(abs(q.x) - reach(x), PackReal(0.0)), across * max(abs(q.y) - reach(y), PackReal(0.0)),
                          max(abs(wz) - deep, PackReal(0.0)));
     const PackReal w2 = dot(least, least);

@@ -1,4 +1,4 @@
-// Culling in packs: no light that a receiver would keep is missing from its block's list.
+// Culling in packs: each block's list has all lights that a receiver would keep.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ ShadowMap random_map(Draw& draw, std::size_t count) {
   return map;
 }
 
-// Patches of all sizes and bends; some receivers are no surfaces.
+// Patches of all sizes and curvatures; some receivers have no surface.
 Receivers random_tile(Draw& draw) {
   Receivers r;
   r.position.resize(kTileReceivers);
@@ -84,7 +84,7 @@ TEST(IndirectCulling, ListsHoldAllThatIsKept) {
           for (std::size_t i = b * kBlockReceivers; i < (b + 1) * kBlockReceivers; ++i) {
             const Vec3f n = receivers.normal[i];
             if (dot(n, n) == 0) continue;
-            // What is kept by less than rounding may be lost.
+            // Lights that exceed the threshold by less than rounding may be missing.
             const auto check = [&](TileLists::List list, std::size_t j, double value, float reach, float xi, double distance) {
               if (!(value > 1.0001 * static_cast<double>(reach * xi) * distance)) return;
               ++kept;

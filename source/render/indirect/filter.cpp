@@ -9,7 +9,7 @@
 namespace steradian::indirect {
 namespace {
 
-// A box of `width` taps from -width / 2, convolved with another of `second` taps about the middle.
+// A box of `width` taps from -width / 2, convolved with a box of `second` taps about the middle.
 void boxes(int width, int second, float (&taps)[2 * kFilterReach + 1]) {
   std::fill(std::begin(taps), std::end(taps), 0.0f);
   for (int a = 0; a < width; ++a)
@@ -39,7 +39,7 @@ Light filter(const FrameSurfaces& surfaces, const FloatArray& width, int stride,
     l->diffuse.resize(raster.size());
     l->glossy.resize(raster.size());
   }
-  // Strips narrow enough that all the rows a tap can reach stay in the cache.
+  // Strips are so narrow that all rows that a tap can reach stay in the cache.
   constexpr int kStrip = 128, kRows = 64;
   const int across = (raster.width + kStrip - 1) / kStrip, down = (raster.height + kRows - 1) / kRows;
   const auto pass = [&](FilterAxis axis, const Light& from, Light& to) {

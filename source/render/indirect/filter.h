@@ -1,4 +1,4 @@
-// The filter that joins what the pixels of a pattern found: separable, along surfaces only.
+// The filter that joins the light of a pattern's pixels. It is separable and runs along surfaces only.
 #pragma once
 
 #include "core/simd.h"
@@ -6,21 +6,21 @@
 
 namespace steradian::indirect {
 
-// What a tap must agree in. Planes of the raster.
+// Surface data in which taps must agree. Planes of the raster.
 struct FilterGeometry {
   const VectorArray& position;
   const VectorArray& normal;
   const float* width;  // alpha of the glossy lobe, -1 without one
 };
 
-// Weights of taps -kReach .. kReach.
+// Weights of taps -kFilterReach .. kFilterReach.
 inline constexpr int kFilterReach = 16;
 struct FilterWeights {
   float diffuse[2 * kFilterReach + 1];
-  float glossy[2 * kFilterReach + 1];  // where the lobe is not sharp
-  float sharp[2 * kFilterReach + 1];   // where it is: the pattern itself
+  float glossy[2 * kFilterReach + 1];  // for lobes that are not sharp
+  float sharp[2 * kFilterReach + 1];   // for sharp lobes: the pattern itself
 };
-// Each is a box as wide as the pattern, convolved with another: all places of the pattern weigh the same.
+// Each filter is a box as wide as the pattern, convolved with another box. All places of the pattern then weigh the same.
 FilterWeights filter_weights(int stride);
 
 enum class FilterAxis { x, y };

@@ -11,15 +11,15 @@ using indirect::kFilterReach;
 using indirect::VectorArray;
 using K = PackKernels;
 
-// When a tap belongs to the same surface.
+// Conditions under which a tap belongs to the same surface.
 struct Likeness {
-  double least_cosine;  // of the normals
+  double least_cosine;  // cosine between the normals
   double slope;         // distance from the plane over the tap's distance
-  double widths;        // glossy light of lobes that differ in width by more than this share is not the same light
+  double widths;        // lobes whose widths differ by more than this fraction have different glossy light
 };
-// 26 degrees and a twentieth; and what is let in where so little is found that the pattern would be seen, at edges.
+// The same: 26 degrees and a twentieth. Loose: limits for places that find so little that the pattern would be visible, at edges.
 constexpr Likeness kSame{0.9, 0.05, 0.2}, kLoose{0.3, 0.7, 0.5};
-constexpr double kEnough = 0.6;     // share of the weights
+constexpr double kEnough = 0.6;     // fraction of the weights
 constexpr double kRounding = 1e-5;  // a hundredth of a millimetre
 
 struct Sums {
@@ -52,7 +52,7 @@ struct Taps {
       const PackReal w = select(same, broadcast(wd), none);
       s.diffuse = s.diffuse + load_at(from.diffuse, j) * w;
       s.diffuse_weight += w;
-      if (!any_glossy || weights.glossy[k + kFilterReach] == 0) continue;  // the sharp ones' reach is less
+      if (!any_glossy || weights.glossy[k + kFilterReach] == 0) continue;  // the sharp lobes' reach is smaller
       const PackReal ws = select(sharp, broadcast(weights.sharp[k + kFilterReach]), broadcast(weights.glossy[k + kFilterReach]));
       const PackReal wg = select(same && abs(load(g.width + j) - width) < widths, ws, none);
       s.shine = s.shine + load_at(from.glossy, j) * wg;
@@ -63,7 +63,7 @@ struct Taps {
 };
 
 STERADIAN_INLINE PackVec3 over(const PackVec3& sum, PackReal weight) { return sum * (PackReal(1.0) / max(weight, PackReal(1e-12))); }
-// The mean of what was found; what it lacks to be enough, from the others.
+// Mean of the taps found. If their weight is not enough, the others supply the rest.
 STERADIAN_INLINE PackVec3 mean(const PackVec3& sum, PackReal weight, const PackVec3& others, PackReal others_weight) {
   const PackReal lack = max(PackReal(kEnough) - weight, PackReal(0.0));
   return over(sum + over(others, others_weight) * lack, weight + lack);

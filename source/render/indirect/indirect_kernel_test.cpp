@@ -1,4 +1,4 @@
-// The kernels of kernels/indirect/indirect.glsl against GGX itself and against the definitions they shorten.
+// The kernels of kernels/indirect/indirect.glsl against GGX itself and against the definitions that they simplify.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ typename K::LtcMatrix matrix(const LtcInverse& m) {
   return k;
 }
 
-// A surface with its lobe, somehow turned.
+// A surface with its lobe, in a random orientation.
 template <class K>
 struct RandomEnd {
   Vec3d normal, view;
@@ -68,7 +68,7 @@ struct RandomEnd {
     frame = k.frame_from_normal_and_view(vector<K>(normal), vector<K>(view));
     lobe = k.indirect_lobe(matrix<K>(value.inverse), frame);
   }
-  // The lobe at a unit direction, by the table's own matrix.
+  // The lobe in a unit direction, by the table's own matrix.
   double evaluate(Vec3d l) const {
     const Frame f = Frame::from_normal_and_tangent(normal, view);
     return ltc_evaluate(value.inverse, f.to_local(l));
@@ -86,7 +86,7 @@ TEST(IndirectKernel, PointLightIsTheLobeOverTheSquaredDistance) {
   }
 }
 
-// The table of docs/indirect.md, row by row and digit by digit: all in double, so that there is nothing to allow for.
+// The table of docs/indirect.md, row by row and digit by digit. All is in double, so no tolerance is needed.
 TEST(IndirectKernel, PointLightOverAPlane) {
   std::ifstream file(test::kSourceDir + "/docs/indirect.md");
   const std::string page((std::istreambuf_iterator<char>(file)), {});
@@ -105,7 +105,7 @@ double largest_pair_error(std::uint64_t seed, int count) {
   double worst = 0;
   for (int i = 0; i < count; ++i) {
     const RandomEnd<K> eye(random, 0.2), light(random, 0.2);
-    // Towards what is in front of the eye, so that not all pairs are dark.
+    // Points are in front of the eye, so that not all pairs are dark.
     Vec3d l = random_direction(random);
     if (dot(l, eye.normal) < 0) l = -l;
     const double distance = std::exp(random.uniform(-2, 2));
@@ -122,11 +122,10 @@ double largest_pair_error(std::uint64_t seed, int count) {
   return worst;
 }
 
-// The four halves of a pair, from one division, are both ends' cosines and lobes over the distance.
+// The four halves of a pair, from one division, equal both ends' cosines and lobes over the distance.
 TEST(IndirectKernel, PairHoldsBothEndsHalves) {
   EXPECT_LT(largest_pair_error<D>(2, 4000), 1e-10);
-  // |w|^2 cancels by the lobe's width squared at the peak's flank: alpha >= 0.04 leaves 1/0.04^2 = 625 roundings, and
-  // |w|^4 doubles it.
+  // |w|^2 cancels by the lobe's width squared at the peak's flank: alpha >= 0.04 leaves 1/0.04^2 = 625 roundings, and |w|^4 doubles them.
   EXPECT_LT(largest_pair_error<Kernels<float>>(3, 4000), 1250 * 1.2e-7 * 8);
 }
 
@@ -156,7 +155,7 @@ TEST(IndirectKernel, LargestStretchIsTheLongestImageOfAUnitVector) {
   for (int i = 0; i < 300; ++i) {
     const RandomEnd<D> end(random);
     const double bound = k.indirect_largest_stretch(matrix<D>(end.value.inverse)).v;
-    // Over the unit vectors in the plane of x and z (y stands alone): the least image under M^-1.
+    // The least image under M^-1 over unit vectors in the plane of x and z. y is separate.
     double least = std::fabs(end.value.inverse.yy);
     const LtcInverse& m = end.value.inverse;
     for (int s = 0; s < 20000; ++s) {
@@ -168,8 +167,8 @@ TEST(IndirectKernel, LargestStretchIsTheLongestImageOfAUnitVector) {
   }
 }
 
-// How far a fitted lobe is from GGX as a virtual light: looked up for the incoming light (algorithm 2), and looked up at
-// the outgoing direction (algorithm 1), without and with the factor that reciprocity wants.
+// Error of a fitted lobe against GGX as a virtual light: looked up for the incoming light (algorithm 2), and looked up at the outgoing
+// direction (algorithm 1), without and with the factor that reciprocity requires.
 struct LobeErrors {
   std::vector<double> algorithm2, algorithm1_raw, algorithm1, energy;
 };
@@ -217,14 +216,14 @@ TEST(IndirectKernel, LobesOfVirtualLightsAreNearGgx) {
             << *std::max_element(e.algorithm2.begin(), e.algorithm2.end()) << "), algorithm 1 " << median(e.algorithm1)
             << ", without its correction " << median(e.algorithm1_raw) << "; energy " << *low << " to " << *high << "\n";
   EXPECT_LE(median(e.algorithm2), 0.08);
-  EXPECT_GT(median(e.algorithm1_raw), 4 * median(e.algorithm1));  // the missing factor is no detail
+  EXPECT_GT(median(e.algorithm1_raw), 4 * median(e.algorithm1));  // the missing factor matters
   EXPECT_NEAR(*low, 1, 0.03);
   EXPECT_NEAR(*high, 1, 0.03);
 }
 
 // ---- culling ---------------------------------------------------------------------------------------------------------
 
-// A receiver at which the light's irradiance is just the threshold must lie in the spheroid.
+// A receiver at which the light's irradiance equals the threshold must lie in the spheroid.
 TEST(IndirectCulling, SpheroidHoldsEveryPointAboveTheThreshold) {
   reference::Random random(6);
   D k;
@@ -235,7 +234,7 @@ TEST(IndirectCulling, SpheroidHoldsEveryPointAboveTheThreshold) {
     const auto turned = k.indirect_turned(light.lobe);
     const double stretch = k.indirect_largest_stretch(matrix<D>(light.value.inverse)).v;
     const double bright = std::exp(random.uniform(-5, 5)), threshold = std::exp(random.uniform(-5, 5));
-    // Half of the directions by the lobe itself: its peak decides.
+    // Half of the directions are sampled from the lobe itself, because its peak decides.
     Vec3d o = random_direction(random);
     if (i % 2 == 0) {
       const Frame f = Frame::from_normal_and_tangent(light.normal, light.view);
@@ -252,10 +251,10 @@ TEST(IndirectCulling, SpheroidHoldsEveryPointAboveTheThreshold) {
   }
   std::cout << inside << " points on the edge of the light, the outermost at " << worst << " of the bound\n";
   EXPECT_GT(inside, 60'000);
-  EXPECT_GT(worst, 0.99);  // the bound is not idle
+  EXPECT_GT(worst, 0.99);  // the bound is tight
 }
 
-// Volumes within which a lobe's irradiance exceeds a threshold, over the spheroid's and the ball's.
+// Volumes within which a lobe's irradiance exceeds a threshold, relative to those of the spheroid and the ball.
 TEST(IndirectCulling, SpheroidIsSmall) {
   std::vector<double> ratios, balls, gains;
   D k;
@@ -264,7 +263,7 @@ TEST(IndirectCulling, SpheroidIsSmall) {
       const Vec3d view = view_from_cosine(cosine(angle));
       const LtcValue value = ggx_compact_table().look_up(roughness, view.z);
       const auto m = matrix<D>(value.inverse);
-      // The true volume at threshold 1, range^2 = intensity, sampled by the transformed cosine itself.
+      // The true volume at threshold 1, with range^2 = intensity, sampled by the transformed cosine itself.
       const Lobe truth = ggx_lobe(alpha_from_roughness(roughness), view);
       constexpr int kSide = 400;
       double volume = 0, most = 0, total = 0, squares = 0;
@@ -281,12 +280,12 @@ TEST(IndirectCulling, SpheroidIsSmall) {
         }
       const auto lobe = k.indirect_lobe(m, k.frame_from_normal_and_view({0.0, 0.0, 1.0}, vector<D>(view)));
       const double scale = lobe.scale.v, range2 = scale * k.indirect_largest_stretch(m).v;
-      const double determinant = scale * std::numbers::pi;  // of M^-1
+      const double determinant = scale * std::numbers::pi;  // determinant of M^-1
       const double bound = 4 * std::numbers::pi / 3 * 0.54 * 0.628 * 0.628 * std::pow(range2, 1.5) / determinant;
       ratios.push_back(bound / volume);
       balls.push_back(4 * std::numbers::pi / 3 * std::pow(most, 1.5) / volume);
-      // Far from the light, pairs are kept with probability bound / (d^2 threshold): per length of the way out, a ball
-      // costs 4 pi most and its variance is squares / most; a tight bound costs its volume's share and varies by total.
+      // Far from the light, pairs are kept with probability bound / (d^2 threshold). Per length of the way out, a ball costs 4 pi most and
+      // its variance is squares / most. A tight bound costs its fraction of the volume and varies by total.
       gains.push_back(4 * std::numbers::pi * most * (squares / most) / (ratios.back() * total * total));
     }
   std::cout << "volume over the true one: spheroid median " << median(ratios) << ", worst "

@@ -12,7 +12,7 @@
 namespace steradian::indirect {
 namespace {
 
-// Time that threads were at work, whatever else the machine does.
+// Working time of threads, independent of other load on the machine.
 struct Nanoseconds {
   std::atomic<std::int64_t> total{0};
   static std::int64_t now() {
@@ -29,9 +29,10 @@ struct Nanoseconds {
   double ms() const { return static_cast<double>(total) * 1e-6; }
 };
 
-// The share of a receiver's light that nothing stands in the way of, by a few rays to lights picked by what they send.
-// The ratio estimator: the analytic light times visible over all light of the same samples; picked in proportion to
-// their light, all samples weigh the same and the ratio is the share of rays that arrive.
+// Scales a receiver's light by its visible fraction, estimated by a few rays to lights picked by their light. This is the ratio estimator:
+// the analytic light times visible over all light of the same samples. Lights are picked in proportion to their light, so all samples weigh
+// the same and the ratio is the fraction of rays that arrive.
+//
 // Source: Heitz, Hill, McGuire, "Combining analytic direct illumination and stochastic shadows", 2018.
 void shadow_block(const LightSet& set, const TileLists& lists, std::size_t block, const Receivers& receivers, std::size_t first,
                   const LtcPackTables& tables, const LightingOptions& options, Light& light) {
@@ -41,7 +42,7 @@ void shadow_block(const LightSet& set, const TileLists& lists, std::size_t block
   for (int ray = 0; ray < options.shadow_rays; ++ray) {
     for (std::size_t i = 0; i < kBlockReceivers; ++i) {
       reference::Random random(options.seed, first + i);
-      // A Latin hypercube over the rays of a receiver.
+      // A Latin hypercube over a receiver's rays: one stratum per ray.
       shares[i] = static_cast<float>((ray + random.uniform()) / options.shadow_rays);
     }
     table.pick(set, lists.diffuse(block), lists.glossy(block), receivers, first, tables, options.quads, shares, {diffuse, glossy});
@@ -79,7 +80,7 @@ LightingResult light_receivers(const std::vector<LightSet>& sets, const Receiver
   Nanoseconds cull_time, light_time, shadow_time;
   std::atomic<std::int64_t> pairs{0};
   tbb::enumerable_thread_specific<TileLists> all_lists;
-  // Set after set, so that a set's lights stay in the cache.
+  // Sets run one after another, so that a set's lights stay in the cache.
   tbb::parallel_for(0, layout.sets() * layout.tiles(), [&](int job) {
     const FlushDenormals flush;
     const LightSet& set = sets[static_cast<std::size_t>(job / layout.tiles())];

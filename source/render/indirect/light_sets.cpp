@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-// Of the spheroid that holds a light's egg (kernels/indirect/indirect.glsl, indirect_spheroid).
+// Constants of the spheroid that holds a light's egg (kernels/indirect/indirect.glsl, indirect_spheroid).
 constexpr float kCenter = kBallCenter, kAlong = kBallAlong, kAcross = kBallRadius;
 
 constexpr float kEverywhere = 1e15f;  // a range that covers any scene; its square stays a float
@@ -45,7 +45,7 @@ class SetMaker {
     LightSet set;
     set.diffuse.reserve(texels.size());
     set.glossy.reserve(texels.size());
-    // A turn of the mask for every set: neighbouring pixels then differ in what they leave out.
+    // Each set turns the mask, so that neighbouring pixels skip different lights.
     const double shift = reference::Random(options_.seed, static_cast<std::uint64_t>(index)).uniform();
     for (const std::uint32_t i : texels) {
       const auto column = static_cast<std::size_t>(map_.column[i] / options_.stride) % kMaskSide;
@@ -67,8 +67,8 @@ class SetMaker {
     const float bound = reach * xi;
     return std::min(bound > 0 ? std::sqrt(stretch / bound) : kEverywhere, kEverywhere);
   }
-  // A set has one texel of stride x stride: it stands for its neighbours in the other sets, and the quads of a set
-  // cover what all texels do.
+  // A set has one texel of stride x stride. The texel stands for its neighbours in the other sets, so the quads of a set cover as much as
+  // all texels do.
   QuadLight quad(std::size_t i) const {
     const Vec3f x = map_.edge_x[i] * static_cast<float>(options_.stride), y = map_.edge_y[i] * static_cast<float>(options_.stride);
     return {x, y, 1 / std::max(map_.area[i] * weight_, 1e-20f), dot(x, x) + dot(y, y)};
@@ -140,7 +140,7 @@ class SetMaker {
     const Vec3f flux = map_.flux[i] * weight_;
     ggx.bright = flux * map_.f0[i];
     ggx.grazing = flux * (map_.f90[i] - map_.f0[i]);
-    // The threshold over the brightness without the lobe: a half of GGX has the lobe's size in it.
+    // The threshold over the brightness without the lobe: a GGX half already contains the lobe's size.
     ggx.reach = static_cast<float>(options_.threshold) /
                 std::max(largest(flux * mean_reflectance(map_, lobes_, i)) / std::max(lobes_.n_a[i], 1e-6f), 1e-30f);
     ggx.xi = light.xi;
@@ -197,7 +197,7 @@ TexelIrradiance irradiance_at(const ShadowMap& map, const LobeArrays& lobes, std
 
 namespace {
 
-// Texel k of many, by the golden ratio, so that the choice does not follow the rows of a map.
+// Texel k of many, spread by the golden ratio so that the choice does not follow the rows of a map.
 std::size_t spread(std::size_t k, std::size_t count) {
   const double x = 0.5 + static_cast<double>(k) * 0.61803398874989485;
   return std::min(static_cast<std::size_t>((x - std::floor(x)) * static_cast<double>(count)), count - 1);
@@ -239,7 +239,7 @@ double threshold_for(const ShadowMap& map, const LobeArrays& lobes, const Vector
     return sum * share / static_cast<double>(places);
   };
   double low = most * 1e-12, high = most;
-  if (kept_at(low) <= kept) return 0;  // too few lights to be worth it
+  if (kept_at(low) <= kept) return 0;  // too few lights to cull
   while (kept_at(high) > kept) high *= 4;
   for (int k = 0; k < 20; ++k) {  // to 2^-20 of the exponents' range
     const double middle = std::sqrt(low * high);

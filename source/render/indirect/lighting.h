@@ -5,12 +5,12 @@
 
 namespace steradian::indirect {
 
-inline constexpr float kSharp = 0.1f;  // receivers of a smaller alpha see virtual lights as quads
+inline constexpr float kSharp = 0.1f;  // receivers with a smaller alpha see virtual lights as quads
 
-// A light of the set for each of a block's receivers: its place among the diffuse lights, or behind them among the
-// glossy ones; -1 where no light arrives.
+// A light of the set for each of a block's receivers: its index among the diffuse lights, or, after these, among the glossy ones; -1 if no
+// light arrives.
 struct PickedLights {
-  float* diffuse;  // by the receiver's diffuse lobe
+  float* diffuse;  // for the receiver's diffuse lobe
   float* glossy;
 };
 
@@ -20,7 +20,7 @@ struct LightingTable {
               const LtcPackTables& tables, bool quads, Light& light);
   void (*ggx)(const LightSet& set, TileLists::List diffuse, TileLists::List glossy, const Receivers& receivers, std::size_t first,
               const LtcPackTables& tables, bool quads, Light& light);
-  // Chooses lights with probability in proportion to what they send by `ltc`; shares: a uniform number per receiver.
+  // Chooses lights with a probability proportional to their light by `ltc`. shares: a uniform number per receiver.
   void (*pick)(const LightSet& set, TileLists::List diffuse, TileLists::List glossy, const Receivers& receivers, std::size_t first,
                const LtcPackTables& tables, bool quads, const float* shares, const PickedLights& picked);
 };

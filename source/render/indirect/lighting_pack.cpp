@@ -17,15 +17,14 @@ STERADIAN_INLINE PackVec3 load_vector(const indirect::VectorArray& a, std::size_
   return {load(a.x.data() + i), load(a.y.data() + i), load(a.z.data() + i)};
 }
 
-// What the loops hand a pair's light to: by the receiver's diffuse and by its glossy lobe.
+// Sums a pair's light, for the receiver's diffuse and glossy lobes.
 struct Sums {
   PackVec3 diffuse{0.0, 0.0, 0.0}, glossy{0.0, 0.0, 0.0};
   STERADIAN_INLINE void add_diffuse(const PackVec3& light, std::size_t) { diffuse = diffuse + light; }
   STERADIAN_INLINE void add_glossy(const PackVec3& light, std::size_t) { glossy = glossy + light; }
 };
 
-// Chooses one light for each lobe, with a probability in proportion to its light: the one at which the running sum
-// passes a target.
+// Chooses one light for each lobe, with a probability proportional to its light: the light at which the running sum passes a target.
 struct Picks {
   PackReal diffuse_sum{0.0}, glossy_sum{0.0};
   PackReal diffuse_target, glossy_target;
@@ -45,7 +44,7 @@ struct Receiver {
   K::mask sharp;
 };
 
-// v, its square, and one over its length.
+// The vector v to a light, its square, and one over its length.
 struct Way {
   PackVec3 v;
   PackReal d2, inverse;
@@ -55,8 +54,7 @@ struct Way {
   }
 };
 
-// What the receiver's lobe gets of a virtual light that is spread over a quad, as a half: the integral over the quad in
-// place of its value at the middle.
+// Light of a virtual quad light in the receiver's lobe, as a half: the integral over the quad in place of its value at the middle.
 __attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const Vec3f& normal, const QuadLight& quad, const Way& way,
                                                       PackReal soft, PackReal rarity) {
   K k;
@@ -75,7 +73,7 @@ __attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const 
   return integral * (way.d2 + soft) * broadcast(quad.inverse_area) / (facing * at.lobe.scale * rarity);
 }
 
-// Adds what passes a pair; `kept` is the light's half after culling, `bright` its colour.
+// Adds the light of a pair; `kept` is the light's half after culling, `bright` its colour.
 template <bool glossy, bool quads, class Sink>
 STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept, const PackVec3& bright, const Vec3f& light_normal,
                                const QuadLight* quad, PackReal soft, PackReal value, std::size_t id, Sink& sums) {
@@ -86,8 +84,8 @@ STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept
   if constexpr (glossy) {
     PackReal half = k.indirect_glossy_half(at.lobe, way.v, way.d2, PackReal(0.0));
     if constexpr (quads) {
-      // Only where the quad is no speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is as good as constant there. Nor seen
-      // edge-on, to a thousandth: the integral is divided by that sine, and off by 1e-7 of the hemisphere.
+      // Integrates only if the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is nearly constant over
+      // a speck. Also skips quads seen edge-on, to a thousandth: the integral is divided by that sine, and off by 1e-7 of the hemisphere.
       const PackVec3 w = k.indirect_under(at.lobe, way.v);
       const PackReal facing = dot(broadcast(light_normal), way.v);
       const auto wide = at.sharp && kept > PackReal(0.0) && broadcast(quad->size2) * kept > dot(w, w) * value * PackReal(0.02) &&
@@ -151,7 +149,7 @@ __attribute__((flatten, noinline)) Sink add_lights(const LightSet& set, const Ti
   return sink;
 }
 
-// The lobes of a pack of receivers; `glossy` where there is one.
+// The lobes of a pack of receivers; `glossy` marks those with a glossy lobe.
 struct Prepared {
   Receiver at;
   K::mask glossy, facing;
@@ -162,7 +160,7 @@ STERADIAN_INLINE Prepared prepare(const indirect::Receivers& receivers, std::siz
   p.at.position = load_vector(receivers.position, i);
   p.at.normal = load_vector(receivers.normal, i);
   p.glossy = load(receivers.glossy.data() + i) > PackReal(0.0);
-  p.at.sharp = p.facing = p.at.position.x < p.at.position.x;  // nowhere
+  p.at.sharp = p.facing = p.at.position.x < p.at.position.x;  // no lane
   if (any_lane(p.glossy)) {
     const PackReal alpha = load(receivers.alpha.data() + i);
     const PackVec3 view = load_vector(receivers.view, i);
@@ -188,7 +186,7 @@ void ltc(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, co
     const Prepared p = prepare(receivers, i, tables);
     const Sums sums = run(set, diffuse, shiny, p, quads, Sums());
     store_vector(light.diffuse, i, sums.diffuse);
-    // Without a glossy lobe, or seen from below: nothing.
+    // Receivers without a glossy lobe, or seen from below, get nothing.
     store_vector(light.glossy, i,
                  any_lane(p.glossy) ? select(p.facing, sums.glossy * p.at.lobe.scale, PackVec3(0.0, 0.0, 0.0)) : PackVec3(0.0, 0.0, 0.0));
   }
@@ -212,7 +210,7 @@ void pick(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, c
   }
 }
 
-// The baseline: GGX at both ends, Schlick's Fresnel for every pair at both.
+// The baseline: GGX at both ends, with Schlick's Fresnel for every pair at both.
 struct GgxReceiver {
   PackVec3 position, normal;
   K::mat3 frame;

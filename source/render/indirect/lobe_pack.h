@@ -13,7 +13,7 @@ struct SeenLobe {
   PackReal n_a, f_a;
 };
 
-// The table's magnitude of a surface without a matrix: for what is multiplied by the lobe's mean Fresnel.
+// The table's magnitude for a surface, without a matrix: for values that are multiplied by the lobe's mean Fresnel.
 STERADIAN_INLINE PackKernels::vec4 look_up_magnitude(const LtcPackTables& tables, PackReal roughness, PackReal cosine) {
   const auto at = PackKernels{}.ltc_coordinates(roughness, cosine);
   return look_up(tables.magnitude.nodes.data(), tables.magnitude.size, at.x, at.y);

@@ -1,5 +1,5 @@
-// Sums over all pairs of receivers and virtual lights, nothing culled: what a pair costs, each end with a diffuse and a
-// glossy lobe.
+// Sums over all pairs of receivers and virtual lights, without culling. They measure the cost of a pair whose ends both have a diffuse and
+// a glossy lobe.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace steradian::indirect {
 
-// All that any of the three sums reads of a virtual light. `glossy` is flux times the mean reflectance and the lobe's scale,
-// or without Fresnel's grazing share where `grazing` joins it.
+// All data of a virtual light that any of the three sums reads. `glossy` is flux times the mean reflectance and the lobe's scale, or
+// excludes Fresnel's grazing part if `grazing` is added.
 struct PairLight {
   Vec3f position;
-  Vec3f row_x, row_y, row_z, normal;  // turned
+  Vec3f row_x, row_y, row_z, normal;  // negated
   Vec3f diffuse, glossy;
   Vec3f grazing, incoming;
 };
@@ -25,10 +25,10 @@ struct GgxPairLight {
 };
 
 struct PairTable {
-  // Adds to nothing, overwrites `light` at all receivers, demodulated as in LightingTable.
+  // Overwrites `light` at all receivers, without adding to it, demodulated as in LightingTable.
   void (*ltc)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables, Light& light);
   void (*ltc_schlick)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables, Light& light);
-  // Radiance of the glossy lobe as it is, Fresnel in it.
+  // Overwrites with the radiance of the glossy lobe itself, Fresnel included.
   void (*ggx)(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, Light& light);
 };
 

@@ -1,4 +1,4 @@
-// The passes of a picture's bounce that a device may do in the place of the packs.
+// Passes of a picture's bounce that a device may run in place of the packs.
 #pragma once
 
 #include <vector>
@@ -18,14 +18,14 @@ struct BounceSettings {
 class Passes {
  public:
   virtual ~Passes() = default;
-  // What the shadow map's rays meet; null: RayScene finds it.
+  // Intersects the shadow map's rays; null: RayScene does.
   virtual FirstHits* first_hits() = 0;
-  // VirtualLightTable::prepare.
+  // The same as VirtualLightTable::prepare.
   virtual LobeArrays lobes(const ShadowMap& map) = 0;
-  // Culling, lighting, filter and resolve: radiance of the bounce, as planes of the surfaces' raster.
+  // Culling, lighting, filter and resolve. Returns the bounce's radiance as planes of the surfaces' raster.
   virtual VectorArray radiance(const FrameSurfaces& surfaces, const std::vector<LightSet>& sets, const Layout& layout,
                                const BounceSettings& settings) = 0;
-  // What the device's own clock says of all these, and the way to it and back; since the last call.
+  // Times since the last call, by the device's own clock: all these passes, and the transfers to the device and back.
   virtual std::vector<PassTime> take_times() = 0;
 };
 

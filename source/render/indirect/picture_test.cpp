@@ -1,4 +1,4 @@
-// What is seen of the bounce: near virtual lights, sharp receivers, a moving camera.
+// Visible properties of the bounce: near virtual lights, sharp receivers, a moving camera.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -16,8 +16,8 @@ RenderOptions uncut(int lights) {
   return o;
 }
 
-// What the soft clamp takes away where it takes the most: along an edge that the light shines on. The loss is that of a
-// strip as wide as a texel, half as wide with four times the lights.
+// Loss by the soft clamp where it is largest: along an edge that the light shines on. The loss is that of a strip as wide as a texel, which
+// is half as wide with four times the lights.
 TEST(IndirectPicture, ClampTakesLittleAndLessOfMoreLights) {
   Scene scene = mixed_corner();
   scene.punctual_lights[0].direction = normalized(Vec3d{0, 0, 0} - scene.punctual_lights[0].position);
@@ -40,7 +40,7 @@ TEST(IndirectPicture, ClampTakesLittleAndLessOfMoreLights) {
   }
 }
 
-// A mirror-like floor before a lit wall, 1024 lights: points are spots of light, quads are the wall.
+// A mirror-like floor in front of a lit wall, 1024 lights: points show spots of light, quads show the wall.
 TEST(IndirectPicture, SharpReceiversSeeQuads) {
   const Scene scene = corner(metal(0.15f), plastic(0.7f, 1));
   const Picture truth = bounce(scene, uncut(1 << 18));
@@ -54,8 +54,8 @@ TEST(IndirectPicture, SharpReceiversSeeQuads) {
   EXPECT_LE(quads.relative_l2, points.relative_l2 / 3);
 }
 
-// Where roundings put a virtual light of the back before the front, its quad, seen edge-on, made a pixel a hundred thousand times as bright
-// as any other.
+// Regression: rounding put a virtual light of the back in front of the front. Its quad, seen edge-on, made a pixel a hundred thousand times
+// as bright as any other.
 TEST(IndirectPicture, SheetsSendNothingThroughThemselves) {
   RenderOptions o = uncut(1 << 12);
   o.indirect.quads = o.indirect.soften = true;
@@ -65,11 +65,11 @@ TEST(IndirectPicture, SheetsSendNothingThroughThemselves) {
   EXPECT_LT(largest(bounce(lit_sheet(), o).pixels), 1e-3f);
 }
 
-// The bounce is the scene's, not the picture's: with fewer pixels the pattern is smaller, and what it joins as near.
+// The bounce belongs to the scene, not to the picture. With fewer pixels the pattern is smaller, and joins pixels equally near.
 TEST(IndirectPicture, SmallPicturesHaveTheSameLight) {
   const Scene scene = mixed_corner();
-  // What docs/indirect.md says of each width; the pattern of 8 has 0.32, 0.15, 0.10. Seeds are fixed: floats of other instruction
-  // sets decide a few pairs at their thresholds otherwise, a fiftieth of the figure at most, beside its last digit.
+  // Values of docs/indirect.md for each width; the pattern of 8 has 0.32, 0.15, 0.10. Seeds are fixed, but floats of other instruction sets
+  // decide a few pairs at their thresholds differently: at most by a fiftieth of the value, beside its last digit.
   for (const auto& [width, stated] : {std::pair{48, 0.001}, {160, 0.054}, {320, 0.058}}) {
     RenderOptions o = options(IndirectMode::ltc, 1 << 14), all = uncut(1 << 14);
     o.indirect.quads = o.indirect.soften = false;
@@ -84,8 +84,8 @@ TEST(IndirectPicture, SmallPicturesHaveTheSameLight) {
 
 double luminous(Vec3f c) { return static_cast<double>(c.x + c.y + c.z); }
 
-// A camera that moves by a fiftieth of a pixel's width a frame: what changes beyond the picture without culling is the
-// culling's doing. Far fewer lights are kept than by default, so that it shows.
+// The camera moves by a fiftieth of a pixel's width a frame. Changes beyond those of the picture without culling come from the culling. Far
+// fewer lights are kept than by default, to make them visible.
 TEST(IndirectPicture, RangesThatStayDoNotFlicker) {
   constexpr int kFrames = 16;
   const auto flicker = [&](bool fixed, double kept) {

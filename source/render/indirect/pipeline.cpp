@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Ground truth looks at a surface as its material describes it.
+// True if ground truth needs the surfaces as their materials describe them.
 bool needs_whole_surfaces(const RenderOptions& options) {
   return options.indirect.mode == IndirectMode::path || options.method == "reference";
 }
@@ -48,7 +48,7 @@ double pixel_spacing(const FrameSurfaces& s) {
       if (x + 1 >= s.raster.width || y + 1 >= s.raster.height) continue;
       const std::size_t at = s.raster.at(x, y), right = s.raster.at(x + 1, y), below = s.raster.at(x, y + 1);
       const Vec3f n = s.normal[at];
-      if (!(dot(n, n) > 0) || !(dot(n, s.normal[right]) > 0.9f) || !(dot(n, s.normal[below]) > 0.9f)) continue;  // another surface
+      if (!(dot(n, n) > 0) || !(dot(n, s.normal[right]) > 0.9f) || !(dot(n, s.normal[below]) > 0.9f)) continue;  // a different surface
       spacings.push_back(0.5 *
                          static_cast<double>(length(s.position[right] - s.position[at]) + length(s.position[below] - s.position[at])));
     }
@@ -58,16 +58,15 @@ double pixel_spacing(const FrameSurfaces& s) {
   return *middle;
 }
 
-// Side of the pattern that the picture bears: the filter joins what lies within four sides, and light must not vary much over that.
-constexpr double kFilterShare = 0.25;  // of the way that light comes: what 1280 pixels across `ring` have with the whole pattern
+// Side of the pattern that suits the picture. The filter joins pixels within four sides, and light must not vary much over that distance.
+constexpr double kFilterShare = 0.25;  // fraction of the light's way: that of 1280 pixels across `ring` with the whole pattern
 int pattern_side(int wanted, double spacing, double way) {
   int side = wanted;
   while (side > 1 && 4 * side * spacing > kFilterShare * way) side /= 2;
   return side;
 }
 
-// Virtual lights that a pixel keeps: as many as a pattern of the side that was wanted would have joined, as far as a frame of
-// 1080p would have taken that time.
+// Virtual lights that a pixel keeps: as many as a pattern of the wanted side would have joined, limited to the time of a frame at 1080p.
 double kept_pairs(const RenderOptions& options, int side) {
   const double joined = static_cast<double>(options.indirect.interleave) / side;
   const double room = 1920.0 * 1080.0 / (static_cast<double>(options.width) * options.height);
@@ -85,11 +84,11 @@ Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions
       tables_(ltc_compact_pack_tables()),
       surfaces_(Raster{options.width, options.height}),
       whole_(needs_whole_surfaces(options) ? surfaces_.raster.size() : 0) {
-  blue_noise();  // a table, not a part of the frame
+  blue_noise();  // a table, not part of the frame's time
 }
 
 void Pipeline::take(const SurfaceTile& tile, TileArea area) {
-  // Plane by plane, in the runs of four that a tile's slots and a picture's row have in common.
+  // Copies plane by plane, in the runs of four that a tile's slots and a picture's row have in common.
   const auto copy_plane = [&](const TilePlane& from, FloatArray& to) {
     for (int y = 0; y < area.height; ++y) {
       float* row = &to[surfaces_.raster.at(area.x, area.y + y)];
@@ -177,7 +176,7 @@ void Pipeline::add_sum(Picture& picture) {
   passes_.push_back({"cull", lit.work.cull_ms / threads_});
   passes_.push_back({"light", lit.work.light_ms / threads_});
   if (o.shadow_rays > 0) passes_.push_back({"shadows", lit.work.shadow_ms / threads_});
-  receivers = {};  // its memory is the next planes'
+  receivers = {};  // frees memory for the next planes
   Light light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
   lit.light = {};
   if (o.filter && side > 1)
@@ -199,7 +198,7 @@ void Pipeline::add_sum(Picture& picture) {
   });
 }
 
-// A row of it.
+// Adds one row of the bounce's radiance.
 void Pipeline::add_radiance(const VectorArray& radiance, int y, Picture& picture) const {
   std::vector<Vec3f>& layer = picture.layers.at("indirect");
   for (int x = 0; x < options_.width; ++x) {

@@ -13,13 +13,13 @@ namespace steradian::indirect {
 
 class Pipeline {
  public:
-  // Keeps references to all but the options. device: what does some of the passes; null for the packs.
+  // Keeps references to all arguments but the options. device: runs some of the passes; null: packs run all.
   Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions& options, int threads, Passes* device = nullptr);
 
-  // Takes the surfaces of a tile of the picture. From any thread, each tile once.
+  // Takes the surfaces of a tile of the picture. Any thread may call it, once per tile.
   void take(const SurfaceTile& tile, TileArea area);
 
-  // Adds the indirect light of all tiles taken, and keeps it as the layer "indirect".
+  // Adds the indirect light of all tiles taken, and stores it as the layer "indirect".
   void add_to(Picture& picture);
 
   const std::vector<PassTime>& passes() const { return passes_; }
@@ -38,7 +38,7 @@ class Pipeline {
   Passes* device_;
   const LtcPackTables tables_;
   FrameSurfaces surfaces_;
-  std::vector<Surface> whole_;  // ground truth only: with coat, sheen and material; none of a place that takes no light
+  std::vector<Surface> whole_;  // for ground truth only: with coat, sheen and material; empty at places that take no light
   std::vector<PassTime> passes_;
 };
 

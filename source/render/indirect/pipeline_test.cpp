@@ -25,14 +25,14 @@ TEST(IndirectShadowMap, CarriesTheConesFlux) {
     const ShadowMap map = make_shadow_map(scene, rays, count);
     double flux = 0;
     for (std::size_t i = 0; i < map.count; ++i) flux += static_cast<double>(map.flux.x[i]);
-    // The cone's rim cuts texels: about its circumference over their number's root.
+    // The cone's rim cuts texels: about its circumference over the root of their number.
     EXPECT_NEAR(flux, 10 * 2 * 3.14159265 * (1 - std::cos(0.35)), 10 * 0.38 * 4 / std::sqrt(count)) << count;
     for (std::size_t i = 0; i < map.count; i += 97)
       EXPECT_NEAR(map.area[i], length(cross(map.edge_x[i], map.edge_y[i])) * 4, 1e-4 * map.area[i]);
   }
 }
 
-// A square light of 1 m2 and radiance 2, level at height 1, that faces up.
+// A horizontal square light of 1 m2 and radiance 2, at height 1, that faces up.
 Scene lamp_scene(bool two_sided) {
   Scene scene = mixed_corner();
   scene.punctual_lights.clear();
@@ -51,7 +51,7 @@ double flux_of(const ShadowMap& map) {
   return flux;
 }
 
-// In a closed box every ray arrives, and all carry the same: the sum is the light's power but for float's rounding of one.
+// In a closed box every ray arrives, with equal flux: the sum is the light's power, except for float's rounding of one ray.
 TEST(IndirectShadowMap, AreaLightsCarryTheirPowerIntoAClosedBox) {
   for (const bool two_sided : {false, true}) {
     Scene scene = lamp_scene(two_sided);
@@ -68,7 +68,7 @@ TEST(IndirectShadowMap, AreaLightsCarryTheirPowerIntoAClosedBox) {
   }
 }
 
-// Single rays in rounds of some rows, which leave every third open.
+// Answers single rays in rounds of some rows, and leaves every third open.
 class SomeHits final : public FirstHits {
  public:
   explicit SomeHits(const RayScene& scene) : scene_(scene) {}
@@ -100,7 +100,7 @@ TEST(IndirectShadowMap, IsTheSameByHitsFoundElsewhere) {
   for (const int count : {1 << 12, 1 << 16}) {
     SomeHits hits(rays);
     const ShadowMap map = make_shadow_map(scene, rays, count), other = make_shadow_map(scene, rays, count, &hits);
-    EXPECT_EQ(hits.rounds, count == 1 << 12 ? 8 : 64);  // of two rows of 256, of one of 1024
+    EXPECT_EQ(hits.rounds, count == 1 << 12 ? 8 : 64);  // rounds of two rows of 256, or of one row of 1024
     ASSERT_EQ(map.count, other.count);
     int unlike = 0;
     for (std::size_t i = 0; i < map.count; ++i)
@@ -110,7 +110,7 @@ TEST(IndirectShadowMap, IsTheSameByHitsFoundElsewhere) {
   }
 }
 
-// A lid over the light gets the share of its power that their form factor says: directions go by the cosine, places evenly.
+// A lid over the light gets the fraction of power that their form factor gives: directions follow the cosine, places are even.
 TEST(IndirectShadowMap, AreaLightsSendALidItsFormFactor) {
   Scene scene = lamp_scene(true);
   const double half = 0.8, height = 0.7;  // the lid's, above the light
@@ -123,8 +123,8 @@ TEST(IndirectShadowMap, AreaLightsSendALidItsFormFactor) {
     for (int j = 0; j < 64; ++j)
       form_factor += polygon_irradiance(lid, {(i + 0.5) / 64 - 0.5, 0, (j + 0.5) / 64 - 0.5}, {0, 1, 0}) / std::numbers::pi / (64 * 64);
   const ShadowMap map = make_shadow_map(scene, RayScene(scene), 1 << 14);
-  const double share = flux_of(map) / (2 * std::numbers::pi * 2);  // of both sides
-  // No worse than rays by chance: 4 sigma of as many coins.
+  const double share = flux_of(map) / (2 * std::numbers::pi * 2);  // the light has two sides
+  // No worse than random rays: 4 sigma of as many coins.
   const double p = 0.5 * form_factor, sigma = std::sqrt(p * (1 - p) / static_cast<double>(map.count));
   std::printf("share of the lid %.5f, half the form factor %.5f, sigma by chance %.5f\n", share, p, sigma);
   EXPECT_NEAR(share, p, 4 * sigma);
@@ -135,7 +135,7 @@ TEST(IndirectLighting, BlueNoiseHoldsEveryRankOnceAndLittleOfLowFrequencies) {
   for (const auto& row : blue_noise())
     for (const float v : row) ++seen[static_cast<std::size_t>(v * kMaskSide * kMaskSide)];
   for (const int n : seen) EXPECT_EQ(n, 1);
-  // Means of 8 x 8 blocks of white noise vary by 1/(12 64); the mask's vary far less.
+  // Means over 8 x 8 blocks of white noise have variance 1/(12 64); the mask's vary far less.
   double variance = 0;
   for (std::size_t by = 0; by < 8; ++by)
     for (std::size_t bx = 0; bx < 8; ++bx) {
@@ -147,8 +147,8 @@ TEST(IndirectLighting, BlueNoiseHoldsEveryRankOnceAndLittleOfLowFrequencies) {
   EXPECT_LT(variance, 0.1 / (12 * 64));
 }
 
-// On packs in float, and in double: the same sum. Fresnel by pair differs: the pack takes it at virtual lights below
-// F0 0.1, as the double does.
+// The sum on packs in float equals the sum in double. Fresnel by pair differs: the pack uses it at virtual lights below F0 0.1, as the
+// double does.
 TEST(IndirectLighting, SumOnPacksIsTheSumInDouble) {
   for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx})
     for (const Scene& scene : {metal_corner(), mixed_corner()}) {
@@ -169,7 +169,7 @@ TEST(IndirectLighting, TwoGlossyEndsAreNearGgx) {
   }
 }
 
-// All virtual lights at every pixel, by a lobe of one's choice.
+// The sum over all virtual lights at every pixel, with a given lobe.
 struct Sum {
   Picture picture;
   double seconds;
@@ -193,8 +193,8 @@ Sum sum_by(const Scene& scene, SumLobe lobe, int lights) {
   return sum;
 }
 
-// Averaged over the lobe, Schlick's term loses light that a rough dielectric sends on near the horizon, and sends it elsewhere. By the
-// pair, energy is kept to what is asked of lobes (3 %), and most of the error goes.
+// Averaged over the lobe, Schlick's term loses light that a rough dielectric reflects near the horizon, and sends it elsewhere. By pair,
+// energy stays within the limit for lobes (3 %), and most of the error vanishes.
 TEST(IndirectLighting, DielectricsNeedFresnelByPair) {
   Scene scene = corner(plastic(0.6f, 0.45f), plastic(0.0f, 1.0f));  // a black, rough wall feeds a diffuse floor
   scene.materials[0].specular = 0;
@@ -210,8 +210,8 @@ TEST(IndirectLighting, DielectricsNeedFresnelByPair) {
   EXPECT_LT(by_pair.relative_l2, averaged.relative_l2 / 2);
 }
 
-// The literature's slow variant checks the one that runs: both are the same light to what the fit is off, and without the factor
-// of reciprocity algorithm 1 is not. A look-up for every pair of pixel and light, or for every light and every pixel.
+// The literature's slow variant checks the one in use: both give the same light within the fit's error. Without the factor of reciprocity,
+// algorithm 1 does not. Algorithm 1 looks up the table for every pair of pixel and light, algorithm 2 for every light and every pixel.
 TEST(IndirectLighting, BothAlgorithmsAreTheSameLight) {
   const Scene scene = metal_corner(0.45f);
   constexpr int kLights = 1 << 12;
@@ -223,14 +223,14 @@ TEST(IndirectLighting, BothAlgorithmsAreTheSameLight) {
   std::cout << "relative L2, energy, look-ups of lights, seconds: algorithm 2 " << second.relative_l2 << ", " << second.mean_ratio << ", "
             << kLights << ", " << two.seconds << "; algorithm 1 " << first.relative_l2 << ", " << first.mean_ratio << ", "
             << pixels * kLights << ", " << one.seconds << "; without its factor " << raw.relative_l2 << ", " << raw.mean_ratio << "\n";
-  for (const Difference& d : {first, second}) EXPECT_NEAR(d.mean_ratio, 1, 0.03);  // what is asked of lobes
+  for (const Difference& d : {first, second}) EXPECT_NEAR(d.mean_ratio, 1, 0.03);  // the limit for lobes
   EXPECT_LT(difference(one.picture, two.picture).relative_l2, first.relative_l2 + second.relative_l2);
   EXPECT_GT(std::fabs(raw.mean_ratio - 1), 0.03);
   EXPECT_GT(raw.relative_l2, first.relative_l2 + second.relative_l2);
 }
 
-// The same sets of virtual lights, all of them and culled: the mean over seeds is the whole, and what a seed changes of
-// the frame's mean is little.
+// The same sets of virtual lights, complete and culled. The mean over seeds is the whole sum, and a seed changes the frame's mean only
+// slightly.
 TEST(IndirectLighting, CullingKeepsTheMean) {
   for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx}) {
     const Scene scene = mode == IndirectMode::ltc ? mixed_corner() : metal_corner();
@@ -265,14 +265,14 @@ TEST(IndirectLighting, CullingKeepsTheMean) {
     const double m = frame_sum / kSeeds, deviation = std::sqrt(std::max(frame_squares / kSeeds - m * m, 0.0));
     std::cout << "mode " << static_cast<int>(mode) << ": " << outside << " of " << tested << " pixels beyond 3 sigma; frame mean "
               << m / mean(whole) << " of the whole, deviation from seed to seed " << deviation / mean(whole) << "\n";
-    // 0.27 % of normal deviates lie beyond; the estimates are skewed, so a few times that.
+    // 0.27 % of normal deviates lie beyond. The estimates are skewed, so a few times that is allowed.
     EXPECT_LE(outside, 0.015 * tested);
     EXPECT_NEAR(m / mean(whole), 1, 3 * deviation / mean(whole) / std::sqrt(kSeeds) + 1e-4);
     EXPECT_LT(deviation / mean(whole), 0.02);
   }
 }
 
-// R2: path tracing knows nothing of virtual lights.
+// R2: path tracing, which does not use virtual lights.
 TEST(IndirectLighting, SumApproachesPathTracing) {
   const Scene scene = mixed_corner();
   RenderOptions o = options(IndirectMode::path, 0);
@@ -293,7 +293,7 @@ TEST(IndirectLighting, SumApproachesPathTracing) {
   EXPECT_LT(d.relative_l2, 3 * std::sqrt(noise / light) + 0.05);
 }
 
-// A clear coat over black is a dielectric's lobe of the same roughness; sheen over black is light where else there were none.
+// A clear coat over black equals a dielectric's lobe of the same roughness. Sheen over black adds light where there is none without it.
 TEST(IndirectLighting, PathsSeeCoatAndSheen) {
   RenderOptions o = options(IndirectMode::path, 0);
   o.spp = 16;
@@ -328,7 +328,7 @@ TEST(IndirectLighting, SameBytesAtAnyNumberOfThreads) {
   EXPECT_TRUE(std::equal(one.pixels.begin(), one.pixels.end(), two.pixels.begin(), [](Vec3f a, Vec3f b) { return a == b; }));
 }
 
-// A board between wall and floor: the rays must take away what the doubles with visibility do not have.
+// A board between wall and floor: the rays must remove the light that the doubles with visibility lack.
 TEST(IndirectLighting, RatioEstimatorFindsTheShadows) {
   Scene scene = mixed_corner();
   scene.meshes.push_back(scene::quad_mesh({-1, 0.35f, 0.1f}, {1, 0.35f, 0.1f}, {1, 0.35f, 0.9f}, {-1, 0.35f, 0.9f}, 0));

@@ -1,5 +1,5 @@
-// The literature's first experiment: one point light over a plane of F0 = 1, looked down on from 22 degrees, by the transformed
-// cosines of a virtual light's end and by GGX itself, in double.
+// The literature's first experiment: one point light over a plane of F0 = 1, seen from 22 degrees above. It compares transformed cosines at
+// a virtual light's end with GGX itself, in double.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct PointLightPlane {
   int width, height;
   std::vector<double> transformed, ggx;  // radiance of each pixel; 0 above the horizon
   double white = 0;                      // 99.9th percentile of ggx below the horizon
-  double rmse = 0;                       // of what a picture shows whose white is 1
+  double rmse = 0;                       // of a picture that is scaled to white = 1
   double relative_l2 = 0, mean_ratio = 0;
 };
 
@@ -34,7 +34,7 @@ inline PointLightPlane point_light_over_plane(double roughness, int width, int h
   double squares = 0, norm = 0, sum = 0, true_sum = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const double s = 0.73 / height;  // tangent of half the picture's height, twice over
+      const double s = 0.73 / height;  // twice the tangent of half the picture's height
       const Vec3d ray = normalized(forward + right * (s * (x + 0.5 - 0.5 * width)) - up * (s * (y + 0.5 - 0.5 * height)));
       if (ray.y > -0.02) continue;
       const Vec3d p = camera - ray * (camera.y / ray.y), v = light - p;

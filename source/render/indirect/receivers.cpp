@@ -7,7 +7,7 @@
 namespace steradian::indirect {
 namespace {
 
-// Calls use(pixel, receiver) for the pixels of every stretch of `stride` tiles' width: both orders then stay in the cache.
+// Calls use(pixel, receiver) for all pixels, in areas as wide as `stride` tiles, so that both orders stay in the cache.
 template <class Use>
 void for_each_pixel(const Layout& layout, Use use) {
   const int side = layout.stride * kTile;
@@ -84,7 +84,7 @@ Box box_of(const Receivers& r, std::size_t first, std::size_t count) {
     extend(normal_low, normal_high, n);
   }
   if (!(low.x <= high.x)) return {};
-  // A little wider than the points: the bounds are computed in float.
+  // The bounds are slightly wider than the points, because they are computed in float.
   const Vec3f half = (high - low) * 0.5f, center = (high + low) * 0.5f;
   const float slack = 1e-6f * (std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z));
   const Vec3f wide{slack, slack, slack}, turn{1e-6f, 1e-6f, 1e-6f};

@@ -1,4 +1,4 @@
-// Receivers: the surfaces of a picture, and the order in which pixels that share virtual lights stand together.
+// Receivers: the surfaces of a picture, in an order that groups pixels with the same virtual lights.
 #pragma once
 
 #include "render/indirect/arrays.h"
@@ -6,7 +6,7 @@
 
 namespace steradian::indirect {
 
-// Planes of a picture with a margin left and right of every row, so that packs and filters may read past its ends.
+// Planes of a picture with a margin left and right of every row, so that packs and filters may read past the row's ends.
 struct Raster {
   int width = 0, height = 0;
   static constexpr int kMargin = 32;
@@ -17,7 +17,7 @@ struct Raster {
   }
 };
 
-// In the picture's order. A normal of zero: no surface that takes light; the margins are such.
+// Surfaces in the picture's order. A normal of zero marks a pixel without a surface that takes light, and the margins.
 struct FrameSurfaces {
   Raster raster;
   VectorArray position, normal, view, albedo, f0, f90;
@@ -33,8 +33,8 @@ inline constexpr std::size_t kTileReceivers = std::size_t{kTile} * kTile;
 inline constexpr std::size_t kBlockReceivers = std::size_t{kBlock} * kBlock;
 inline constexpr std::size_t kBlocks = kTileReceivers / kBlockReceivers;
 
-// Pixels (x, y) with the same x mod stride and y mod stride are a sub-image; sub-images stand one after the other,
-// each as tiles, each tile as blocks.
+// Pixels (x, y) with the same x mod stride and y mod stride form a sub-image. Sub-images follow one another, each as tiles, each tile as
+// blocks.
 struct Layout {
   int width, height, stride, tiles_x, tiles_y;
 
@@ -46,7 +46,7 @@ struct Layout {
   std::size_t tile_begin(int set, int tile) const {
     return (static_cast<std::size_t>(set) * static_cast<std::size_t>(tiles()) + static_cast<std::size_t>(tile)) * kTileReceivers;
   }
-  // A place is the sum of what a row and what a column adds.
+  // An index is the sum of a row's part and a column's part.
   std::size_t row_part(int y) const {
     const int v = y / stride;
     return tile_begin(y % stride * stride, v / kTile * tiles_x) +
@@ -59,24 +59,24 @@ struct Layout {
   std::size_t at(int x, int y) const { return row_part(y) + column_part(x); }
 };
 
-// What the lighting pass reads. f0 and f90 are filled for mode ggx only.
+// Data that the lighting pass reads. f0 and f90 are filled for mode ggx only.
 struct Receivers {
   VectorArray position, normal, view, f0, f90;
   FloatArray alpha;
-  FloatArray glossy;  // 1 where there is a glossy lobe
+  FloatArray glossy;  // 1 with a glossy lobe, else 0
 };
 
-// Light that arrives, demodulated: `diffuse` times albedo / pi and `glossy` times the mean reflectance is radiance.
+// Incoming light, demodulated: `diffuse` times albedo / pi and `glossy` times the mean reflectance is radiance.
 struct Light {
   VectorArray diffuse, glossy;
 };
 
 Receivers interleave(const FrameSurfaces& surfaces, const Layout& layout, IndirectMode mode);
 
-// Back to the picture's order, as planes of a raster.
+// Restores the picture's order, as planes of a raster.
 Light deinterleave(const Light& light, const Layout& layout);
 
-// Bounds of the surfaces among `count` receivers and of their normals; empty without any.
+// Bounds of the surfaces among `count` receivers, and of their normals; empty if there are none.
 struct Box {
   Vec3f center, half;
   Vec3f normal, normal_half;

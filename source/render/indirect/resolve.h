@@ -1,4 +1,4 @@
-// From demodulated light to radiance.
+// Conversion of demodulated light to radiance.
 #pragma once
 
 #include "core/simd.h"

@@ -16,17 +16,17 @@
 namespace steradian::indirect {
 namespace {
 
-constexpr unsigned kCastsShadow = 2;  // RayScene: light passes the shapes that only stand for lights
+constexpr unsigned kCastsShadow = 2;  // as in RayScene: light passes shapes that only stand for lights
 
-// A ray from a light, the flux it carries, and how its direction changes from column to column and row to row.
+// A ray from a light, its flux, and the changes of its direction from column to column and row to row.
 struct LightRay {
   Vec3d origin, direction;  // direction of any length
   Vec3d flux;
-  Vec3d step_x, step_y;  // of the direction (or of the origin, for parallel light), to the next texel
+  Vec3d step_x, step_y;  // change of the direction (or of the origin, for parallel light) to the next texel
   bool parallel = false;
-  double solid_angle = 0;  // of the texel, where the ray is no part of a perspective or parallel grid
-  double back = 0;         // how far behind the origin its apex is taken to be
-  double range = 0;        // 0: none
+  double solid_angle = 0;  // that of the texel, if the ray is not part of a perspective or parallel grid
+  double back = 0;         // distance of its assumed apex behind the origin
+  double range = 0;        // 0: unlimited
 };
 
 // A light as a side x side grid of rays.
@@ -41,7 +41,7 @@ double spot_falloff(const PunctualLight& light, Vec3d unit) {
   return c * c;
 }
 
-// A grid over the cone's square, in the plane at distance 1: a texel's solid angle is 4 tan^2 / side^2 cos^3.
+// A grid over the square around the cone, in the plane at distance 1. A texel's solid angle is 4 tan^2 / side^2 cos^3.
 Emitter spot(const PunctualLight& light) {
   const Frame frame = Frame::from_normal(light.direction);
   const double t = std::sqrt(1 - light.cos_outer * light.cos_outer) / light.cos_outer;
@@ -59,7 +59,7 @@ Emitter spot(const PunctualLight& light) {
           }};
 }
 
-// Equal solid angles over the sphere. Wide spot lights too: their square would reach the horizon.
+// Equal solid angles over the sphere. Wide spot lights use this too: their square would reach the horizon.
 Emitter sphere(const PunctualLight& light) {
   const Frame frame = Frame::from_normal(light.direction);
   const packed::Punctual source = packed::prepare(light);
@@ -99,10 +99,10 @@ Emitter directional(const PunctualLight& light, const Scene& scene) {
 
 struct LightTriangle {
   Vec3d a, b, c;
-  double area_before;  // of the triangles before this one
+  double area_before;  // area of the triangles before this one
 };
 
-// Points spread evenly over the light's triangles, directions by the cosine: every ray carries the same flux.
+// Points are spread evenly over the light's triangles, directions follow the cosine, and every ray carries the same flux.
 Emitter area(const AreaLight& light, const std::vector<LightTriangle>& triangles, double total) {
   if (!(total > 0)) return {};
   const Vec3d radiance = light.radiance;
@@ -111,8 +111,8 @@ Emitter area(const AreaLight& light, const std::vector<LightTriangle>& triangles
   const double surface = lum > 0 && light.power > 0 ? light.power / lum : total;  // without the tessellation's deficit
   return {lum * std::numbers::pi * surface * sides, [=](int i, int j, int side) {
             LightRay r;
-            // Where on the light: the additive recurrence of Roberts 2018 in three dimensions.
-            constexpr double kRoot = 1.2207440846057596;  // of x^4 = x + 1
+            // Place on the light, by the additive recurrence of Roberts 2018 in three dimensions.
+            constexpr double kRoot = 1.2207440846057596;  // root of x^4 = x + 1
             const double k = static_cast<double>(j) * side + i + 1;
             const auto fraction = [](double x) { return x - std::floor(x); };
             const double u = fraction(0.5 + k / kRoot) * total;
@@ -148,7 +148,7 @@ std::vector<std::vector<LightTriangle>> triangles_of_lights(const Scene& scene) 
   for (const Mesh& mesh : scene.meshes)
     for (std::size_t k = 0; k < mesh.triangle_lights.size(); ++k)
       if (mesh.triangle_lights[k] >= 0) add(all[static_cast<std::size_t>(mesh.triangle_lights[k])], mesh, k);
-  for (std::size_t l = 0; l < all.size(); ++l) {  // a light that nobody sees
+  for (std::size_t l = 0; l < all.size(); ++l) {  // for a light without a mesh in the scene
     if (!all[l].empty()) continue;
     const Mesh mesh = scene::mesh_of_light(scene.area_lights[l]);
     for (std::size_t k = 0; k < mesh.triangle_count(); ++k) add(all[l], mesh, k);
@@ -175,7 +175,7 @@ std::vector<Emitter> emitters_of(const Scene& scene) {
   return emitters;
 }
 
-// One texel before its fields are taken apart.
+// One texel before its fields are stored separately.
 struct Texel {
   Surface surface;
   Vec3f incoming, flux, edge_x, edge_y;
@@ -184,15 +184,15 @@ struct Texel {
   bool lit = false;
 };
 
-// How far the section of the texel's cone with the tangent plane reaches along one step.
+// Half axis, along one step, of the section of the texel's cone with the tangent plane.
 Vec3d section(const LightRay& r, Vec3d step, Vec3d normal, double along) {
   const double facing = dot(normal, r.direction);
-  const double least = 0.02 * length(r.direction);  // a grazing cone's section is cut at fifty times its width
+  const double least = 0.02 * length(r.direction);  // a grazing cone's section is limited to fifty times its width
   const Vec3d e = step - r.direction * (dot(normal, step) / (std::fabs(facing) > least ? facing : std::copysign(least, facing)));
   return e * (0.5 * along);
 }
 
-// What a ray meets: a triangle's place, by the weights of its second and third corner, and how far away.
+// The place that a ray meets: a triangle, the weights of its second and third corners, and the distance.
 struct Place {
   unsigned mesh = 0, triangle = 0;
   float u = 0, v = 0, distance = 0;
@@ -235,7 +235,7 @@ MapRay map_ray(const LightRay& r) {
 }
 bool is_ray(const MapRay& r) { return dot(r.direction, r.direction) > 0; }
 
-// Where a ray meets a triangle's plane, and the place next to it in the triangle: what found the triangle may have rounded.
+// Intersects a ray with a triangle's plane and moves the place into the triangle: whatever found the triangle may have rounded.
 Place place_on(const Scene& scene, FirstHit hit, const MapRay& ray) {
   const Mesh& mesh = scene.meshes[hit.mesh];
   const auto corner = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[3 * hit.triangle + c]]); };
@@ -251,17 +251,17 @@ Place place_on(const Scene& scene, FirstHit hit, const MapRay& ray) {
 
 constexpr int kMapBlock = 16;  // texels, 4 x 4
 
-// Blocks side by side in a light's grid.
+// A row of blocks in a light's grid.
 struct BlockRow {
   const Emitter* emitter;
   int side, y;
-  std::size_t first;  // texel of the map
+  std::size_t first;  // first texel in the map
   std::size_t size() const { return 4 * static_cast<std::size_t>(side); }
 };
 
 LightRay light_ray(const BlockRow& row, int block, int k) { return row.emitter->ray(4 * block + k % 4, row.y + k / 4, row.side); }
 
-// What the rays of a block meet; hits: what of that is known, null for nothing. Whether ray k meets something is bit k.
+// Finds the places that the rays of a block meet. hits: the known ones, null if none. Sets bit k of the result if ray k meets something.
 unsigned meet(const Scene& scene, const RayScene& rays, const MapRay (&of)[kMapBlock], const FirstHit* hits, Place (&places)[kMapBlock]) {
   alignas(64) RTCRayHit16 packet;
   alignas(64) int valid[kMapBlock];
@@ -334,7 +334,7 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, F
   std::vector<BlockRow> rows;
   std::size_t texels = 0;
   for (const Emitter& emitter : emitters) {
-    // Multiples of eight, so that the grid falls into 64 sets of one size.
+    // Sides are multiples of eight, so that the grid splits into 64 sets of one size.
     const int side = 8 * std::clamp(static_cast<int>(std::lround(std::sqrt(count * emitter.power / power) / 8)), 1, 512);
     for (int y = 0; y < side; y += 4, texels += rows.back().size()) rows.push_back({&emitter, side, y, texels});
   }

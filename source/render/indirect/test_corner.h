@@ -1,4 +1,4 @@
-// What the tests of the bounce look at: a floor and a wall under a spot light.
+// Scenes and sums for tests of the bounce: a floor and a wall under a spot light.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ inline SurfaceMaterial plastic(float albedo, float roughness) {
   return m;
 }
 
-// A floor (material 0) and a wall (material 1) that meet, a spot light on the wall: nothing stands in the way of the bounce.
+// A floor (material 0) that meets a wall (material 1), and a spot light on the wall. Nothing occludes the bounce.
 inline Scene corner(SurfaceMaterial floor, SurfaceMaterial wall) {
   Scene scene;
   scene.materials = {floor, wall};
@@ -49,7 +49,7 @@ inline Scene corner(SurfaceMaterial floor, SurfaceMaterial wall) {
 inline Scene metal_corner(float roughness = 0.4f) { return corner(metal(roughness), metal(0.5f)); }
 inline Scene mixed_corner() { return corner(plastic(0.6f, 0.45f), plastic(0.7f, 0.5f)); }
 
-// A mirror-like sheet, askew, lit from both sides: no side sends the other anything.
+// A mirror-like, tilted sheet, lit from both sides. Neither side sends light to the other.
 inline Scene lit_sheet() {
   Scene scene = corner(metal(0.2f), metal(0.2f));
   scene.materials[0].double_sided = true;
@@ -98,11 +98,11 @@ inline Picture plain_sum(const Scene& scene, IndirectMode mode, int lights) {
   return bounce(scene, o);
 }
 
-// R0 and R1: every virtual light at every pixel in double.
+// R0 and R1: the sum over every virtual light at every pixel, in double.
 inline Picture true_sum(const Scene& scene, IndirectMode mode, int lights) {
   RenderOptions o = options(mode, lights);
   o.method = "reference";
-  o.target_error = 1;  // of the direct light, which nobody looks at
+  o.target_error = 1;  // for the direct light, which the tests ignore
   return bounce(scene, o);
 }
 

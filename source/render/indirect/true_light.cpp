@@ -14,7 +14,7 @@ namespace {
 
 Vec3d wide(Vec3f v) { return static_cast<Vec3d>(v); }
 
-// One surface and the direction that its table is looked up at: BRDF times the cosine of the other direction, RGB.
+// One surface and the direction of its table look-up. Results are BRDF times the cosine of the other direction, in RGB.
 class End {
  public:
   End(Vec3f normal, Vec3f view, Vec3f albedo, Vec3f f0, Vec3f f90, float alpha)
@@ -41,7 +41,7 @@ class End {
     return lobe.radiance(lobe.evaluate(l));
   }
 
-  // The transformed cosine of the view, at l; Fresnel averaged over the lobe, or by the pair.
+  // The transformed cosine for the view, evaluated at l. Fresnel is averaged over the lobe, or by pair.
   Vec3d ltc(Vec3d l, bool fresnel_by_pair) {
     if (!glossy_ || !(l.z > 0)) return {};
     if (!looked_up_) value_ = ggx_compact_table().look_up(std::sqrt(alpha_), view_.z);
@@ -52,7 +52,7 @@ class End {
     return (f0_ + (f90_ - f0_) * (x * x * x * x * x)) * (value_.n_a * lobe);
   }
 
-  // The same with the two directions exchanged: looked up at l, evaluated at the view. Times cos l: BRDF times cosine.
+  // The same with the directions exchanged: looked up at l, evaluated at the view. Times cos l, so it is BRDF times cosine.
   Vec3d ltc_from(Vec3d l, double numerator, double denominator) const {
     if (!glossy_ || !(l.z > 0)) return {};
     const LtcValue value = ggx_compact_table().look_up(std::sqrt(alpha_), l.z);
@@ -135,7 +135,7 @@ Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& s
   Vec3d squares{};
   for (int k = 0; k < paths; ++k) {
     Vec3d x{};
-    for (const LobeInFrame& sampled : lobes) {  // one direction by each: the multiple-sample balance heuristic
+    for (const LobeInFrame& sampled : lobes) {  // one direction from each lobe: the multiple-sample balance heuristic
       const double a = random.uniform(), b = random.uniform();
       const Vec3d l = sampled.lobe.sample(a, b), to = sampled.frame.to_world(l);
       if (!(l.z > 0)) continue;

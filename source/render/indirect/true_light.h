@@ -8,7 +8,7 @@
 
 namespace steradian::indirect {
 
-// What lobe a sum evaluates.
+// Lobe that a sum evaluates.
 //   ggx            GGX at both ends, Schlick's Fresnel for every pair at both
 //   ltc            algorithm 2: the virtual light's lobe looked up for its incoming light; by pair below F0 0.1
 //   ltc_averaged   the same with Fresnel averaged over the lobe for all
@@ -25,8 +25,8 @@ struct SumOptions {
 // Radiance towards the unit view from all texels of the map.
 Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f view, const SumOptions& options);
 
-// Radiance that one bounce sends towards the view, by `paths` paths: a direction by the receiver's lobes (balance
-// heuristic among them), then the direct light of what it meets, with shadows. Emission does not count.
+// Radiance that one bounce sends towards the view, by `paths` paths. A path has a direction by the receiver's lobes (balance heuristic
+// among them), then the direct light of the surface it meets, with shadows. Emission does not count.
 Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& sampler, const Surface& receiver, Vec3f view, int paths,
                       reference::Random& random);
 

@@ -1,4 +1,4 @@
-// Virtual lights: the lobe that each texel of a shadow map sends out, with one table look-up each.
+// Virtual lights: the lobe that each texel of a shadow map emits, with one table look-up each.
 #pragma once
 
 #include <vector>
@@ -14,14 +14,14 @@ struct LobeArrays {
   VectorArray x, y, z;  // rows of M^-1 in world space
   FloatArray scale;     // |M^-1| / pi
   FloatArray n_a, f_a;
-  FloatArray stretch;  // largest of M
+  FloatArray stretch;  // largest stretch of M
 
   explicit LobeArrays(std::size_t size = 0) : x(size), y(size), z(size), scale(size), n_a(size), f_a(size), stretch(size) {}
 };
 
 struct VirtualLightTable {
-  // Algorithm 2 of Xia et al. 2023: the lobe of each texel for the light that comes in, to be evaluated towards the
-  // receivers; rows are turned. The arrays are as long as the map's.
+  // Algorithm 2 of Xia et al. 2023: the lobe of each texel for its incoming light, to be evaluated towards the receivers. Rows are negated.
+  // The arrays are as long as the map's.
   void (*prepare)(const ShadowMap& map, const LtcPackTables& tables, LobeArrays& lobes);
 };
 

@@ -13,7 +13,7 @@ using Mask = K::mask;
 
 STERADIAN_INLINE PackVec3 vector_at(const VectorArrays& v, std::size_t i) { return {load(v.x + i), load(v.y + i), load(v.z + i)}; }
 
-// The lights of one pack: consecutive ones, or those of some numbers.
+// The lights of one pack: consecutive ones, or those with given numbers.
 struct Lanes {
   const std::uint32_t* numbers;
   std::size_t first;
@@ -32,10 +32,10 @@ struct Lanes {
   STERADIAN_INLINE PackVec3 operator()(const Planes& p) const { return {(*this)(p.x), (*this)(p.y), (*this)(p.z)}; }
 };
 
-// The largest of lambert_grazing_of_sky, at grazing views.
+// Largest value of lambert_grazing_of_sky, at grazing views.
 constexpr double kSky = 0.0283;
 
-// What is the same for all lights of a cell.
+// Values that all lights of a cell share.
 struct Judge {
   const Cell& cell;
   PackReal error;
@@ -66,7 +66,7 @@ struct Judge {
         lebesgue_xy(lebesgue_x * lebesgue(c.grid.count[1])),
         lebesgue_xyz(lebesgue_xy * lebesgue(c.grid.count[2])) {}
 
-  // Along the three axes, one after the other: what one leaves, those after it may enlarge by Lebesgue's constants.
+  // Error bound along the three axes in turn. Lebesgue's constants of the later axes may enlarge the error of the earlier ones.
   template <class Along>
   STERADIAN_INLINE PackReal over_axes(Along along) const {
     return along(cell.grid.count[0], half_x) + PackReal(lebesgue_x) * along(cell.grid.count[1], half_y) +
@@ -87,7 +87,7 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const PackReal d2 = max(dot(d, d), PackReal(1e-12)), inverse = inversesqrt(d2), distance = d2 * inverse;
   const PackReal radius = of(far.radius), area = of(far.area);
   const Mask flat = of(far.is_flat) > PackReal(0.5), two_sided = of(far.two_sided) > PackReal(0.5);
-  // Places are rounded to single precision, and so are the heights below: by some units of 6e-8 of the coordinates.
+  // Positions are rounded to single precision, and so are the heights below: by some units of 6e-8 of the coordinates.
   const PackReal slack = PackReal(1e-6) * (distance + j.magnitude);
 
   const auto beyond = [&](const PackVec3& axis, const PackReal& half) { return max(abs(dot(d, axis)) - half, PackReal(0.0)); };
@@ -96,7 +96,7 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const PackReal near = gap - of(far.spread), r = max(near, PackReal(1e-6)), r2 = r * r;
   const Mask apart = near > PackReal(1e-4) * j.size + PackReal(1e-5) && gap > radius && area > zero;
 
-  // The side from which the receivers see it.
+  // Side from which the receivers see the light.
   const PackReal height = -dot(d, plane);
   const PackReal extent =
       abs(dot(plane, j.axis_x)) * j.half_x + abs(dot(plane, j.axis_y)) * j.half_y + abs(dot(plane, j.axis_z)) * j.half_z;
@@ -116,7 +116,7 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const PackReal nodes = j.over_axes([&](int n, const PackReal& half) { return k.far_error_of_nodes(n, half, r); });
   const PackReal growth(j.lebesgue_xyz);
 
-  // One element of a flat light that the horizon may cut (far_error_across_horizon).
+  // Error of one element of a flat light that the horizon may cut (far_error_across_horizon).
   const PackVec3 reach_a = of(far.reach_a), reach_b = of(far.reach_b);
   const PackReal rise_a = dot(reach_a, j.normal), rise_b = dot(reach_b, j.normal);
   const PackReal deviation = sqrt(of(far.deviation2)),
@@ -126,7 +126,7 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
 
   PackReal grazing_nodes(0.0), slope(0.0), sky_nodes(0.0), sky_points(0.0), across_grazing(0.0);
   if (j.cell.loss > 0) {
-    // Over the cell and the light no direction turns further than this; beyond a right angle nothing is known.
+    // Over the cell and the light, no direction turns further than this. Beyond a right angle there is no bound.
     const PackReal to_light = (j.size + radius) * inverse, to_eye = j.size / j.eye_distance;
     const PackReal angle = dot(d, j.to_eye) * inverse - PackReal(1.4143) * (to_light + to_eye);
     const PackReal least = select(max(to_light, to_eye) < PackReal(0.99), clamp(PackReal(0.5) + PackReal(0.5) * angle, 0.0, 1.0), zero);
@@ -134,11 +134,11 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
     grazing_nodes =
         j.over_axes([&](int n, const PackReal& half) { return k.far_error_of_grazing_nodes(n, half, r, j.eye_distance, least); });
     slope = weight_of.x + weight_of.y;
-    // The share of the sky that the light covers, which the polynomial leaves out, and its derivative.
+    // Fraction of the sky that the light covers, which the polynomial omits, and its derivative.
     const PackReal covered = weight * PackReal(0.318309886), most = max(PackReal(kSky), weight_of.x);
     sky_nodes = covered * most;
     sky_points = covered * (PackReal(2.0) * most + weight_of.y);
-    // What is left of the light may lie in any of its directions, within 1.6 radius / R.
+    // The remaining part of the light may lie in any of its directions, within 1.6 radius / R.
     across_grazing =
         across * (weight_of.x + PackReal(2.0) * covered * most) + (top / r) * (PackReal(1.6) * radius / r) * weight_of.y * (one + covered);
   }
@@ -150,19 +150,20 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const auto one_at_points = at_points(with_one), four_at_points = at_points(with_four);
   const Mask smooth = apart && lit && above;
   const Mask clear = apart && above;
-  // What it sends about the cell's centre, of the most that it could: faint lights may err by less, down to a fifth.
+  // The light sent about the cell's centre, relative to the most possible: faint lights may err by less, down to a fifth.
   const PackReal facing = select(flat, abs(height) * inverse, one);
   const PackReal allowed = j.error * clamp(facing * (up * inverse + j.turn), 0.2, 1.0);
-  // An element of a point is the point.
+  // The element of a point light is the point itself.
   const Mask is_point = radius <= zero && area > zero;
   Verdict v = {select(is_point, code(Share::one_at_points), code(Share::exact)), zero, zero};
-  // From the dearest to the cheapest.
+  // The offers run from the most expensive to the cheapest.
   const auto offer = [&](const Mask& possible, const Vec2<PackReal>& e, Share share, const PackReal& most) {
     const Mask takes = possible && e.x + j.loss * e.y < most;
     v = {select(takes, code(share), v.share), select(takes, weight * e.x, v.plain), select(takes, weight * e.y, v.grazing)};
   };
   offer(clear && flat, four_at_points, Share::four_at_points, allowed);
-  // Next to a light even a small share of what it sends at most is much. Lights that a horizon cuts err one way: half as much.
+  // Next to a light even a small fraction of the most it can send is much. Lights that a horizon cuts err in one direction: half as much
+  // is allowed.
   offer(apart && flat && near > radius, Vec2<PackReal>(across, across_grazing), Share::one_at_points, j.error * PackReal(0.5));
   offer(clear, one_at_points, Share::one_at_points, allowed);
   offer(smooth && flat, by_four, Share::four, allowed);
@@ -184,14 +185,14 @@ __attribute__((flatten)) void judge(const FarLights& far, const std::uint32_t* n
   }
 }
 
-// (1 - v.h)^5 of a light in the direction r.
+// (1 - v.h)^5 for a light in the direction r.
 STERADIAN_INLINE PackReal grazing_of(const PackVec3& r, const PackVec3& view, const PackReal& inverse) {
   const PackReal x = PackReal(1.0) - sqrt(clamp(PackReal(0.5) + PackReal(0.5) * (dot(r, view) * inverse), 0.0, 1.0));
   const PackReal x2 = x * x;
   return x2 * x2 * x;
 }
 
-// What an element sends: a vector along r, and the inverse of r's length.
+// Light of an element: a vector along r, and the inverse of r's length.
 struct Sent {
   PackVec3 vector;
   PackReal inverse;
@@ -224,7 +225,7 @@ struct Sums {
     add_three(plain, e, radiance);
     if constexpr (with_grazing) add_three(weighted, e * grazing, radiance);
   }
-  // Adds them to the nodes from the first on.
+  // Adds the sums to the nodes from `first` on.
   STERADIAN_INLINE void put(Polynomial& values, std::size_t first) const {
     for (std::size_t k = 0; k < kParts; ++k) {
       put(plain[k], values, first, k);
@@ -252,7 +253,7 @@ struct Sums {
   }
 };
 
-// Where a cell's nodes lie: kLanes of them from the first on.
+// Positions of a cell's nodes: kLanes of them from `first` on.
 STERADIAN_INLINE PackVec3 node_places(const Cell& cell, std::size_t first) {
   alignas(64) std::array<std::array<float, kLanes>, 3> along;
   const std::array<const NodeRow*, 3> row = {&node_row(cell.grid.count[0]), &node_row(cell.grid.count[1]), &node_row(cell.grid.count[2])};
@@ -301,7 +302,7 @@ STERADIAN_INLINE void chebyshev(int count, const R& x, R (&t)[8]) {
   for (int k = 2; k < count; ++k) t[k] = (x + x) * t[k - 1] - t[k - 2];
 }
 
-// Rows along an axis of the grid become sums of them: row i is the sum of m[i][j] times row j.
+// Replaces rows along an axis of the grid by sums of them: row i becomes the sum of m[i][j] times row j.
 using Matrix = std::array<std::array<float, 8>, 8>;
 template <std::size_t width>
 STERADIAN_INLINE void combine(std::size_t axis, const NodeGrid& grid, const Matrix& m, Polynomial& p) {
@@ -356,7 +357,7 @@ __attribute__((flatten)) void fit_with(const Elements& elements, const Cell& cel
 }
 
 void fit(const Elements& elements, const Cell& cell, const Polynomial* outer, const Cell* outer_cell, Polynomial& result) {
-  // A part of receivers with losses may have none: their polynomial is the whole one's still.
+  // A part of receivers with losses may have none itself; its polynomial is still the whole one's.
   if (cell.loss > 0 || (outer_cell != nullptr && outer_cell->loss > 0))
     fit_with<true>(elements, cell, outer, outer_cell, result);
   else
@@ -398,7 +399,7 @@ __attribute__((flatten)) void add_polynomial_with(const Polynomial& polynomial, 
     for (TilePlane* plane : {&receivers.irradiance.x, &receivers.irradiance.y, &receivers.irradiance.z}) {
       PackReal e = dot(PackVec3(plain[k], plain[k + 1], plain[k + 2]), normal);
       if constexpr (with_grazing) e = e - loss * dot(PackVec3(weighted[k], weighted[k + 1], weighted[k + 2]), normal);
-      // No light takes any away: what is below 0 is error.
+      // No light is negative: values below 0 are errors.
       store(plane->data() + i, load(plane->data() + i) + max(e, PackReal(0.0)));
       k += 3;
     }
@@ -421,7 +422,7 @@ __attribute__((flatten)) void add_elements(const Elements& elements, Receivers& 
     const bool lossy = any_lane(loss > PackReal(0.0));
     const PackReal sky = k.lambert_grazing_of_sky(dot(n, v));
     PackVec3 sum(0.0, 0.0, 0.0);
-    // As lambert_irradiance_below.
+    // Like lambert_irradiance_below.
     const auto add = [&](const Sent& sent, const PackVec3& r, const Vec3f& radiance) {
       PackReal e = max(dot(sent.vector, n), PackReal(0.0));
       if (lossy) {

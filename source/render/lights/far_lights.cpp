@@ -8,10 +8,10 @@
 namespace steradian::lights {
 namespace {
 
-// A point is a ball so small that what it hides of the sky does not count.
+// A point light is a ball so small that its fraction of the sky does not count.
 constexpr float kPointArea = 1e-8f;
 
-// Points that send the same everywhere.
+// Returns true for points that emit the same everywhere.
 bool is_plain_point(const PackLight& light) {
   const auto* p = std::get_if<packed::Punctual>(&light.shape);
   return p != nullptr && p->kind == PunctualKind::point && p->inverse_range2 == 0 && p->profile == nullptr;
@@ -23,7 +23,7 @@ struct One {
   bool symmetric = false, two_sided = false, is_flat = false;
 };
 
-// A ball about the middle of those in whose hull the shape lies.
+// Bounds the shape by a ball, about the middle of the points whose hull contains it.
 void bound(const auto& shape, One& one) {
   Vec3f sum{};
   float count = 0;
@@ -41,8 +41,8 @@ void bound(const auto& shape, One& one) {
 
 float power4(Vec3f v) { return dot(v, v) * dot(v, v); }
 
-// Mean powers of distances of points no further than the radius follow from the mean square. fourth: the mean fourth power of a light
-// that is its own mirror image about its centre.
+// Mean powers of distances follow from the mean square, for points no further than the radius. fourth: mean fourth power of a light that
+// is its own mirror image about its centre.
 void take_flat(Vec3f center, Vec3f normal, Vec3f reach_a, Vec3f reach_b, float area, float radius, std::optional<float> fourth, One& one) {
   const float a2 = dot(reach_a, reach_a), b2 = dot(reach_b, reach_b);
   if (!(area > 0) || !std::isfinite(a2 + b2)) return;
@@ -60,7 +60,7 @@ void take_flat(Vec3f center, Vec3f normal, Vec3f reach_a, Vec3f reach_b, float a
   one.is_flat = true;
 }
 
-// Of points x s + y t, from the means of s^4 and s^2 t^2.
+// Mean fourth power of the length of x s + y t, from the means of s^4 and s^2 t^2.
 float mean_fourth(Vec3f x, Vec3f y, float s4, float s2t2) {
   const float xx = dot(x, x), yy = dot(y, y), xy = dot(x, y);
   return (xx * xx + yy * yy) * s4 + (2 * xx * yy + 4 * xy * xy) * s2t2;
@@ -87,7 +87,7 @@ struct Prepare {
     bound(d, one);
     one.two_sided = d.two_sided;
     const float to_reach = std::numbers::sqrt2_v<float> / 2;
-    // Conjugate half axes: no point of the ellipse lies further out than the root of the sum of their squares.
+    // x and y are conjugate half axes: no point of the ellipse lies further out than the root of the sum of their squares.
     take_flat(d.point, d.normal, d.x * to_reach, d.y * to_reach, std::numbers::pi_v<float> * length(cross(d.x, d.y)),
               std::sqrt(dot(d.x, d.x) + dot(d.y, d.y)), mean_fourth(d.x, d.y, 1.0f / 8, 1.0f / 24), one);
   }
@@ -125,7 +125,7 @@ FarLights prepare_far_lights(const std::vector<PackLight>& lights) {
     far.elements.push_back({one.center, area, radiance});
     far.fours.push_back({one.center, one.reach_a, one.reach_b, area * 0.25f, radiance});
     far.area.push_back(one.area);
-    // Single precision rounds what it is compared with.
+    // The margin covers single-precision rounding in comparisons.
     far.radius.push_back(one.radius * (1 + 1e-6f));
     far.spread.push_back(one.spread * (1 + 1e-6f));
     far.deviation2.push_back(one.deviation2);

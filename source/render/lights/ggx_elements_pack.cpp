@@ -7,17 +7,17 @@ using namespace lights;
 using K = PackKernels;
 using Mask = K::mask;
 
-// A pack of points and their isotropic lobe. An element in the light's centroid c sends f k, of the lobe f and of k, the share of the sky.
-// It is off by half the mean square distance from c, times how much the second derivative of f k along a line over the light can be.
+// A pack of points and their isotropic lobe. An element in the light's centroid c sends f k, with the lobe f and the fraction k of the
+// sky. Its error is half the mean square distance from c times the largest second derivative of f k along a line over the light.
 //
-// With H = l + v, l the direction to a place of the light at the distance r >= R, v the view, and A the map that divides what of H lies in
-// the surface by alpha, f = (|H| / |A H|)^4 G2 / (4 pi alpha^2 v_z). Along a line l' <= 1 / R and l'' <= 1.155 / R^2. The logarithm of
-// |y|^2 has the derivatives 2 y.y' / |y|^2 and 2 (y'.y' + y.y'') / |y|^2 - (2 y.y' / |y|^2)^2, which lie within 2 |y'| / |y| and
-// 2 (|y'| / |y|)^2 + 2 |y''| / |y|; of log G2 by the height u of l they lie within 1 / u and 2 / u^2. So with d1 and d2 such bounds of
-// log f, |f''| <= (d1^2 + d2) f. f itself grows by no more than exp(d1 |q - c| / R) <= 1 / (1 - d1 |q - c| / R).
+// Let l be the direction to a point of the light at the distance r >= R. Let v be the view, and H = l + v. Let A be the map that divides
+// the tangential part of H by alpha. Then f = (|H| / |A H|)^4 G2 / (4 pi alpha^2 v_z). Along a line, l' <= 1 / R and l'' <= 1.155 / R^2.
+// The logarithm of |y|^2 has the derivatives 2 y.y' / |y|^2 and 2 (y'.y' + y.y'') / |y|^2 - (2 y.y' / |y|^2)^2. They lie within 2 |y'| /
+// |y| and 2 (|y'| / |y|)^2 + 2 |y''| / |y|. Those of log G2 by the height u of l lie within 1 / u and 2 / u^2. So with such bounds d1 and
+// d2 of log f, |f''| <= (d1^2 + d2) f. f itself grows by no more than exp(d1 |q - c| / R) <= 1 / (1 - d1 |q - c| / R).
 struct GgxPoints {
   PackVec3 position, normal, view;
-  PackReal inverse_alpha, alpha2, stretched_view, scale;  // |v| under the map of G2; 1 / (4 pi alpha^2)
+  PackReal inverse_alpha, alpha2, stretched_view, scale;  // stretched_view: |v| under the map of G2; scale: 1 / (4 pi alpha^2)
   Mask sees, isotropic;
 
   struct Answer {
@@ -54,7 +54,7 @@ STERADIAN_INLINE GgxPoints::Answer GgxPoints::answer(const Light& light, const P
   const PackReal reach = light.radius * sqrt(max(one - tilt * tilt, zero)) + slack;
   const Mask nothing = !(front > zero && sees) || up < -reach;
 
-  // The element.
+  // The element's light.
   const PackVec3 l = r * inverse, h = l + view;
   const PackReal h_z = dot(h, normal), h2 = max(dot(h, h), PackReal(1e-12)), l_z = max(up * inverse, PackReal(1e-6));
   const PackVec3 across = h - normal * h_z;
@@ -65,7 +65,7 @@ STERADIAN_INLINE GgxPoints::Answer GgxPoints::answer(const Light& light, const P
   const PackReal h_length = sqrt(h2), x = clamp(one - PackReal(0.5) * h_length, 0.0, 1.0);
   const PackReal sky = light.area * max(front, zero) * (inverse * inverse * inverse);
 
-  // The bound.
+  // The error bound.
   const PackReal distance = length - light.radius - slack, safe = max(distance, PackReal(1e-3) * length), nearness = one / safe;
   const PackReal turn = light.radius * nearness, low = (up - reach) / (length + light.radius);
   const PackReal m_least = sqrt(m2) - inverse_alpha * turn, h_least = h_length - turn;
@@ -73,7 +73,7 @@ STERADIAN_INLINE GgxPoints::Answer GgxPoints::answer(const Light& light, const P
   const PackReal of_m = inverse_alpha / max(m_least, PackReal(1e-3)), of_h = one / max(h_least, PackReal(1e-3)),
                  of_u = one / max(low, PackReal(1e-3));
   const PackReal d1 = PackReal(4.0) * (of_m + of_h) + of_u;
-  const auto second = [](const PackReal& y) { return PackReal(4.0) * y * y + PackReal(4.62) * y; };  // of twice log |y|^2
+  const auto second = [](const PackReal& y) { return PackReal(4.0) * y * y + PackReal(4.62) * y; };  // for twice log |y|^2
   const PackReal d2 = second(of_m) + second(of_h) + PackReal(2.0) * of_u * of_u + PackReal(1.155) * of_u;
   const PackReal left = one - d1 * turn;
   const PackReal square = d1 * d1 + d2, cosine = front * nearness;

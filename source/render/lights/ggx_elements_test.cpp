@@ -1,4 +1,4 @@
-// Elements of lights in lobes of GGX, against quadrature over the lights: within the bound that comes with them.
+// Elements of lights in GGX lobes, against quadrature over the lights: the error must be within its bound.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -32,7 +32,7 @@ Vec3d direction(Random& random) {
   return {s * std::cos(a), s * std::sin(a), z};
 }
 
-// As single precision holds it, so that quadrature sees the same point.
+// Rounds to single precision, so that quadrature sees the same point.
 Vec3d rounded(Vec3d v) { return static_cast<Vec3d>(static_cast<Vec3f>(v)); }
 
 // Points on a curved patch about the origin, seen from one place.
@@ -56,7 +56,7 @@ Block random_block(Random& random, float alpha) {
   return b;
 }
 
-// A polygon that faces the patch, a tenth to a hundredth as large as it is far.
+// A polygon that faces the patch; its size is a tenth to a hundredth of its distance.
 PolygonLight random_light(Random& random) {
   const double distance = uniform(random, 1, 8), size = distance * std::pow(10, uniform(random, -2, -1));
   Vec3d to = direction(random);
@@ -71,7 +71,7 @@ PolygonLight random_light(Random& random) {
 
 TEST(GgxElements, AreWithinTheirBoundOfQuadrature) {
   Random random(11);
-  double worst = 0;  // of error over bound
+  double worst = 0;  // ratio of error to bound
   int served = 0, bounds_that_tell = 0;
   for (int round = 0; round < 400; ++round) {
     const auto alpha = static_cast<float>(std::exp(uniform(random, std::log(0.05), 0)));
@@ -96,7 +96,7 @@ TEST(GgxElements, AreWithinTheirBoundOfQuadrature) {
         RadianceOptions options;
         options.method = Method::reference;
         const RadianceResult truth = radiance(area, block.at[i], lobe, options);
-        // Some thirty roundings of 6e-8, and those of a half vector of which the lobe divides by alpha, to the fourth power.
+        // About thirty roundings of 6e-8, and those of a half vector that the lobe divides by alpha, to the fourth power.
         const double rounding = (2e-6 + 1e-6 / static_cast<double>(alpha)) * truth.radiance.x;
         const double off = std::fabs(static_cast<double>(value) - truth.radiance.x) - truth.bound.value() - rounding;
         EXPECT_LE(off, static_cast<double>(error)) << part << " round " << round << " point " << i << " alpha " << alpha << " value "

@@ -1,4 +1,4 @@
-// Far lights in glossy lobes: elements in the place of outlines, with a bound.
+// Far lights in glossy lobes: elements replace outlines, with an error bound.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,17 @@
 
 namespace steradian::lights {
 
-// Sums over lights of their radiance times what the lobe sends of radiance 1 (as of LtcSums), and how far the sums may be off.
+// Sums over lights of their radiance times the lobe's response to radiance 1 (as for LtcSums), and bounds of the sums' errors.
 struct LobeSums {
   TileVector specular, grazing, specular_error, grazing_error;
 };
 
 struct LobeElementTable {
-  // Linearly transformed cosines. Adds flat lights, by number, at points whose count is a multiple of 16, at most that of a tile. A light
-  // of which some points of a block of 16 want the outline is left out for all of them: bit b of its `left` is that of block b.
+  // Linearly transformed cosines. Adds flat lights, by number, at points. The number of points is a multiple of 16, at most that of a
+  // tile. A light that needs its outline at some points of a block of 16 is skipped for the whole block. Then bit b of its `left` is set
+  // for block b.
   //
-  // error: allowed for each light, as a share of what a white diffuse surface before it would send.
+  // error: allowed for each light, as a fraction of the light that a white diffuse surface before it would send.
   void (*classic)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Points& points,
                   const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left);
   void (*compact)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Points& points,
@@ -28,7 +29,7 @@ struct LobeElementTable {
 };
 
 struct GgxElementTable {
-  // The same for GGX itself; anisotropic points are left to the outlines.
+  // The same for GGX itself; anisotropic points fall back to outlines.
   void (*ggx)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Points& points, float error, LobeSums& sums,
               std::uint64_t* left);
 };

@@ -1,4 +1,4 @@
-// One light at a time against sixteen points: what elements of lights in lobes share.
+// The loop over one light at a time against sixteen points, which all elements of lights in lobes share.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,7 @@ STERADIAN_INLINE void add_to(TileVector& to, std::size_t i, const PackVec3& a) {
 
 constexpr std::size_t kBlock = 16, kPacks = kBlock / kLanes;
 
-// lobe_at(i): the lobe of a pack of points, with
+// lobe_at(i): the lobe of a pack of points, with these members:
 //   sees                         a mask
 //   answer(light, allowed)       which has `serves`, a mask
 //   Sum                          of answers: add(radiance, answer), put(lobe, sums, i)

@@ -9,11 +9,11 @@ using namespace lights;
 using K = PackKernels;
 using Mask = K::mask;
 
-// A pack of points and their lobe. Under M^-1, as a map from the world, a lobe is a clamped cosine: an element of the light, brought under
-// it, sends what far_element_vector says, along z, and errs by as much as is said there.
+// A pack of points and their lobe. Under M^-1, as a map from the world, a lobe is a clamped cosine. An element of the light is transformed
+// by this map. It then sends the light given by far_element_vector, along z, and its error bound is the one given there.
 struct LobePoints {
-  PackVec3 position, normal, row_x, row_y, row_z;  // of the map
-  PackReal determinant, stretch2, area_stretch;    // squares of its largest singular value; the product of the largest two
+  PackVec3 position, normal, row_x, row_y, row_z;  // rows of the map
+  PackReal determinant, stretch2, area_stretch;    // stretch2: largest singular value squared; area_stretch: product of the two largest
   PackReal n_a, f_a;
   Mask sees;
 
@@ -55,7 +55,7 @@ STERADIAN_INLINE LobePoints lobe_points(const Points& points, const LtcPackTable
   at.row_z = frame.c0 * m.zx + frame.c2 * m.zz;
   const PackReal minor = m.xx * m.zz - m.xz * m.zx, size2 = m.xx * m.xx + m.xz * m.xz + m.zx * m.zx + m.zz * m.zz;
   at.determinant = m.yy * minor;
-  // The singular values of the 2 x 2 part, squared, and the third.
+  // Squared singular values of the 2 x 2 part, and the third one.
   const PackReal root = sqrt(max(size2 * size2 - PackReal(4.0) * minor * minor, PackReal(0.0)));
   const PackReal large2 = PackReal(0.5) * (size2 + root), small2 = PackReal(0.5) * (size2 - root), y2 = m.yy * m.yy;
   at.stretch2 = max(large2, y2);
@@ -63,7 +63,7 @@ STERADIAN_INLINE LobePoints lobe_points(const Points& points, const LtcPackTable
   return at;
 }
 
-// The clamped cosine of an element at r, over pi and for the area 1.
+// Clamped cosine of an element at r, over pi, for area 1.
 STERADIAN_INLINE PackReal element(const LobePoints& at, const Light& light, const PackVec3& r, const PackReal& side) {
   const PackVec3 y(dot(at.row_x, r), dot(at.row_y, r), dot(at.row_z, r));
   const PackReal inverse2 = PackReal(1.0) / max(dot(y, y), PackReal(1e-30));
@@ -79,7 +79,7 @@ STERADIAN_INLINE LobePoints::Answer LobePoints::answer(const Light& light, const
   const PackVec3 y(dot(at.row_x, r), dot(at.row_y, r), dot(at.row_z, r));
   const PackReal y2 = max(dot(y, y), PackReal(1e-20));
 
-  // Sides: of the light's plane, of the real horizon, and of the lobe's own under the map.
+  // Sides of the light's plane, of the real horizon, and of the lobe's own horizon under the map.
   const PackReal facing = dot(light.normal, r), side = light.two_sided ? select(facing > zero, one, PackReal(-1.0)) : PackReal(-1.0);
   const Mask lit = side * facing > zero && at.sees;
   const PackReal slack = PackReal(1e-5) * sqrt(r2), tilt = dot(light.normal, at.normal), up = dot(at.normal, r);

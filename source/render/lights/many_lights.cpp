@@ -15,14 +15,14 @@ void put(TileVector& v, std::size_t i, Vec3f a) {
   v.z[i] = a.z;
 }
 
-// What work costs, in nanoseconds of one core with AVX-512: a light's element and outline at a point, a light that a half of a cell
-// judges and takes into its polynomial, and a half itself. They decide what is quicker, and nothing else.
+// Costs in nanoseconds of one core with AVX-512: a light's element and outline at a point; a light that a half of a cell judges and takes
+// into its polynomial; a half itself. They only decide which way is faster.
 constexpr double kElement = 1, kFour = 3, kOutline = 8, kJudge = 60, kHalf = 60000;
-constexpr std::size_t kFewest = 64;  // points that are not divided further
+constexpr std::size_t kFewest = 64;  // sets with fewer points are not divided further
 
 }  // namespace
 
-// By channel.
+// Error bounds by channel.
 struct ManyLights::Bound {
   Vec3f plain{}, grazing{};
   void add(Vec3f radiance, float p, float g) {
@@ -31,7 +31,7 @@ struct ManyLights::Bound {
   }
 };
 
-// What cells around a cell already know: the polynomial of the innermost that has one, null where none has.
+// Results of the enclosing cells: the polynomial of the innermost one that has one, or null.
 struct ManyLights::Outer {
   const Cell* cell = nullptr;
   const Polynomial* polynomial = nullptr;
@@ -39,7 +39,7 @@ struct ManyLights::Outer {
 };
 
 struct ManyLights::Work {
-  // Of one depth of cells.
+  // Data of one depth of cells.
   struct Level {
     std::vector<Share> share;
     std::vector<float> plain, grazing;
@@ -50,8 +50,8 @@ struct ManyLights::Work {
   std::deque<Level> levels;
   std::vector<std::uint32_t> numbers;
   ReceiverSet of_tile;
-  const Receiver* first = nullptr;  // of the set, whose results are
-  Received* received = nullptr;     // here
+  const Receiver* first = nullptr;  // first point of the set
+  Received* received = nullptr;     // results of the set
   Receivers receivers;
   Counts counts;
 
@@ -99,7 +99,7 @@ void ManyLights::add_diffuse(ReceiverSet& set, Numbers numbers, Work& work) cons
   add_in_order(set.points, numbers, work);
 }
 
-// Points of several surfaces are told apart first.
+// Separates points of several surfaces first.
 void ManyLights::add_in_order(ReceiverSpan points, Numbers numbers, Work& work) const {
   if (points.empty()) return;
   Cell cell = cell_about(points, eye_);
@@ -115,7 +115,8 @@ void ManyLights::add_in_order(ReceiverSpan points, Numbers numbers, Work& work) 
   add_to_cell(points, cell, numbers, {}, 0, work);
 }
 
-// The harmonic mean over some of them, each by what it can send: half as near are most that count.
+// Harmonic mean over some of the lights, weighted by the most they can send. The mean is halved, since most lights that count are half as
+// far away.
 float ManyLights::distance_of_lights(const Cell& cell, Numbers numbers) const {
   constexpr std::size_t kSome = 128;
   const std::size_t step = std::max<std::size_t>(numbers.count / kSome, 1);
@@ -129,7 +130,7 @@ float ManyLights::distance_of_lights(const Cell& cell, Numbers numbers) const {
   return sum > 0 ? weights / sum / 2 : cell.radius + 1e-6f;
 }
 
-// side: -1 for the light of the other.
+// side: -1 for the light of the other side.
 void ManyLights::add_element(std::uint32_t i, bool four, float side, Elements& elements) const {
   if (four) {
     elements.fours.push_back(far_.fours[i]);
@@ -214,7 +215,7 @@ void ManyLights::add_to_points(ReceiverSpan points, const Cell& cell, Numbers nu
                 level.elements, inner, work);
 }
 
-// As many points as there is room for.
+// Adds light to at most as many points as a tile has.
 void ManyLights::add_to_some(ReceiverSpan points, const Cell& cell, Numbers exact, const Elements& elements, const Outer& outer,
                              Work& work) const {
   Receivers& receivers = work.receivers;

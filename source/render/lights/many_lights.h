@@ -1,9 +1,9 @@
-// ManyLights: the diffuse light of any number of area lights on surface points, with a bound of what it is off.
+// ManyLights: the diffuse light of any number of area lights on surface points, with an error bound.
 //
-// Receivers are gathered in cells: boxes about points of one surface. A light far from a cell is an element at the cell's nodes, and
-// one polynomial through them stands for all such lights, at every point and for every normal there. What is nearer goes to the two
-// halves of the cell; what is left at the end is an element at every point or, next to the light and across horizons, its outline.
-// See docs/manylights.md.
+// Receivers are gathered in cells: boxes about points of one surface. A light far from a cell is an element at the cell's nodes. One
+// polynomial through the nodes represents all such lights, at every point and for every normal there. Nearer lights go to the two halves
+// of the cell. The remaining lights become elements at every point or, next to the light and across horizons, outlines. See
+// docs/manylights.md.
 #pragma once
 
 #include <memory>
@@ -17,11 +17,11 @@
 
 namespace steradian::lights {
 
-// What was done, over all points.
+// Work done, over all points.
 struct Counts {
-  std::uint64_t points = 0;    // that many lights lit
-  std::uint64_t elements = 0;  // pairs of a point and a light: elements at the point
-  std::uint64_t outlines = 0;  // and outlines
+  std::uint64_t points = 0;    // points lit by many lights
+  std::uint64_t elements = 0;  // pairs of a point and a light evaluated as elements at the point
+  std::uint64_t outlines = 0;  // pairs evaluated as outlines
 
   void operator+=(const Counts& more) {
     points += more.points;
@@ -32,7 +32,7 @@ struct Counts {
 
 class ManyLights {
  public:
-  // error: as a share of what a light sends at most, per light; see RenderOptions::light_error. Keeps the reference.
+  // error: allowed per light, as a fraction of the most that it can send; see RenderOptions::light_error. The reference is stored.
   ManyLights(const std::vector<PackLight>& lights, Vec3f eye, float error);
 
   bool serves(const PackLight& light) const { return far_.number_of[light.index] >= 0; }
@@ -40,16 +40,16 @@ class ManyLights {
   const FarLights& lights() const { return far_; }
   float error() const { return error_; }
 
-  struct Work;  // a thread's memory
+  struct Work;  // memory of one thread
   struct DeleteWork {
     void operator()(Work* work) const;
   };
   using WorkPointer = std::unique_ptr<Work, DeleteWork>;
   static WorkPointer make_work();
 
-  // The radiance of the diffuse lobe under all lights that it serves, into `set`, and how far each channel may be off.
+  // Writes the radiance of the diffuse lobe under all lights that it serves to `set`, with an error bound per channel.
   void add_diffuse(ReceiverSet& set, Work& work) const { add_diffuse(set, {nullptr, far_.count}, work); }
-  // Of a tile, under some of them: to tile.radiance and to `bound`.
+  // The same for a tile and some of the lights: added to tile.radiance and to `bound`.
   void add_diffuse(SurfaceTile& tile, const std::vector<const PackLight*>& lights, TileVector& bound, Work& work) const;
 
   static const Counts& counts(const Work& work);

@@ -1,4 +1,4 @@
-// Many lights together against the same lights one by one: at every pixel within the bound that comes with the picture.
+// Many lights together against the same lights one by one: every pixel must be within the bound that comes with the picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ SurfaceMaterial diffuse() {
   return m;
 }
 
-// Below a dielectric's boundary the diffuse lobe depends on the light's direction, too.
+// Below a dielectric's boundary the diffuse lobe also depends on the light's direction.
 SurfaceMaterial painted() {
   SurfaceMaterial m = diffuse();
   m.specular = 1;
@@ -42,7 +42,7 @@ SurfaceMaterial painted() {
 
 constexpr double kX = 10, kY = 5, kZ = 15;
 
-// Floor, ceiling and three walls, a camera at the open end.
+// A floor, a ceiling and three walls, with a camera at the open end.
 Scene hall(const SurfaceMaterial& material) {
   Scene scene;
   scene.materials = {material};
@@ -60,7 +60,7 @@ Scene hall(const SurfaceMaterial& material) {
   return scene;
 }
 
-// Of 1,024 triangles.
+// A ball of 1,024 triangles.
 Mesh ball(Vec3f center, float radius) { return scene::ball_mesh(center, radius, 0, 32, 16); }
 
 AreaLight light_of(Shape shape, Vec3d radiance) {
@@ -81,7 +81,7 @@ Shape disk(Vec3d center, Vec3d normal, double a, double b) {
 }
 Shape sphere(Vec3d center, double r) { return Ellipsoid{center, {r, 0, 0}, {0, r, 0}, {0, 0, r}}; }
 
-// Most below the ceiling, some on walls, some lamps of any direction.
+// Most lights are below the ceiling, some on walls, and some are lamps of any direction.
 AreaLight mixed_light(Random& random, double size) {
   const double kind = uniform(random, 0, 1), a = size * uniform(random, 0.3, 1), b = size * uniform(random, 0.3, 1);
   const double z = uniform(random, -kZ, kZ);
@@ -113,12 +113,13 @@ RenderOptions options(LightSum lights, double error) {
 }
 
 struct Difference {
-  double worst = 0;  // of |difference| - bound, over the picture's mean
+  double worst = 0;  // largest |difference| - bound, relative to the picture's mean
   double over_bound = 0, rms = 0, mean_bound = 0;
-  double wide = 0;  // share of the channels that are not nearly black whose bound is above 5 times the error asked for of them
+  double wide = 0;  // fraction of the channels, except nearly black ones, whose bound exceeds 5 times their allowed error
 };
 
-// rounding: what single precision may add: edges seen at a hundred times their length lose 6e-8 a hundredfold each, of two pictures.
+// rounding: possible error of single precision in two pictures. Edges that appear at a hundred times their length lose 6e-8 a hundredfold
+// each.
 Difference difference(const Picture& all, const Picture& tree, double error, float rounding = 2e-5f) {
   const std::vector<Vec3f>& bounds = tree.layers.at("light_bound");
   Difference d;
@@ -221,7 +222,8 @@ std::vector<Case> cases() {
       });
       return scene;
     });
-    // Their outlines are done at every pixel, and in single precision a thin tube far off keeps three digits: in either picture others.
+    // Their outlines are evaluated at every pixel. In single precision a distant thin tube has three correct digits, which differ between
+    // the pictures.
     list.back().rounding = 1e-3f;
   }
   add("one light a thousand times", [] {
@@ -230,7 +232,7 @@ std::vector<Case> cases() {
     scene.area_lights.assign(1000, mixed_light(random, 0.2));
     return scene;
   });
-  // A thousand equal numbers, one after the other, round the same way: by up to half of 1000 times 6e-8.
+  // A thousand equal numbers in a row round the same way: by up to half of 1000 times 6e-8.
   list.back().rounding = 5e-5f;
   for (const bool loss : {false, true})
     add(loss ? "points under Fresnel" : "points", [loss] {
@@ -272,16 +274,16 @@ TEST(ManyLights, EveryPixelIsWithinItsBound) {
       std::printf("%-42s error %g: rms %.1e, largest over bound %.3f, mean bound %.1e, above 5 errors %.4f\n", c.name.c_str(), error, d.rms,
                   d.over_bound, d.mean_bound, d.wide);
       EXPECT_LE(d.worst, 0) << c.name << ", error " << error;
-      EXPECT_LT(d.rms, error / 5) << c.name;  // lights that the horizon cuts err one way
-      // A share of what the lights would send head-on; in these halls a tenth of that arrives, or more.
+      EXPECT_LT(d.rms, error / 5) << c.name;  // lights that the horizon cuts err in one direction
+      // The bound is a fraction of the light sent head-on; in these halls a tenth of that arrives, or more.
       EXPECT_LT(d.mean_bound, 10 * error) << c.name;
     }
   }
 }
 
-// Glossy lobes under flat lights: elements, too. Under the map of transformed cosines an edge is seen at a hundred times its length, more
-// often than from the surface: hence the greater rounding. The closed form is itself off by a cubature of shadowing: by up to 2.5 % of dim
-// lights (docs/ggx.md), which an element is not.
+// Glossy lobes under flat lights also use elements. Under the map of transformed cosines an edge appears at a hundred times its length
+// more often than from the surface: hence the larger rounding. The closed form itself has a cubature of shadowing: its error is up to 2.5
+// % for dim lights (docs/ggx.md). An element has no such error.
 TEST(ManyLights, LobesAreWithinTheirBound) {
   for (const char* method : {"ltc", "ltc-compact", "closed-form"})
     for (const float roughness : {0.25f, 0.5f, 0.9f}) {
@@ -344,7 +346,7 @@ TEST(ManyLights, StatsHoldTheLayersLargestAndMean) {
   EXPECT_LT(stats.light_bound_mean, largest);
 }
 
-// Behind blockers, lights that a tile sees whole are done together.
+// Behind blockers, lights that are fully visible from a tile are evaluated together.
 TEST(ManyLights, ShadowsStayWhereTheyAre) {
   Scene scene = hall(diffuse());
   add_lights(scene, 80, 10, [](Random& random) { return mixed_light(random, 0.15); });

@@ -31,9 +31,9 @@ std::pair<ReceiverSpan, ReceiverSpan> divided(ReceiverSpan points, float at, Key
   return {points.first(count), points.subspan(count)};
 }
 
-constexpr float kTurn = 0.6f;        // of a cone that is worth a cell [rad, as a chord]
-constexpr float kThick = 0.25f;      // a surface's depth over its width
-constexpr std::size_t kWorthy = 64;  // fewer points than that are not divided for order's sake
+constexpr float kTurn = 0.6f;        // largest turn of a cone that is worth a cell [rad, as a chord]
+constexpr float kThick = 0.25f;      // ratio of a surface's depth to its width
+constexpr std::size_t kWorthy = 64;  // smaller sets are not divided for the sake of order
 
 }  // namespace
 
@@ -42,7 +42,7 @@ Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye
   cell.axes = axes;
   cell.normal = mean_normal(points);
   cell.eye = eye;
-  // About the first point: products of coordinates far from the origin would lose digits.
+  // Positions are relative to the first point: products of coordinates far from the origin would lose digits.
   const Vec3f origin = points.front().position;
   std::array<Range, 3> along;
   for (const Receiver& q : points) {
@@ -65,7 +65,7 @@ Cell cell_about(ReceiverSpan points, Vec3f eye) {
   const Vec3f normal = mean_normal(points), origin = points.front().position;
   const Vec3f aside = std::abs(normal.x) < 0.7f ? Vec3f{1, 0, 0} : Vec3f{0, 1, 0};
   const Vec3f x = normalized(cross(aside, normal)), y = cross(normal, x);
-  // Covariances in the plane, and the angle of their longer axis.
+  // Covariances in the plane, and the angle of the longer axis.
   float sx = 0, sy = 0, xx = 0, xy = 0, yy = 0;
   for (const Receiver& q : points) {
     const Vec3f p = q.position - origin;

@@ -1,4 +1,4 @@
-// ReceiverSet: surface points whose diffuse light is added up together, of one tile or of many.
+// ReceiverSet: surface points whose diffuse light is summed together, of one tile or of many.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,21 @@ namespace steradian::lights {
 
 struct Receiver {
   Vec3f position, normal, albedo;
-  float loss = 0;           // Fresnel's, at the boundary above
-  std::uint32_t place = 0;  // whose point it is: a slot of a tile, a pixel of a picture
+  float loss = 0;           // Fresnel loss at the boundary above
+  std::uint32_t place = 0;  // identifies the point: a slot of a tile, or a pixel of a picture
 };
 using ReceiverSpan = std::span<Receiver>;
 
-// What a receiver gets, and by how much that may be off.
+// Light that a receiver gets, and the bound of its error.
 struct Received {
   Vec3f radiance, bound;
 };
 
 struct ReceiverSet {
-  std::vector<Receiver> points;    // in an order of their own
-  std::vector<Received> received;  // by points: the result
+  std::vector<Receiver> points;    // in arbitrary order
+  std::vector<Received> received;  // result for each point
 
-  // Those of a tile's points that reflect diffusely; place_of(slot) is their place.
+  // Adds the tile's points that reflect diffusely; place_of(slot) is their place.
   template <class PlaceOf>
   void add(const SurfaceTile& tile, PlaceOf place_of) {
     const auto get = [](const TileVector& v, std::size_t i) { return Vec3f{v.x[i], v.y[i], v.z[i]}; };

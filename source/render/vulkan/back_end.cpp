@@ -20,7 +20,7 @@ Picture render_on_device(const Scene& scene, const RenderOptions& options, Rende
   Picture picture;
   try {
     picture = Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::automatic, cache).render(stats);
-  } catch (...) {  // what is lost is not asked again
+  } catch (...) {  // a lost device is not used again
     if (cache != nullptr) cache->parts().on_device = {};
     throw;
   }

@@ -37,7 +37,7 @@ constexpr std::size_t kBuffers = 14;
 constexpr std::size_t kVector = 4 * sizeof(float);
 constexpr std::uint32_t kGroupSize = 64, kGroupsAcross = 32768;
 constexpr std::size_t kLightsOfWord = 32;
-// Of a round: a software device ends a thread's loops after 65,535 turns of all of them together, and others watch over long work.
+// Limit of a round: a software device ends a thread's loops after 65,535 turns in all, and other devices watch for long work.
 constexpr std::size_t kMostWords = 512;
 
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
@@ -49,7 +49,7 @@ ComputeProgram::Dispatch threads(std::size_t pipeline, std::size_t count, std::u
   return {pipeline, std::min(groups, kGroupsAcross), (groups + kGroupsAcross - 1) / kGroupsAcross, push};
 }
 
-// Vectors of four, one after another.
+// Writes vectors of four, one after another.
 class Writer {
  public:
   explicit Writer(float* to) : to_(to) {}
@@ -61,7 +61,7 @@ class Writer {
   float* to_;
 };
 
-// In the order of shaders/bounce_layout.glsl.
+// The order is that of shaders/bounce_layout.glsl.
 void put_diffuse(const LightSet& set, std::size_t i, Writer to) {
   const DiffuseLight& light = set.diffuse[i];
   const QuadLight& quad = set.diffuse_quads[i];
@@ -142,7 +142,7 @@ void Bounce::find_first_hits_by(std::shared_ptr<const SceneRays> rays) {
   }
 }
 
-// Throws Error where so many bytes of something are more.
+// Returns the capacity of a buffer. Throws Error if `bytes` exceeds it.
 std::size_t Bounce::most_of_buffer(std::size_t bytes, const std::string& what) const {
   const std::size_t most = device_.info().storage_buffer;
   if (bytes > most)
@@ -212,7 +212,7 @@ void Bounce::upload(const FrameSurfaces& s) {
   });
 }
 
-// Of every set the lights that `count` words stand for, from a word on; their places go into the parameters.
+// Uploads the lights of every set that `count` words from `first` on represent. Their places go into the parameters.
 void Bounce::upload_lights(const std::vector<LightSet>& sets, const indirect::BounceSettings& settings, std::size_t first,
                            std::size_t count) {
   const std::size_t begin = first * kLightsOfWord, most = count * kLightsOfWord;
@@ -241,7 +241,7 @@ std::vector<ComputeProgram::Dispatch> Bounce::light_tiles(const FrameSurfaces& s
   enum Kind : std::uint8_t { kEmpty, kDull, kShiny, kSharp };
   const auto tiles = static_cast<std::size_t>(layout.tiles());
   std::vector<std::uint8_t> kinds(static_cast<std::size_t>(layout.sets()) * tiles, kEmpty);
-  // A row of tiles of all sets is a thread's.
+  // One thread handles a row of tiles of all sets.
   const int side = layout.stride * indirect::kTile;
   tbb::parallel_for(0, layout.tiles_y, [&](int row) {
     for (int y = row * side; y < std::min((row + 1) * side, layout.height); ++y)
@@ -257,7 +257,7 @@ std::vector<ComputeProgram::Dispatch> Bounce::light_tiles(const FrameSurfaces& s
       }
   });
   values_[kTilesAt] = static_cast<std::uint32_t>(values_.size());
-  constexpr std::size_t kMostOfDispatch = 65535;  // what Vulkan promises
+  constexpr std::size_t kMostOfDispatch = 65535;  // guaranteed by Vulkan
   std::vector<ComputeProgram::Dispatch> dispatches;
   std::size_t listed = 0;
   for (const Kind kind : {kDull, kShiny, kSharp}) {
@@ -285,7 +285,7 @@ VectorArray Bounce::radiance(const FrameSurfaces& surfaces, const std::vector<Li
 
   std::size_t words = 1;
   for (const LightSet& set : sets) words = std::max({words, words_of(set.diffuse.size()), words_of(set.glossy.size())});
-  // As many as masks and lights of a round have room for.
+  // A round has as many words as the masks and lights have capacity for.
   const std::size_t room = device_.info().storage_buffer, mask_bytes = blocks * 2 * sizeof(std::uint32_t);
   const std::size_t light_bytes = sets.size() * kLightsOfWord * (kDiffuse + kGlossy) * kVector;
   const std::size_t of_round = std::max<std::size_t>(std::min({words, kMostWords, room / mask_bytes, room / light_bytes}), 1);

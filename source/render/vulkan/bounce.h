@@ -1,5 +1,5 @@
-// The bounce on a device: what the shadow map's rays meet, the lobes of virtual lights, then culling, lighting, filter and resolve
-// (shaders/bounce_*.comp). What is where the rays end, ranges and sets of virtual lights are the host's.
+// The bounce on a device: first hits of the shadow map's rays, the lobes of virtual lights, then culling, lighting, filter and resolve
+// (shaders/bounce_*.comp). The host evaluates the surfaces at the hits, and computes the ranges and sets of virtual lights.
 #pragma once
 
 #include <map>
@@ -16,10 +16,10 @@ namespace steradian::vulkan {
 
 class Bounce final : public indirect::Passes {
  public:
-  // Buffers and pipelines stay for any number of frames. The device must stay. Throws Error for what it lacks.
+  // Buffers and pipelines serve any number of frames. The device must outlive this object. Throws Error if the device lacks something.
   explicit Bounce(const Device& device);
 
-  // Null where the host's rays make the shadow map, as they do until this is called.
+  // Sets the rays that make the shadow map. Null: the host's rays, as before the first call.
   void find_first_hits_by(std::shared_ptr<const SceneRays> rays);
   FirstHits* first_hits() override { return first_hits_.get(); }
   indirect::LobeArrays lobes(const indirect::ShadowMap& map) override;
@@ -47,7 +47,7 @@ class Bounce final : public indirect::Passes {
   void upload(const indirect::FrameSurfaces& surfaces);
   void upload_lights(const std::vector<indirect::LightSet>& sets, const indirect::BounceSettings& settings, std::size_t first,
                      std::size_t count);
-  // The light pass: a pipeline for each kind of tiles.
+  // Dispatches of the light pass, with a pipeline for each kind of tiles.
   std::vector<ComputeProgram::Dispatch> light_tiles(const indirect::FrameSurfaces& surfaces, const indirect::Layout& layout,
                                                     const indirect::BounceSettings& settings);
   void run(const std::vector<ComputeProgram::Dispatch>& dispatches, const std::vector<const char*>& names);
@@ -59,7 +59,7 @@ class Bounce final : public indirect::Passes {
   KeptBuffer texels_, texel_lobes_, table_;
   std::vector<KeptBuffer> planes_;  // by Plane
   KeptBuffer lights_, masks_, boxes_, parameters_;
-  std::vector<std::uint32_t> values_;  // of the parameters
+  std::vector<std::uint32_t> values_;  // values of the parameters
   std::map<std::string, double> times_;
 };
 

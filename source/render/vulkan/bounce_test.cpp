@@ -1,4 +1,4 @@
-// The CPU judges the device: the bounce's light alone, with the same virtual lights, sets and seeds.
+// The CPU is the reference for the device: the bounce's light alone, with the same virtual lights, sets and seeds.
 #include "render/vulkan/bounce.h"
 
 #include <gtest/gtest.h>
@@ -37,8 +37,8 @@ class VulkanBounce : public ::testing::Test {
   }
 };
 
-// The bound is what the back end promises. Rounding moves halves by 1e-6 of them, and with it that share of the pairs over the threshold by
-// which chance keeps them: what one weighs is a few hundredths of a pixel's light.
+// The bound is the back end's promise. Rounding moves halves by 1e-6 of them. The same fraction of the pairs crosses the threshold by
+// which chance keeps them. One pair weighs a few hundredths of a pixel's light.
 void expect_same(const std::string& name, const Scene& scene, RenderOptions options, RaysBy rays = RaysBy::automatic) {
   options.backend = Backend::cpu;
   const std::vector<Vec3f> cpu = render(scene, options).layers.at("indirect");
@@ -73,7 +73,7 @@ TEST_F(VulkanBounce, LightsByAMapOfTheDevicesRaysAsTheCpu) {
     expect_same(std::string(name) + ", own rays", scene_of(name), small(IndirectMode::ltc, 1 << 12), RaysBy::device);
 }
 
-// Something stands before the wall in which holes could be.
+// An object stands in front of the wall that could have holes.
 TEST_F(VulkanBounce, LeavesTheMapBehindCutOutsToTheHost) {
   Scene scene = indirect::mixed_corner();
   scene.materials.push_back(indirect::plastic(0.5f, 0.5f));
@@ -83,7 +83,7 @@ TEST_F(VulkanBounce, LeavesTheMapBehindCutOutsToTheHost) {
   expect_same("behind a cut-out", scene, options, RaysBy::device);
 }
 
-// Rays that a cache keeps are those of the scene that is drawn.
+// Rays in a cache must be those of the scene that is drawn.
 TEST_F(VulkanBounce, KeepsTheRaysOfAScene) {
   RenderOptions options = small(IndirectMode::ltc, 1 << 10);
   options.backend = Backend::vulkan;
@@ -125,7 +125,7 @@ TEST_F(VulkanBounce, SheetsSendNothingThroughThemselves) {
   EXPECT_LT(indirect::largest(picture.layers.at("indirect")), 1e-3f);
 }
 
-// More lights of a set than a round has words for.
+// One set has more lights than a round has words.
 TEST_F(VulkanBounce, AddsUpManyLightsInRounds) {
   RenderOptions options = small(IndirectMode::ltc, 40000);
   options.width = 24;

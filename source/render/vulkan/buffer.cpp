@@ -17,7 +17,7 @@ std::optional<std::uint32_t> memory_type(const vk::raii::PhysicalDevice& device,
   return {};
 }
 
-// One that the host can map, of the kind that the use wants where there is one.
+// Type of memory that the host can map, of the kind that suits the use if there is one.
 std::uint32_t memory_type_for(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, BufferUse use) {
   using Flag = vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags needed = Flag::eHostVisible | Flag::eHostCoherent;

@@ -8,15 +8,15 @@
 
 namespace steradian::vulkan {
 
-// What the host mostly does with it: memory near the device is slow for the host to read.
+// Main use by the host: memory near the device is slow for the host to read.
 enum class BufferUse { host_writes, host_reads };
 
-// How shaders see it: as a storage buffer, or also as texels of four floats or four bytes (0 to 1), which devices fetch in one go.
+// Form in which shaders read it: a storage buffer, or also texels of four floats or four bytes (0 to 1), which devices fetch in one go.
 enum class BufferForm { storage, texels, colors, numbers };
 
 class Buffer {
  public:
-  // Throws Error that says how many bytes the device does not have.
+  // Throws Error with the number of bytes that the device does not have.
   Buffer(const Device& device, std::size_t bytes, BufferUse use = BufferUse::host_reads, BufferForm form = BufferForm::storage);
   Buffer(Buffer&&) noexcept;
   Buffer& operator=(Buffer&&) noexcept;

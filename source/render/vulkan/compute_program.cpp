@@ -23,7 +23,7 @@ struct ComputeProgram::Handles {
 
 namespace {
 
-// The device's, made where it has none of the kind yet. type(i): of binding i.
+// The device's pipelines for these shaders, created if it has none yet. type(i): type of binding i.
 template <class Type>
 Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::uint32_t buffers,
                         std::uint32_t texels, Type type) {
@@ -96,8 +96,8 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
       h.query_count = stamps;
     }
 
-    // What a dispatch wrote becomes visible to the next one, and to the host. llvmpipe, once it has drawn something, takes the time of a
-    // stamp when it next flushes, as a barrier makes it do: so every stamp has one behind it.
+    // Writes of a dispatch become visible to the next one, and to the host. Once llvmpipe has drawn something, it takes a timestamp only
+    // at its next flush, which a barrier causes. So a barrier follows every timestamp.
     using Stage = vk::PipelineStageFlagBits;
     using Access = vk::AccessFlagBits;
     const vk::MemoryBarrier written(Access::eShaderWrite,

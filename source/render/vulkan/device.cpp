@@ -42,7 +42,7 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
   return vk::raii::Instance(context, vk::InstanceCreateInfo({}, &application, layers, extensions));
 }
 
-// One that draws as well, where there is one.
+// A queue family that can also draw, if there is one.
 std::optional<std::uint32_t> compute_queue_family(const vk::raii::PhysicalDevice& device) {
   const auto families = device.getQueueFamilyProperties();
   const vk::QueueFlags compute = vk::QueueFlagBits::eCompute, both = compute | vk::QueueFlagBits::eGraphics;
@@ -119,7 +119,7 @@ const char* pipeline_cache_file() {
   return path != nullptr && *path != '\0' ? path : nullptr;
 }
 
-// The file's bytes where this driver wrote them for this device, else none: drivers need not survive those of others.
+// The file's bytes if this driver wrote them for this device, else none: drivers may not survive the bytes of others.
 std::vector<char> read_pipeline_cache(const vk::raii::PhysicalDevice& device) {
   if (pipeline_cache_file() == nullptr) return {};
   std::ifstream file(pipeline_cache_file(), std::ios::binary);
@@ -135,7 +135,7 @@ std::vector<char> read_pipeline_cache(const vk::raii::PhysicalDevice& device) {
   return ours ? bytes : std::vector<char>{};
 }
 
-// A cache that cannot be written costs the next run its time, and nothing else.
+// A cache that cannot be written costs time in the next run, and nothing else.
 void write_pipeline_cache(const vk::raii::PipelineCache& cache) noexcept {
   if (pipeline_cache_file() == nullptr || !*cache) return;
   try {
@@ -166,7 +166,7 @@ std::vector<DeviceInfo> list_devices() {
 Device::Device(const DeviceOptions& options) {
   try {
     handles_ = std::make_unique<Handles>();
-  } catch (const std::exception& e) {  // vulkan.hpp's own when there is no library to load
+  } catch (const std::exception& e) {  // vulkan.hpp's own exception if there is no library to load
     throw Error("Vulkan", e.what(), "install libvulkan1 and a driver, such as mesa-vulkan-drivers");
   }
   Handles& h = *handles_;

@@ -1,5 +1,4 @@
-// Vulkan devices for compute. The loader is opened at run time: a machine without it has no devices, and nothing else
-// changes.
+// Vulkan devices for compute. The loader is opened at run time: a machine without it has no devices, and nothing else changes.
 #pragma once
 
 #include <cstddef>
@@ -11,41 +10,41 @@ namespace steradian::vulkan {
 
 struct DeviceInfo {
   std::string name;                // "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string driver;              // driver and its version, or the Vulkan version where the driver does not tell
+  std::string driver;              // driver and its version, or the Vulkan version if the driver does not report it
   bool software;                   // runs on the CPU
-  std::string vulkan;              // version that it offers
-  std::size_t memory = 0;          // bytes of its largest heap of its own
-  std::size_t storage_buffer = 0;  // bytes of the largest that a shader reads
-  bool graphics = false;           // draws triangles, too
-  std::size_t picture = 0;         // pixels along the longer side of the largest that it draws
-  unsigned storage_buffers = 0;    // that a shader may have
-  std::size_t texel_buffer = 0;    // texels of the largest buffer of them
+  std::string vulkan;              // supported version
+  std::size_t memory = 0;          // bytes of its largest device-local heap
+  std::size_t storage_buffer = 0;  // bytes of the largest one that a shader reads
+  bool graphics = false;           // also draws triangles
+  std::size_t picture = 0;         // pixels along the longer side of the largest picture that it draws
+  unsigned storage_buffers = 0;    // most that a shader may have
+  std::size_t texel_buffer = 0;    // texels of the largest texel buffer
   unsigned subgroup = 0;           // threads that run in step
-  bool timestamps = false;         // of compute work
-  bool broadcasts = false;         // threads that run in step tell each other a value ...
-  bool adds = false;               // ... and add theirs up
+  bool timestamps = false;         // for compute work
+  bool broadcasts = false;         // threads that run in step can exchange a value ...
+  bool adds = false;               // ... and sum their values
   std::size_t shared_memory = 0;   // bytes of a work group
 };
 
-// Every device of Vulkan 1.2 or later with a compute queue, real ones before software. Empty where there is no loader.
+// All devices of Vulkan 1.2 or later with a compute queue, hardware before software. Empty if there is no loader.
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
   std::string name;         // part of the device's name, or its place in list_devices(), from 0; empty: the first
-  bool validation = false;  // demand the validation layer, and keep what it says
+  bool validation = false;  // require the validation layer, and record its messages
 };
 
-// Where the environment names a file by STERADIAN_PIPELINE_CACHE, compiled pipelines are read from it and written to it.
+// A Vulkan device. If the environment variable STERADIAN_PIPELINE_CACHE names a file, compiled pipelines are read from and written to it.
 class Device {
  public:
-  // Throws Error where there is no such device.
+  // Throws Error if there is no such device.
   explicit Device(const DeviceOptions& options = {});
   ~Device();
 
   const DeviceInfo& info() const { return info_; }
   // Warnings and errors of the validation layer so far.
   const std::vector<std::string>& validation_messages() const;
-  // Pieces of memory that were asked of it so far.
+  // Number of memory allocations so far.
   std::size_t allocations() const;
 
   struct Handles;  // handles.h, for this folder only
@@ -56,11 +55,11 @@ class Device {
   DeviceInfo info_;
 };
 
-// Opens a device, or answers with the one that a living SharedDevices has opened before under the same options.
+// Opens a device, or returns the one that a living SharedDevices has already opened with the same options.
 std::shared_ptr<const Device> open_device(const DeviceOptions& options);
 
-// While one lives, open_device() keeps what it opens, with the pipelines made so far. For programs that use devices from one thread at a
-// time, as tests do.
+// While one lives, open_device() caches the devices that it opens, with the pipelines created so far. For programs that use devices from
+// one thread at a time, such as tests.
 class SharedDevices {
  public:
   SharedDevices();

@@ -26,7 +26,7 @@ TEST(VulkanDevice, UnknownNameIsRefusedWithTheNamesThereAre) {
   }
 }
 
-// Real devices come before software ones, so that the first is the one to use.
+// Hardware devices come before software ones, so that the first one is the one to use.
 TEST(VulkanDevice, SoftwareDevicesComeLast) {
   bool software = false;
   for (const DeviceInfo& d : list_devices()) {
@@ -74,7 +74,7 @@ TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
   EXPECT_NO_THROW(check_device(info));
 }
 
-// Programs are kept: another one may come to stand where the words of an earlier one stood.
+// Programs are cached: a later one may occupy the memory of an earlier one's words.
 TEST(VulkanDevice, TellsProgramsApartByTheirWords) {
   if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
   const Device device;

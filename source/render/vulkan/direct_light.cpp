@@ -16,13 +16,13 @@ namespace {
 #include "shaders/layout.glsl"
 
 constexpr std::size_t kTexels = 6, kBuffers = 5;                // as bound in run
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr std::size_t kSlotsOfSquare = static_cast<std::size_t>(kGroupsOfSquare * kGroup);
 constexpr int kCornersNearRim = 32;
-constexpr int kMostEdges = 48;  // kept by a thread; longer outlines are walked in pieces
+constexpr int kMostEdges = 48;  // that a thread stores; longer outlines are walked in pieces
 constexpr float kPushed =
-    3.25f;  // how much farther from its centre than itself a round light's corners may be (ellipse_pushed_corner: 2.25)
+    3.25f;  // a round light's corners may be this much farther from its centre than itself (ellipse_pushed_corner: 2.25)
 
 constexpr auto bytes_of_planes(int planes) {
   return static_cast<std::size_t>(planes) * static_cast<std::size_t>(kSlots) * sizeof(Vec4Floats);
@@ -31,7 +31,7 @@ constexpr auto bytes_of_planes(int planes) {
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
-// In the order in which they run: lobes ask what uneven lights' means are, shares are of what all lobes have left.
+// In the order in which they run: lobes need the means of textured and profiled lights; kShares uses the results of all lobes.
 enum Shader : std::size_t {
   kTextureMeans,
   kProfileMeans,
@@ -47,7 +47,7 @@ enum Shader : std::size_t {
   kShares
 };
 
-// The specular lobe's; kDiffuse: none.
+// Shader of the specular lobe; kDiffuse: none.
 Shader shader_of(const DirectMethod& method) {
   switch (method.ggx) {
     case Method::closed_form: return kClosedForm;
@@ -60,7 +60,7 @@ Shader shader_of(const DirectMethod& method) {
   }
 }
 
-// Of a lobe of extras.steradian.
+// Shader of a lobe of extras.steradian.
 Shader shader_of(const OwnLobes::Lobe& lobe) {
   switch (lobe.material.brdf) {
     case Brdf::phong:
@@ -87,7 +87,7 @@ void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TileP
   for (std::size_t i = 0; i < kTilePixels; ++i) to[i] = {v.x[i], v.y[i], v.z[i], beside[i]};
 }
 
-// In bytes; texels count, too.
+// Capacity in bytes; the limit of texels counts, too.
 std::size_t most_of_buffer(const DeviceInfo& device, BufferForm form = BufferForm::texels) {
   const std::size_t texel = form == BufferForm::numbers ? sizeof(std::uint32_t) : sizeof(Vec4Floats);
   return std::min({kLargestBuffer, device.storage_buffer, device.texel_buffer * texel});
@@ -123,9 +123,9 @@ struct DirectLight::Pass {
   std::size_t shader = kDiffuse;
   bool coat = false;
   const OwnLobes::Lobe* own = nullptr;
-  bool with_diffuse = false;  // one walk for both
+  bool with_diffuse = false;  // true: one walk serves both
   bool over_lobe() const { return shader != kDiffuse; }
-  // Other lobes take textured lights' mean radiance.
+  // The other lobes use the mean radiance of textured lights.
   bool asks_for_mean(const LightRecord& light) const {
     return light.mean == kProfileMean || (light.mean == kTextureMean && shader != kCharlie && shader != kPhong && shader != kArcs);
   }
@@ -139,11 +139,11 @@ struct DirectLight::Pass {
   }
 };
 
-// The lists of a batch: for each pipeline, tiles with their lights.
+// Lists of a batch: for each pipeline, tiles with their lights.
 struct DirectLight::Work {
   struct Entry {
     std::uint32_t square, count, own;
-    std::vector<std::uint32_t> lights;  // numbers; of shadowed ones each with its states, of uneven ones with its means
+    std::vector<std::uint32_t> lights;  // numbers; of shadowed lights each with its states, of textured or profiled ones with its means
   };
   struct Key {
     std::size_t shader;
@@ -155,14 +155,14 @@ struct DirectLight::Work {
     std::vector<Entry> entries;
   };
   std::map<Key, Group> groups;
-  std::uint32_t means = 0;  // vectors that they take
+  std::uint32_t means = 0;  // vectors that the means take
 
-  // A light of a square: its numbers in the list.
+  // Adds a light of a square: its numbers in the list.
   void add(const Key& key, const Pass& pass, std::uint32_t square, const std::vector<std::uint32_t>& light) {
     Group& group = groups[key];
     group.name = pass.name();
     const std::uint32_t own = pass.own != nullptr ? pass.own->first : 0;
-    const bool long_loops = pass.own != nullptr && pass.own->method == Method::arvo;  // software devices bound their turns
+    const bool long_loops = pass.own != nullptr && pass.own->method == Method::arvo;  // software devices limit loop turns
     if (group.entries.empty() || group.entries.back().square != square || group.entries.back().own != own || long_loops)
       group.entries.push_back({square, 0, own, {}});
     ++group.entries.back().count;
@@ -279,12 +279,12 @@ void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
   }
 }
 
-// As SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
+// Like SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
 bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) const {
   return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon() && light.is_even();
 }
 
-// Of a lobe's integral, in the light's mean square deviations.
+// Least squared distance for a lobe's integral, in the light's mean square deviations.
 double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
   if (pass.own != nullptr) return pass.own->least_distance2;
   switch (pass.shader) {
@@ -295,19 +295,19 @@ double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) 
   }
 }
 
-// Whether some point of a box may see the light as small, or be near its rim; others spare the shaders both.
+// Returns true if some point of a box may see the light as small, or may be near its rim. Otherwise the shaders skip both tests.
 bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
   const double least = least_distance2(light, pass);
   const Distances d = distances(light.middle, where.low, where.high);
-  // Parts may be small from where all of the light is not: kNeverSmall.
+  // Parts may be small at points where the whole light is not: kNeverSmall.
   const auto small = static_cast<float>(shadowed ? std::min(least, 100.0) : least);
   return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
 std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                                const Tile::Shadowed* shadowed) const {
-  // Of a polygon that nothing cuts the edges are its own, half of those and none of the arcs (light_records.cpp).
+  // An uncut polygon has only its own edges, half of `edges`, and no arcs (light_records.cpp).
   const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
   const int most = std::max(own(most_edges_), 1);
   const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
@@ -345,7 +345,8 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           pass.own != nullptr ? pass.own->low : 0};
 }
 
-// What a lobe sees of an uneven light: an entry of its own, since software devices bound the turns of a thread's loops.
+// Lists the mean of a textured or profiled light for a lobe. It is an entry of its own, since software devices limit a thread's loop
+// turns.
 void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
   std::vector<std::int32_t> constants = choices({}, {}, false, false, nullptr);
   constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
@@ -388,7 +389,7 @@ bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
 }
 
 void DirectLight::list_lights(Tile& tile) const {
-  const bool leaks = method_.ggx == Method::ltc_clipless;  // what reaches the tile, from below the horizon, too
+  const bool leaks = method_.ggx == Method::ltc_clipless;  // lights that reach the tile, also from below the horizon
   for (Square& square : tile.squares) {
     if (!any_surface(square.bounds)) continue;
     for (const PackLight* light : tile.lights.lights) {
@@ -422,7 +423,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   own.with_diffuse = together && pass.shader == kLtc && !pass.coat && pass.own == nullptr;
   const std::uint32_t number = number_of(*listed.light, listed.cut_for_tile);
   const LightRecord& record = records_.lights[number];
-  // Tubes' and balls' irradiance is the same formula either way.
+  // The irradiance of tubes and balls has the same formula in both cases.
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
   const Work::Key key = {own.shader, choices(record, own, careful, whole, shadowed)};
@@ -453,7 +454,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
     }
   }
   if (work.groups.empty()) return;
-  if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than there is room for
+  if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
     const std::size_t middle = (first_tile + end) / 2;
     run(tiles, first_tile, middle, states, parts);
     run(tiles, middle, end, states, parts);

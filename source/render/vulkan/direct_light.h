@@ -1,4 +1,4 @@
-// Direct light on a device: batches of tiles, whose surfaces the host writes, lit by compute shaders (shaders/direct.glsl).
+// Direct light on a device: the host writes the surfaces of batches of tiles, and compute shaders light them (shaders/direct.glsl).
 #pragma once
 
 #include <array>
@@ -17,79 +17,78 @@
 
 namespace steradian::vulkan {
 
-// Throws Error, with the device's name, for what it lacks.
+// Throws Error, with the device's name, if the device lacks something.
 void check_device(const DeviceInfo& device);
 
 class DirectLight {
  public:
-  // Whether the shaders have the lobes of metallic-roughness surfaces by this method; else only diffuse light and sheen.
+  // Returns true if the shaders have the lobes of metallic-roughness surfaces by this method; else only diffuse light and sheen.
   static bool has(const DirectMethod& method);
 
-  // What is on the device, for any number of pictures, one after another. The device must stay. Throws Error for one that lacks something.
+  // Objects on the device, for any number of pictures in turn. The device must outlive them. Throws Error if the device lacks something.
   struct Kept {
     explicit Kept(const Device& device);
     const Device& device;
-    const std::size_t tiles;  // of a batch
+    const std::size_t tiles;  // per batch
     ComputeProgram program;
     KeptBuffer surfaces, radiance, tables, details, lights, vertices, lists, means;
   };
 
-  // table: as RenderOptions::table. What is kept, the scene and the lights must stay.
+  // table: as RenderOptions::table. `kept`, the scene and the lights must outlive this object.
   DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights);
 
-  // Whether the shaders have this light; without shadows.
+  // Returns true if the shaders have this light, without shadows.
   bool has(const PackLight& light) const;
   // The lobes of extras.steradian.
   const OwnLobes& own_lobes() const { return own_lobes_; }
 
   std::size_t tiles_of_batch() const { return kept_.tiles; }
 
-  // What the device needs of a tile, which is number `place` of the batch. Threads may put different places at the same time.
+  // Writes the data of a tile, which is number `place` of the batch. Threads may write different places at the same time.
   void put(std::size_t place, const SurfaceTile& tile);
-  // ... where the device has its surfaces already: their radiance, and which coats the host has not lit (TileLighting::add_hidden).
+  // The same if the device already has the surfaces: their radiance, and the coats that the host has not lit (TileLighting::add_hidden).
   void put_what_is_left(std::size_t place, const SurfaceTile& tile);
 
-  // Where others than put may write: planes of shaders/layout.glsl.
+  // Buffers that others than put may write: planes of shaders/layout.glsl.
   Buffer& surfaces() { return kept_.surfaces.get(); }
   Buffer& radiance() { return kept_.radiance.get(); }
 
-  // What the passes go by: of each of a tile's squares of 16 x 16 pixels its surfaces and the lights that reach them.
+  // Input of the passes: for each of a tile's squares of 16 x 16 pixels, its surfaces and the lights that reach them.
   struct Square {
     SurfaceBounds bounds;
     bool any_diffuse = false, any_specular = false, any_sheen = false, any_coat = false;
     struct Listed {
       const PackLight* light;
       bool cut_for_tile;        // see ReachingLights::cut
-      bool whole, whole_about;  // seen whole; and so are the corners that stand for a round light about a lobe
+      bool whole, whole_about;  // fully visible; also the corners that represent a round light about a lobe
     };
     std::vector<Listed> lights;
-    std::vector<std::size_t> own;  // materials that have lobes of extras.steradian: OwnLobes::number_of
+    std::vector<std::size_t> own;  // materials with lobes of extras.steradian: OwnLobes::number_of
   };
   struct Tile {
     ReachingLights lights;
     std::array<Square, 4> squares;
-    // Beside those of the squares: lights that something hides from some points, or a part of them.
+    // Lights in addition to those of the squares: occluded from some points, or in part.
     struct Shadowed {
       const PackLight* light;
-      std::uint32_t states;  // where those of the tile begin
-      int edges;             // most of a part
-      bool shares;           // some part counts as a share of a polygon's: shaders/shadow_layout.glsl
+      std::uint32_t states;  // first state of the tile
+      int edges;             // most edges of a part
+      bool shares;           // some part counts as a fraction of a polygon's light: shaders/shadow_layout.glsl
     };
     std::vector<Shadowed> shadowed;
   };
-  // The squares' surfaces, from the tile's.
+  // Finds the squares' surfaces in the tile's.
   void find_squares(const SurfaceTile& surfaces, Tile& tile) const;
   static std::size_t square_of_group(std::size_t group) { return group / 8 * 2 + group % 2; }
-  // The squares' lights, from the tile's.
+  // Lists the squares' lights from the tile's.
   void list_lights(Tile& tile) const;
-  // Adds the light of the lists to what some of the tiles had as radiance. states, parts: of the shadowed lights (Shadows), where there
-  // are any.
+  // Adds the light of the lists to the radiance of some tiles. states, parts: of the shadowed lights (Shadows), if there are any.
   void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Buffer* states = nullptr,
            const Buffer* parts = nullptr);
   void run(const std::vector<Tile>& tiles) { run(tiles, 0, tiles.size()); }
   void take_radiance(std::size_t place, TileVector& radiance) const;
 
-  // Milliseconds on the device so far, by pass; empty where it does not tell.
+  // Milliseconds on the device so far, by pass; empty if it does not report them.
   const std::map<std::string, double>& times() const { return times_; }
 
  private:
@@ -119,8 +118,8 @@ class DirectLight {
   const OwnLobes own_lobes_;
   LightRecords records_;
   std::size_t scene_lights_ = 0, scene_vertices_ = 0;
-  int most_edges_ = 0;  // of the scene's polygons, as far as there is space for them
-  int matrix_size_ = 2, magnitude_size_ = 2, compact_first_ = 0, compact_size_ = 2;  // compact: of textured lights' means
+  int most_edges_ = 0;  // most edges of the scene's polygons, as far as there is space for them
+  int matrix_size_ = 2, magnitude_size_ = 2, compact_first_ = 0, compact_size_ = 2;  // compact: for means of textured lights
   bool fresnel_table_ = false;
   std::map<std::string, double> times_;
 };

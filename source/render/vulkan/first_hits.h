@@ -1,4 +1,4 @@
-// What the rays of a shadow map meet first, found by a device (shaders/bounce_rays.comp).
+// First hits of a shadow map's rays, found by a device (shaders/bounce_rays.comp).
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace steradian::vulkan {
 
 class FirstHits final : public indirect::FirstHits {
  public:
-  // Of a scene in which all cast exactly.
+  // Takes a scene in which all shadow casters cast exactly.
   explicit FirstHits(std::shared_ptr<const SceneRays> scene);
 
   std::size_t most() const override;
@@ -21,7 +21,7 @@ class FirstHits final : public indirect::FirstHits {
   indirect::FirstHit hit(std::size_t ray) const override;
 
   const SceneRays* scene() const { return scene_.get(); }
-  // Milliseconds on the device since the last call; 0 where it does not tell.
+  // Milliseconds on the device since the last call; 0 if it does not report them.
   double take_time() { return std::exchange(time_, 0); }
 
  private:

@@ -1,4 +1,4 @@
-// Embree and rays in double judge what a device finds that the rays of a shadow map meet; the host's map judges the map.
+// Embree and rays in double are the reference for a device's first hits of shadow-map rays; the host's map is the reference for the map.
 #include "render/vulkan/first_hits.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using indirect::MapRay;
 using indirect::ShadowMap;
 using reference::Random;
 
-// Keeps what a device was asked, and its answers.
+// Records a device's rays and its answers.
 class Recorded final : public indirect::FirstHits {
  public:
   explicit Recorded(indirect::FirstHits& of) : of_(of) {}
@@ -53,7 +53,7 @@ FirstHit by_embree(const RayScene& rays, const MapRay& ray) {
   packet.ray.dir_x[0] = ray.direction.x, packet.ray.dir_y[0] = ray.direction.y, packet.ray.dir_z[0] = ray.direction.z;
   packet.ray.tnear[0] = ray.begin;
   packet.ray.tfar[0] = std::numeric_limits<float>::infinity();
-  packet.ray.mask[0] = 2;  // what casts shadows
+  packet.ray.mask[0] = 2;  // shadow casters
   packet.hit.geomID[0] = packet.hit.instID[0][0] = RTC_INVALID_GEOMETRY_ID;
   rays.intersect(valid, packet);
   return packet.hit.geomID[0] == RTC_INVALID_GEOMETRY_ID ? FirstHit{} : FirstHit{packet.hit.geomID[0], packet.hit.primID[0]};
@@ -65,7 +65,7 @@ std::array<Vec3d, 3> corners_of(const Scene& scene, std::size_t mesh, std::size_
   return {corner(0), corner(1), corner(2)};
 }
 
-// Every triangle that casts, in double.
+// First hit among all triangles that cast, in double.
 FirstHit by_all(const Scene& scene, Vec3d origin, Vec3d direction, double begin) {
   FirstHit first;
   double least = std::numeric_limits<double>::infinity();
@@ -85,7 +85,7 @@ FirstHit by_all(const Scene& scene, Vec3d origin, Vec3d direction, double begin)
   return first;
 }
 
-// The largest coordinate of a scene's vertices and of where rays begin, which may be far away.
+// Largest coordinate of a scene's vertices and of the rays' origins, which may be far away.
 double size_of(const Scene& scene, const std::vector<MapRay>& rays) {
   double size = 0;
   const auto add = [&](Vec3f p) {
@@ -99,8 +99,8 @@ double size_of(const Scene& scene, const std::vector<MapRay>& rays) {
 
 Vec3d in_box(Random& random) { return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; }
 
-// A ray that is off by a millionth of the scene at its beginning and where it ends meets what the device says: corners relative to where a
-// ray begins round by 6e-8 of their distance, and again where its slant moves them.
+// Returns true if a ray meets the device's hit when it is moved by a millionth of the scene at its beginning and end. Corners relative to
+// a ray's beginning round by 6e-8 of their distance, and again when its slant moves them.
 bool is_near_a_tie(const Scene& scene, const MapRay& ray, FirstHit by_device, double size) {
   Random random(13);
   const Vec3d origin = static_cast<Vec3d>(ray.origin), direction = static_cast<Vec3d>(ray.direction);
@@ -120,13 +120,13 @@ class VulkanMap : public testing::Test {
   }
 };
 
-// How far a place is from its ray.
+// Distance of a position from its ray.
 double off_ray(const MapRay& ray, Vec3f place) {
   return length(cross(static_cast<Vec3d>(place) - static_cast<Vec3d>(ray.origin), static_cast<Vec3d>(ray.direction)));
 }
 
-// Texels that see the same triangle have the same fields. Their places are on that triangle; here they are next to the ray, too, by
-// roundings of the scene's size, also where Embree's weights leave more.
+// Texels that see the same triangle have the same fields. Their positions are on that triangle. Here they are also next to the ray, up to
+// roundings of the scene's size, even where Embree's weights leave more.
 void expect_same(const std::string& name, const Scene& scene, int count) {
   const RayScene rays(scene);
   FirstHits device(SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene));
@@ -182,7 +182,7 @@ void expect_same(const std::string& name, const Scene& scene, int count) {
   for (const double field : {normal, surface, area}) EXPECT_LE(field, 1e-3) << name;
 }
 
-// Of a sun, a point, a spot as wide as one and a light with an area.
+// A scene under a sun, a point, a spot as wide as one, and a light with an area.
 Scene under_every_kind() {
   Scene scene = indirect::mixed_corner();
   PunctualLight light = scene.punctual_lights.front();
@@ -215,7 +215,7 @@ TEST_F(VulkanMap, MeetsWhatTheHostsRaysMeet) {
   expect_same("every kind", under_every_kind(), 1 << 12);
 }
 
-// Directions stay unit vectors where the scene is another size: VulkanRays.FindTheSameInEveryUnit has ways that grow with it.
+// Directions remain unit vectors in a scene of another size. VulkanRays.FindTheSameInEveryUnit has ways that grow with the scene.
 TEST_F(VulkanMap, MeetsTheSameInEveryUnit) {
   const auto device = std::make_shared<const Device>(DeviceOptions{});
   Scene scene = load_scene(test::kSourceDir + "/scenes/gallery.glb").scene;
@@ -250,7 +250,7 @@ TEST_F(VulkanMap, MeetsTheSameInEveryUnit) {
   EXPECT_GT(met_any, kRays / 4);
 }
 
-// The host finds what a walk does not end at: triangles stacked so that all boxes are met, and none of them.
+// The host finds hits for traversals that do not end: triangles are stacked so that all boxes are met, but no triangle.
 TEST_F(VulkanMap, AsksTheHostWhereAWalkDoesNotEnd) {
   Scene scene = indirect::mixed_corner();
   Mesh stack = scene.meshes.front();

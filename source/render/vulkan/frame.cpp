@@ -22,7 +22,7 @@
 namespace steradian::vulkan {
 namespace {
 
-// What of the bounce the shaders do not have.
+// Returns true for bounce features that only the CPU supports.
 bool bounce_on_host(const IndirectOptions& options) { return options.mode == IndirectMode::path || options.shadow_rays > 0; }
 
 bool has_own_lobes(const Scene& scene) {
@@ -30,7 +30,7 @@ bool has_own_lobes(const Scene& scene) {
                      [&](const Mesh& mesh) { return !scene.materials[static_cast<std::size_t>(mesh.material)].specular_override.empty(); });
 }
 
-// What the shaders do not have, and the host lights: a sentence each.
+// Features that the shaders do not have, so that the host lights them: one sentence each.
 std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
                                      const std::vector<PackLight>& lights, const DirectLight& direct) {
   std::vector<std::string> sentences;
@@ -67,7 +67,7 @@ DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
   return choose_method(scene, options);
 }
 
-// The cache's, made anew where that is of another device.
+// The cache's objects, created anew if the cached ones are on another device.
 std::shared_ptr<KeptOnDevice> kept_of(std::shared_ptr<const Device> device, const std::string& name, RenderCache* cache) {
   const auto make = [&] { return std::make_shared<KeptOnDevice>(device != nullptr ? std::move(device) : open_device({name, false})); };
   if (cache == nullptr) return make();
@@ -85,7 +85,7 @@ SceneParts parts_of(const Scene& scene, const RenderOptions& options, RenderCach
   return cache != nullptr ? cache->parts().follow(scene, sorted) : SceneParts::of(scene, sorted);
 }
 
-// Null where they take more than a buffer.
+// Returns null if they exceed a buffer.
 std::shared_ptr<const SceneRays> rays_of(const Scene& scene, const std::shared_ptr<const Device>& device, RenderCache* cache) {
   if (cache == nullptr) return SceneRays::of(device, scene);
   auto& kept = cache->parts().device_rays;
@@ -93,12 +93,12 @@ std::shared_ptr<const SceneRays> rays_of(const Scene& scene, const std::shared_p
   return kept;
 }
 
-// What is seen through one primary sample of a tile, past as many surfaces as `layer` says.
+// The view through one primary sample of a tile, past as many surfaces as `layer` says.
 struct Job {
   int tile;
-  std::unique_ptr<TileVector> shares;  // of the light from there; null before the first surface that light passes
-  TilePlane behind;                    // where those surfaces lie
-  bool passing = false;                // light passes what it has found, too
+  std::unique_ptr<TileVector> shares;  // fraction of the light from there; null in front of the first surface that light passes
+  TilePlane behind;                    // position of those surfaces
+  bool passing = false;                // light also passes the surfaces found
 };
 
 }  // namespace
@@ -153,14 +153,14 @@ struct Frame::Parts {
     });
   }
 
-  // Adds what the shaders do not have: the light of those that they do not know, and of those before which something stands, but what is
-  // left to the device, which leave the list; and of the others that of some lobes, which leave the tile.
+  // Lights on the host: (1) lights that the device cannot evaluate, and (2) occluded lights, except for those left to the device. Both
+  // leave the list. (3) Some lobes under the other lights; these lobes leave the tile.
   void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching, TileShadows& left) {
     left.clear();
     const bool own = tile.any_override && direct.own_lobes().has_all(tile);
     const bool all_lobes = DirectLight::has(method) && (own || !tile.any_override);
     const auto unknown = std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) {
-      return direct.has(*light) && !(own && light->profiled != nullptr);  // no shader finds what those lobes see of a profile
+      return direct.has(*light) && !(own && light->profiled != nullptr);  // no shader evaluates a profile for those lobes
     });
     if (unknown != reaching.end())
       host.has_shadows() ? host.add_shadowed(tile, {unknown, reaching.end()}) : host.add(tile, {unknown, reaching.end()});
@@ -180,13 +180,13 @@ struct Frame::Parts {
     tile.any_override = own;
   }
 
-  // Whether the host has a part in the light of surfaces that the device finds, and so wants them.
+  // Returns true if the host adds light to surfaces that the device finds, and so needs them.
   bool host_adds() const {
     return host.has_shadows() || has_bounce() || surfaces.environment() != nullptr || !DirectLight::has(method) ||
            !std::all_of(lights.begin(), lights.end(), [&](const PackLight& light) { return direct.has(light); });
   }
 
-  // The lights that may reach a tile of surfaces that the device has found, and that the host does not want.
+  // Lists the lights that may reach a tile whose surfaces the device has found and the host does not need.
   void list_found(std::size_t place, DirectLight::Tile& tile) {
     RasterSurfaces::find_squares(direct.radiance(), place, tile);
     SurfaceBounds all;
@@ -195,7 +195,7 @@ struct Frame::Parts {
     direct.list_lights(tile);
   }
 
-  // The surfaces of the jobs, put on the device, and the lights that may reach them.
+  // Finds the surfaces of the jobs, puts them on the device, and lists the lights that may reach them.
   std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
     std::vector<DirectLight::Tile> tiles(jobs.size());
     if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size(), TileShadows(many_edges));
@@ -230,7 +230,7 @@ struct Frame::Parts {
       upload_clock.run([&] { found ? direct.put_what_is_left(i, tile) : direct.put(i, tile); });
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
-      // The shares of what this layer sends are still wanted: those of the next one are kept beside them.
+      // The fractions of this layer are still needed; those of the next one are stored beside them.
       job.behind = distances;
       next_shares[i] = job.shares ? std::make_unique<TileVector>(*job.shares) : std::make_unique<TileVector>();
       if (!job.shares)
@@ -240,7 +240,7 @@ struct Frame::Parts {
     return tiles;
   }
 
-  // As many tiles at once as there is room for what their shadows need.
+  // Lights as many tiles at once as there is capacity for their shadows' data.
   void light_tiles(std::vector<DirectLight::Tile>& tiles) {
     const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
     if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
@@ -260,7 +260,7 @@ struct Frame::Parts {
     }
   }
 
-  // Lights the jobs and adds them to the picture; returns those behind which there may be more.
+  // Lights the jobs and adds them to the picture; returns those that may have more surfaces behind.
   std::vector<Job> light(std::vector<Job> jobs, int sample, int layer, Picture& picture) {
     next_shares.clear();
     next_shares.resize(jobs.size());
@@ -283,7 +283,7 @@ struct Frame::Parts {
     return next;
   }
 
-  // Why the device does not find the surfaces; empty: it does.
+  // Reason why the device does not find the surfaces; empty: it does.
   std::string keeps_surfaces_on_host() const {
     if (host.has_shadows() && options.terminator == Terminator::smooth) return "shadows on smooth surfaces";
     if (static_cast<std::size_t>(std::max(options.width, options.height)) > device->info().picture)
@@ -296,7 +296,7 @@ struct Frame::Parts {
     if (has_bounce()) bounced.emplace(scene, surfaces.rays(), options, threads, bounce);
     const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch()), batches = (count + batch - 1) / batch;
     std::uint64_t done = 0;
-    // A device that finds the surfaces draws all of the picture for each sample; rays begin where they are asked to.
+    // A device that finds the surfaces draws the whole picture for each sample. The host's rays can start at any tile.
     for (int step = 0; step < batches * options.aa && !stopped(); ++step) {
       const int sample = raster ? step / batches : step % options.aa, first = (raster ? step % batches : step / options.aa) * batch;
       if (raster && first == 0) device_clock.run([&] { raster->look(sample); });
@@ -339,7 +339,7 @@ struct Frame::Parts {
     }
     if (bounced) stats.passes.push_back(capture_clock.time(threads));
     for (PassTime& pass : stats.passes) pass.ms -= std::exchange(reported[pass.name], pass.ms);
-    if (bounced)  // of this frame alone
+    if (bounced)  // passes of this frame alone
       for (const PassTime& pass : bounced->passes()) stats.passes.push_back({"indirect: " + pass.name, pass.ms});
     stats.threads = threads;
     stats.lights = lights.size();
@@ -367,15 +367,15 @@ struct Frame::Parts {
   std::vector<const PackLight*> light_pointers;
   TileLighting host;
   DirectLight direct;
-  std::shared_ptr<const SceneRays> device_rays;  // null: the host's
+  std::shared_ptr<const SceneRays> device_rays;  // null: the host's rays
   std::string kept_on_host;
-  std::optional<Shadows> shadows;             // made when something needs it
+  std::optional<Shadows> shadows;             // created on first use
   std::vector<TileShadows> shadowed;          // by job
-  std::optional<RasterSurfaces> raster;       // none where the host finds the surfaces
-  Bounce* bounce = nullptr;                   // null without one, and where the host has it
-  std::optional<indirect::Pipeline> bounced;  // of one frame
+  std::optional<RasterSurfaces> raster;       // none if the host finds the surfaces
+  Bounce* bounce = nullptr;                   // null without a bounce, or if the host computes it
+  std::optional<indirect::Pipeline> bounced;  // bounce of one frame
   tbb::task_arena arena;
-  const bool many_edges;  // the device finds what is seen behind them
+  const bool many_edges;  // the device finds the visible parts behind many edges
   double build_ms = 0;
   PassClock lists_clock{"lists"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
       capture_clock{"indirect: surfaces"};

@@ -1,4 +1,4 @@
-// The CPU judges the device: lobes of extras.steradian, by every method that serves them.
+// The CPU is the reference for the device: lobes of extras.steradian, by every method that serves them.
 #include "render/vulkan/test_frames.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Material ggx(double alpha_x, double alpha_y, bool shadowing, Vec3d f0, Vec3d f90
   return m;
 }
 
-// A floor of strips, a lobe each, beside one of metal.
+// A floor of strips with one lobe each, beside one of metal.
 Scene strips(const std::vector<Material>& lobes) {
   Scene scene;
   for (std::size_t i = 0; i <= lobes.size(); ++i) {
@@ -67,7 +67,7 @@ RenderOptions tiny(const std::string& method, Quality quality = Quality::normal)
 
 }  // namespace
 
-// Exponents of the recurrence's two parities.
+// The exponents have both parities of the recurrence.
 TEST_F(VulkanFrame, HasPhongLobesByEveryMethod) {
   Scene scene = strips({phong(1), phong(6), phong(51), phong(200)});
   scene.meshes.pop_back();  // the metal, which these methods do not serve
@@ -98,7 +98,7 @@ TEST_F(VulkanFrame, HasLobesOfHalfVectors) {
   expect_same("half vectors", scene, tiny("half-vector"));
 }
 
-// GGX with and without what its methods ask for, sheen, products: under lights of every shape, small and far ones among them.
+// GGX with and without the features that its methods need, sheen and products, under lights of every shape, including small and far ones.
 TEST_F(VulkanFrame, HasOtherLobesUnderEveryShape) {
   Material product = phong(20), about = phong(3), cloth = half_vectors(Brdf::charlie, 1, 0.4, 0.4);
   product.brdf = about.brdf = Brdf::lobe_product;
@@ -127,7 +127,7 @@ TEST_F(VulkanFrame, HasOwnLobesInPenumbras) {
   EXPECT_LE(expect_same("lobes, shadows", scene, options), 0.01);
 }
 
-// Beside lobes of extras.steradian: an unlit material has none, whatever its extras say.
+// An unlit material beside lobes of extras.steradian has no lobes, whatever its extras say.
 TEST_F(VulkanFrame, LightsNothingUnlit) {
   Scene scene = strips({phong(40), ggx(0.4, 0.4, true, {1, 1, 1}, {1, 1, 1}), half_vectors(Brdf::beckmann, 1, 0.3, 0.3)});
   scene.area_lights = {kQuad};
@@ -140,7 +140,7 @@ TEST_F(VulkanFrame, LightsNothingUnlit) {
   EXPECT_GT(std::count_if(cpu.pixels.begin(), cpu.pixels.end(), [&](Vec3f p) { return length(p - base) < 1e-6f; }), 500);
 }
 
-// What facets lose by the angle of the view has a table of the host's.
+// The table of the facets' loss by the angle of the view is on the host.
 TEST_F(VulkanFrame, SaysWhichLobesTheHostLights) {
   Scene scene = strips({ggx(0.4, 0.4, true, {1, 1, 1}, {1, 1, 1})});
   scene.materials[0].specular_override[0].multiple_scattering = true;

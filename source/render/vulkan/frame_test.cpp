@@ -1,4 +1,4 @@
-// The CPU judges the device: whole frames, every method, all kinds of lights.
+// The CPU is the reference for the device: whole frames, every method, all kinds of lights.
 #include "render/vulkan/frame.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace steradian::vulkan::frame_test {
 namespace {
 
-// A circle of corners about a centre, in a plane z = constant, whose lit side looks along z.
+// A circle of corners about a centre, in a plane z = constant, with the lit side along z.
 std::vector<Vec3d> ring(Vec3d center, double radius, int corners) {
   std::vector<Vec3d> vertices;
   for (int i = 0; i < corners; ++i) {
@@ -24,8 +24,8 @@ std::vector<Vec3d> ring(Vec3d center, double radius, int corners) {
   return vertices;
 }
 
-// Every kind of light, and surfaces of every lobe that the device has: a floor, a wall behind it, a cloth, and a pane through which they
-// are seen. Lights touch the surfaces' horizons, stand next to them and far away.
+// Every kind of light, and surfaces of every lobe that the device has: a floor, a wall behind it, a cloth, and a pane in front of them.
+// Lights touch the surfaces' horizons, stand next to them and far away.
 Scene everything() {
   Scene scene;
   SurfaceMaterial floor, wall, pane, cloth;
@@ -70,7 +70,7 @@ Scene everything() {
   return scene;
 }
 
-// Of a lamp that shines most aside.
+// Profile of a lamp that shines most to the side.
 std::shared_ptr<const LightProfile> lamp_profile() {
   LightProfile p;
   p.vertical = {0, 30, 60, 90, 180};
@@ -79,7 +79,7 @@ std::shared_ptr<const LightProfile> lamp_profile() {
   return std::make_shared<const LightProfile>(p);
 }
 
-// A leak of two hundred bytes in each of ten thousand frames would show. A software device's memory is the process's own.
+// A leak of two hundred bytes in each of ten thousand frames would be detected. A software device uses the process's own memory.
 void expect_no_growth(const Scene& scene, SurfacesBy surfaces, int frames, Shadows shadows = Shadows::off) {
   RenderOptions options = small("ltc-compact");
   options.width = options.height = 8;
@@ -110,7 +110,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuByEveryQuality) {
                                         {"ltc", Quality::high},
                                         {"representative-point", Quality::high}}) {
     RenderOptions options = small(method);
-    options.width = 80;  // as by every method, of which a quality is but other numbers
+    options.width = 80;  // as by every method: a quality only changes numbers
     options.height = 45;
     options.quality = quality;
     expect_same(quality == Quality::high ? "gallery, high" : "gallery, draft", gallery, options);
@@ -134,7 +134,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuUnderEveryKindOfLight) {
   expect_same("everything", scene, options, kOutliers);
 }
 
-// Points that shine by a profile, of both types of angles, next to one without.
+// Points with a profile, of both types of angles, next to one without.
 TEST_F(VulkanFrame, AgreesWithTheCpuUnderMeasuredPoints) {
   Scene scene = everything();
   scene.area_lights.clear();
@@ -166,7 +166,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
     std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
     EXPECT_LE(share, 0.15) << name;
   }
-  // Coats under bumps see other parts of lights than what lies below them.
+  // Coats under bumps see other parts of lights than the layers below them.
   Scene scene = everything();
   scene.images.push_back({"", 1, 1, {150, 110, 240, 255}});
   scene.materials[0].normal_texture.image = 0;
@@ -177,7 +177,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   }
 }
 
-// By every method and lobe.
+// Covers every method and lobe.
 TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   RenderOptions options = small("auto");
   options.shadows = Shadows::on;
@@ -189,7 +189,7 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   // A few points see thin regions.
   EXPECT_LE(expect_same("40 triangles", under_triangles(40), options), 0.01);
   EXPECT_GE(expect_same("200 triangles", under_triangles(200), options), 0.5);
-  // Through the triangles, which leave sections of theirs in its plane.
+  // The light crosses the triangles, which leave sections in its plane.
   const Scene crossed = under_triangles(12, Polygon{{{-1, 0.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 0.5, 1}}, {}});
   EXPECT_EQ(expect_same("12 across", crossed, options), 0);
   const double share = expect_same("room, shadows", scene_of("room"), options);
@@ -197,7 +197,7 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   EXPECT_LE(share, 0.02);
 }
 
-// Each point sees four segments of the light and three of every triangle, none of which crosses another: a thread has space for 256, a
+// Each point sees four segments of the light and three of every triangle, none of which crosses another. A thread has capacity for 256, a
 // subgroup for 640, the host for any number.
 TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   RenderOptions options = small("ltc-compact");
@@ -212,7 +212,7 @@ TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   EXPECT_EQ(by_host(85, ManyEdgesBy::device), 0);
   EXPECT_EQ(by_host(212, ManyEdgesBy::device), 0);
   EXPECT_EQ(by_host(213, ManyEdgesBy::device), 1);
-  // Before each other: as many crossings as a thread has turns for, or not.
+  // Triangles overlap: their crossings do or do not fit a thread's loop turns.
   for (const int triangles : {80, 200}) {
     const std::string name = std::to_string(triangles) + " triangles";
     const double without = expect_same(name, under_triangles(triangles), options, 0, ManyEdgesBy::host);
@@ -222,8 +222,8 @@ TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   }
 }
 
-// Of lights of every shape: shares of polygons, frames of the points' own, sections of triangles by the light's plane; and of groups with
-// more edges than a thread goes through.
+// Lights of every shape: fractions of polygons, frames of the points' own, sections of triangles by the light's plane. Some groups have
+// more edges than a thread handles.
 TEST_F(VulkanFrame, FindsPartsBehindManyEdgesBySubgroups) {
   RenderOptions options = small("ltc-compact");
   options.shadows = Shadows::on;
@@ -251,7 +251,7 @@ TEST_F(VulkanFrame, FindsPartsBehindManyEdgesBySubgroups) {
   }
 }
 
-// By every lobe: of round lights, what counts is the share of a polygon's light.
+// Covers every lobe: for round lights, the fraction of a polygon's light counts.
 TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
   RenderOptions options = small("auto");
   options.shadows = Shadows::on;
@@ -265,13 +265,14 @@ TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
     const Scene scene = under_triangles(12, light);
     for (const char* method : {"auto", "ltc-compact", "representative-point"}) {
       options.method = method;
-      // One pixel was counted. One point for all of a light jumps from edge to edge, and shares divide two of them: likely its cause.
+      // One pixel was counted. A single point for the whole light jumps from edge to edge, and fractions divide two such lights: likely
+      // its cause.
       EXPECT_EQ(expect_same(name, scene, options, std::string(method) == "representative-point" ? 2 : 0), 0);
     }
   }
 }
 
-// One ray more or less that is blocked takes a light from a pixel.
+// One more or fewer blocked ray takes a light from a pixel.
 TEST_F(VulkanFrame, AsksTheDevicesRaysAsTheHosts) {
   RenderOptions options = small("ltc-compact");
   options.shadows = Shadows::on;
@@ -308,7 +309,7 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
   const Scene scene = everything();
   for (const auto& [method, shadows] : {std::pair{"closed-form", Shadows::off}, {"ltc-compact", Shadows::on}}) {
     RenderOptions options = small(method);
-    options.width = 48;  // the layer asks what is called, not what comes of it
+    options.width = 48;  // the layer checks the calls, not their results
     options.height = 27;
     options.shadows = shadows;
     Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device, nullptr, ManyEdgesBy::device);

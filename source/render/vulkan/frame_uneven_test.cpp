@@ -1,11 +1,10 @@
-// The CPU judges the device: lights that are textured, and rects and disks that shine by a measured profile; and what something hides of
-// them.
+// The CPU is the reference for the device: textured lights, rects and disks with a measured profile, and their occluded parts.
 #include "render/vulkan/test_frames.h"
 
 namespace steradian::vulkan::frame_uneven_test {
 namespace {
 
-// Of a lamp that shines most aside, and a little up.
+// Profile of a lamp that shines most to the side, and a little upwards.
 std::shared_ptr<const LightProfile> lamp_profile() {
   LightProfile p;
   p.vertical = {0, 30, 60, 90, 180};
@@ -21,7 +20,7 @@ AreaLight lamp(Shape shape, Vec3d intensity) {
   return light;
 }
 
-// Strips of roughness 0.05 to 1, one under a coat, one of cloth.
+// Strips of roughness 0.05 to 1, one with a coat, one of cloth.
 Scene under_lamps() {
   Scene scene;
   for (int i = 0; i < 6; ++i) {
@@ -45,7 +44,7 @@ Scene under_lamps() {
   return scene;
 }
 
-// In three colours.
+// Checkers in three colours.
 Image checkers() {
   Image image{"", 32, 32, {}};
   for (int i = 0; i < 32 * 32; ++i)
@@ -65,7 +64,7 @@ AreaLight textured(Polygon shape, Vec3d origin, Vec3d du, Vec3d dv, bool two_sid
   return light;
 }
 
-// 12 triangles under it; pictures of 96 x 54.
+// Renders 12 triangles under the light; pictures are 96 x 54.
 double expect_same_shadows(const std::string& name, AreaLight light, const char* method) {
   Scene scene = under_triangles(12);
   scene.images = {checkers()};
@@ -80,8 +79,8 @@ double expect_same_shadows(const std::string& name, AreaLight light, const char*
 
 }  // namespace
 
-// Of every roughness under checkers in three colours: cells, halves below the smallest of them, and look-ups in mirrors; a coat, a diffuse
-// lobe, a triangle that is lit on both sides, cut by the horizon, and a light too long for a direction between its ends.
+// Surfaces of every roughness under checkers in three colours: cells, halves below the smallest of them, and look-ups in mirrors. There
+// are also a coat, a diffuse lobe and a two-sided triangle that the horizon cuts. One light is too long for a direction between its ends.
 TEST_F(VulkanFrame, AgreesWithTheCpuUnderTexturedLights) {
   Scene scene;
   scene.images = {checkers()};
@@ -118,7 +117,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuUnderMeasuredLamps) {
   EXPECT_EQ(warnings_of(scene, options), std::vector<std::string>());
 }
 
-// As finely as EULUMDAT may: a thread's loops have the most turns then.
+// The profile is as fine as EULUMDAT allows, so that a thread's loops have the most turns.
 TEST_F(VulkanFrame, AgreesWithTheCpuUnderFinelyMeasuredLamps) {
   const auto fine = std::make_shared<LightProfile>();
   for (int v = 0; v <= 360; ++v) fine->vertical.push_back(v * 0.5);
@@ -162,11 +161,11 @@ TEST_F(VulkanFrame, SaysThatTheHostLightsByLampsOfTooManyAngles) {
   EXPECT_NE(warnings[0].find("by the measured lamp 'lamp': too much for the device's buffers or loops"), std::string::npos) << warnings[0];
 }
 
-// The parts are found as of lights of one radiance, and lit by every lobe as a share of the whole light.
+// The parts are found as for lights of uniform radiance. Every lobe lights them as a fraction of the whole light.
 TEST_F(VulkanFrame, FindsTheVisiblePartsOfTexturedLights) {
   const AreaLight square = textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true);
   for (const char* method : {"auto", "ltc-compact"}) EXPECT_EQ(expect_same_shadows("textured", square, method), 0);
-  // Of two contours: the host finds what is seen, the device lights by it.
+  // The light has two contours: the host finds the visible part, and the device lights by it.
   Polygon frame = kSquare;
   frame.holes = {{{-0.5, 2.5, -0.5}, {-0.5, 2.5, 0.5}, {0.5, 2.5, 0.5}, {0.5, 2.5, -0.5}}};
   EXPECT_EQ(expect_same_shadows("textured frame", textured(frame, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true), "ltc-compact"), 1);

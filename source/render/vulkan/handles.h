@@ -17,7 +17,7 @@
 
 namespace steradian::vulkan {
 
-// Shaders over the same buffers, and the pipelines that were made of them so far.
+// Shaders over the same buffers, and the pipelines created from them so far.
 struct Pipelines {
   std::vector<vk::raii::ShaderModule> shaders;
   vk::raii::DescriptorSetLayout set_layout = nullptr;
@@ -36,20 +36,20 @@ struct Device::Handles {
   vk::raii::Queue queue = nullptr;
   vk::raii::CommandPool commands = nullptr;
   vk::raii::PipelineCache pipeline_cache = nullptr;
-  float timestamp_period = 0;  // nanoseconds of a tick
-  // By what tells programs apart: how many buffers they have, and their shaders, word for word. They stay as long as the device: pipelines
-  // take longer to make than pictures.
+  float timestamp_period = 0;  // nanoseconds per tick
+  // The key distinguishes programs: the numbers of their buffers and the words of their shaders. Entries live as long as the device, since
+  // pipelines take longer to create than pictures.
   mutable std::map<std::vector<std::uint32_t>, Pipelines> pipelines;
   std::vector<std::string> messages;
   mutable std::size_t allocations = 0;
-  mutable bool hangs = false;  // work that it was given has not ended, and still uses what was made for it
+  mutable bool hangs = false;  // submitted work has not ended, and still uses its objects
 
   vk::raii::DeviceMemory allocate(const vk::MemoryAllocateInfo& info) const {
     ++allocations;
     return device.allocateMemory(info);
   }
 
-  // For destructors: what a device that hangs may still use is left to it.
+  // For destructors: releases objects, without destroying them, that a hanging device may still use.
   template <class Made>
   void leave(std::unique_ptr<Made>& made) const {
     if (hangs) static_cast<void>(made.release());
@@ -79,7 +79,7 @@ inline vk::raii::ShaderModule module_of(const vk::raii::Device& device, std::spa
   return device.createShaderModule({{}, spirv.size_bytes(), spirv.data()});
 }
 
-// Hands the commands to the device and waits until it has done them. work: for the error, what a device that hangs did not finish.
+// Submits the commands to the device and waits until they are done. work: what a hanging device did not finish, for the error.
 inline void submit_and_wait(const Device& device, const vk::raii::CommandBuffer& commands, const vk::raii::Fence& done, const char* work) {
   constexpr std::uint64_t longest = 300'000'000'000;  // ns
   const Device::Handles& d = device.handles();
@@ -92,7 +92,7 @@ inline void submit_and_wait(const Device& device, const vk::raii::CommandBuffer&
   }
 }
 
-// Milliseconds between neighbouring timestamps of the first `count`.
+// Milliseconds between neighbouring timestamps among the first `count`.
 inline std::vector<double> times_between(const Device& device, const vk::raii::QueryPool& stamps, std::uint32_t count) {
   using Flag = vk::QueryResultFlagBits;
   const auto ticks =

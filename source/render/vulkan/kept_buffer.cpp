@@ -5,7 +5,7 @@
 namespace steradian::vulkan {
 
 Buffer& KeptBuffer::fit_with_room(std::size_t bytes, std::size_t most) {
-  constexpr std::size_t kLeast = 256;  // none is empty
+  constexpr std::size_t kLeast = 256;  // no buffer is empty
   if (!buffer_ || buffer_->bytes() < bytes) {
     buffer_.reset();  // there may be no memory for both
     held_.reset();

@@ -1,4 +1,4 @@
-// A buffer that stays from picture to picture: it grows where one needs more room, and knows what it holds.
+// A buffer that stays from picture to picture: it grows on demand, and knows its contents.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@ namespace steradian::vulkan {
 
 class KeptBuffer {
  public:
-  // The device must stay. Nothing is made yet.
+  // The device must outlive this object. Nothing is allocated yet.
   explicit KeptBuffer(const Device& device, BufferUse use = BufferUse::host_writes, BufferForm form = BufferForm::storage)
       : device_(device), use_(use), form_(form) {}
 
-  // At least so many bytes; what it held is lost where it must be made anew. with_room, for what is not the same from picture to picture:
-  // then half as much again, at most `most` bytes, so that pictures that follow find it.
+  // Grows to at least `bytes`. Growing discards the contents. fit_with_room is for sizes that differ from picture to picture. It grows to
+  // half as much again, at most `most` bytes, so that the following pictures need no growth.
   Buffer& fit(std::size_t bytes) { return fit_with_room(bytes, bytes); }
   Buffer& fit_with_room(std::size_t bytes, std::size_t most);
-  // Holds these bytes: written where it holds others.
+  // Makes the buffer hold these bytes; writes them only if it holds others.
   Buffer& hold(const void* data, std::size_t bytes);
   template <class Value>
   Buffer& hold(const std::vector<Value>& values) {
@@ -27,7 +27,7 @@ class KeptBuffer {
   }
 
   bool is_made() const { return buffer_.has_value(); }
-  // Once made. What is written by the way of these is not what it knows of.
+  // Valid once allocated. Writes through these references are not tracked.
   Buffer& get() { return *buffer_; }
   const Buffer& get() const { return *buffer_; }
 

@@ -1,5 +1,5 @@
-// KeptOnDevice: what pictures are made with on a Vulkan device, kept from one to the next: pipelines (the device's), programs, buffers. A
-// picture of the same size of a scene that has not changed finds all that it needs there.
+// KeptOnDevice: objects on a Vulkan device that are cached from picture to picture: pipelines (the device's), programs, buffers. A picture
+// of the same size of an unchanged scene finds everything that it needs there.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace steradian::vulkan {
 
-// Made when something needs it.
+// Creates the object on first use.
 template <class Made>
 Made& made(std::unique_ptr<Made>& it, const Device& device) {
   if (it == nullptr) it = std::make_unique<Made>(device);

@@ -1,4 +1,4 @@
-// What stays on a device from picture to picture: it serves the next one, and never shows in it.
+// Objects that stay on a device from picture to picture: they serve the next picture, and never show in it.
 #include "render/vulkan/kept_on_device.h"
 
 #include <chrono>
@@ -12,7 +12,7 @@
 namespace steradian::vulkan::kept_on_device_test {
 namespace {
 
-// Pictures by one cache, each held to one that is made without, on the same device.
+// Pictures with one cache, each compared with one rendered without it, on the same device.
 struct Pictures {
   std::shared_ptr<const Device> device;
   Scene scene;
@@ -22,7 +22,7 @@ struct Pictures {
   RenderCache cache{};
 
   Picture next() { return Frame(scene, options, device, surfaces, rays, &cache).render(); }
-  // Returns how often the device was asked for memory.
+  // Returns the number of memory allocations on the device.
   std::size_t render(const std::string& what) {
     const std::size_t before = device->allocations();
     const Picture picture = next();
@@ -37,7 +37,7 @@ struct Pictures {
     Vec3d& position = scene.cameras.front().position;
     position = position + Vec3d{0.07, 0.03, -0.05};
   }
-  // A polygon, with the triangles that are seen where it is; a point where there is none.
+  // Moves a polygon with the triangles that show it, or a point if there is none.
   void move_lamp() {
     const Vec3d by{0.05, 0.02, -0.03};
     for (std::size_t i = 0; i < scene.area_lights.size(); ++i) {
@@ -71,7 +71,7 @@ void expect_nothing_asked_for(Pictures pictures) {
   EXPECT_EQ(pictures.render("a lamp moved"), 0u);
 }
 
-// One device for all tests, since its pipelines take longer to make than pictures.
+// One device for all tests, since its pipelines take longer to create than pictures.
 class KeptOnVulkan : public VulkanFrame {
  protected:
   static void TearDownTestSuite() { shared.reset(); }
@@ -103,7 +103,7 @@ TEST_F(KeptOnVulkan, NorDoesTheBounce) {
   expect_nothing_asked_for({device(), scene_of("ring"), options});
 }
 
-// Buffers hold what a picture before had, and pictures are the same bytes.
+// Buffers hold data of an earlier picture, and pictures must have the same bytes.
 TEST_F(KeptOnVulkan, NothingOfAnotherSceneSizeOrMethodShows) {
   for (const SurfacesBy surfaces : {SurfacesBy::host, SurfacesBy::device}) {
     Pictures p{device(), scene_of("textured_floor"), tiny("ltc-compact", steradian::Shadows::off), surfaces};
@@ -140,7 +140,7 @@ TEST_F(KeptOnVulkan, NothingOfAnotherSceneSizeOrMethodShows) {
   }
 }
 
-// What depends on the scene alone is written when it changes, tables never: a mark that is no part of a picture stays.
+// Data that depend on the scene alone are written when the scene changes, tables never. A mark outside any picture stays.
 TEST_F(KeptOnVulkan, WhatHasNotChangedIsNotWrittenAgain) {
   Pictures p{device(), scene_of("textured_floor"), tiny("ltc-compact", steradian::Shadows::off), SurfacesBy::device};
   p.render("the first picture");
@@ -168,7 +168,7 @@ TEST_F(KeptOnVulkan, WhatHasNotChangedIsNotWrittenAgain) {
   }
 }
 
-// What is made for a picture goes with it.
+// Objects made for a picture are released with it.
 TEST_F(KeptOnVulkan, PicturesLeaveMemoryWhereItWas) {
   Pictures p{device(), scene_of("glossy_floor"), tiny("ltc-compact", steradian::Shadows::on), SurfacesBy::device};
   p.options.width = p.options.height = 8;
@@ -204,7 +204,7 @@ TEST_F(KeptOnVulkan, TheValidationLayerFindsNothing) {
       << validated->validation_messages().size() << " messages, the first: " << validated->validation_messages().front();
 }
 
-// Pipelines take longer to make than pictures: a cache keeps the device that has them, until there is an error.
+// Pipelines take longer to create than pictures: a cache holds the device that has them until there is an error.
 TEST_F(KeptOnVulkan, ACacheKeepsTheDeviceAndItsPipelines) {
   Scene scene = scene_of("gallery");
   RenderOptions options = tiny("ltc-compact", steradian::Shadows::off);

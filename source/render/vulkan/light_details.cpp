@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kHead = static_cast<std::size_t>(kTextureHead), kLevel = static_cast<std::size_t>(kTextureLevel),
                       kCell = static_cast<std::size_t>(kTextureCell), kProfiled = static_cast<std::size_t>(kProfileHead);
-constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // that a float counts to
+constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // largest count that a float holds
 
 float number(double x) { return static_cast<float>(x); }
 float number(std::size_t n) { return static_cast<float>(n); }
@@ -31,7 +31,7 @@ std::size_t vectors_of(const TexturedLight& light) {
 }
 
 void add_cells(const std::vector<TextureCell>& cells, std::vector<Vec4Floats>& to) {
-  // What comes after a cell and all below it: of a first child the second one, of that what comes after their parent.
+  // Successor of a cell and its subtree: for a first child the second one, for a second child its parent's successor.
   std::vector<double> next(cells.size(), -1);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (cells[i].children == 0) continue;
@@ -71,7 +71,7 @@ void add_texture(const TexturedLight& light, std::vector<Vec4Floats>& to) {
   add_cells(tree.cells(), to);
 }
 
-// A head, then all its numbers, four a vector.
+// A head, then all numbers of the profile, four per vector.
 std::size_t vectors_of(const LightProfile& profile) {
   return 1 + (profile.vertical.size() + profile.horizontal.size() + profile.candela.size() + 3) / 4;
 }
@@ -87,11 +87,11 @@ void add_profile(const LightProfile& profile, std::vector<Vec4Floats>& to) {
     }
 }
 
-// Of a rect or disk, which the profile follows.
+// Adds the data of a rect or disk, followed by its profile.
 void add_profiled(const PackLight& light, std::vector<Vec4Floats>& to) {
   const LightEmission& emission = light.profiled->emission();
   const ProfiledLight::Outline o = light.profiled->outline();
-  // The mean of all directions in the unit of the profile's candela.
+  // Mean over all directions, in the unit of the profile's candela.
   const auto largest = [](Vec3d v) { return std::max({v.x, v.y, v.z}); };
   const double mean = largest(static_cast<Vec3d>(light.radiance)) * emission.area / largest(emission.intensity);
   to.insert(to.end(), {with(o.center, o.round ? 1 : 0), with(o.x, o.widest), with(o.y, static_cast<double>(to.size() + kProfiled)),
@@ -105,7 +105,7 @@ const LightProfile* profile_of(const PackLight& light) {
   return punctual != nullptr ? punctual->profile : nullptr;
 }
 
-// A mean asks for up to 2,304 directions, each found among the angles by halving; software devices end a thread's loops after 65,535 turns.
+// A mean uses up to 2,304 directions, each found among the angles by bisection. Software devices end a thread's loops after 65,535 turns.
 bool is_too_fine(const LightProfile& profile) {
   constexpr int kMostHalvings = 19;
   const auto halvings = [](const std::vector<double>& angles) { return std::bit_width(angles.size()); };

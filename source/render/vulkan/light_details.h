@@ -1,4 +1,4 @@
-// What stands behind lights beside their records, as shaders read it: textures (shaders/light_textures.glsl) and measured profiles
+// Details of lights beside their records, in the layout of shaders: textures (shaders/light_textures.glsl) and measured profiles
 // (shaders/light_profiles.glsl).
 #pragma once
 
@@ -11,17 +11,17 @@ namespace steradian::vulkan {
 
 class LightDetails {
  public:
-  // Of the first lights as far as there is room.
+  // Stores the details of the first lights as far as the capacity allows.
   LightDetails(const std::vector<PackLight>& lights, std::size_t most_vectors);
 
-  // Whether nothing of the light is missing here.
+  // Returns true if the light's details are complete here.
   bool has(const PackLight& light) const;
-  // Where a light's begin; kNoDetails where it has none.
+  // First vector of a light's details; kNoDetails if it has none.
   std::ptrdiff_t first_of(const PackLight& light) const;
   const std::vector<Vec4Floats>& values() const { return values_; }
 
  private:
-  std::map<const void*, std::size_t> firsts_;  // of a texture or profile
+  std::map<const void*, std::size_t> firsts_;  // by texture or profile
   std::vector<Vec4Floats> values_;
 };
 

@@ -26,7 +26,7 @@ struct Writer {
       vertices.push_back(with(p.vertices[p.contours[c + 1] - 1], 0));
       for (std::size_t i = p.contours[c]; i < p.contours[c + 1]; ++i) vertices.push_back(with(p.vertices[i], 1));
     }
-    // An arc, in two parts, where each pair of crossings is closed, and once more at the end.
+    // An arc in two parts closes each pair of crossings, and there is one more at the end.
     light.edges = 2 * static_cast<int>(p.vertices.size()) + 2;
     light.middle = p.middle;
     light.deviation2 = p.deviation2;
@@ -53,8 +53,8 @@ struct Writer {
     light.ball = e.ball.radius > 0;
     light.middle = e.center;
     light.deviation2 = dot(e.x, e.x) + dot(e.y, e.y) + dot(e.z, e.z);
-    // As a disk's, of the outline that the point sees: a ball's solves D^2 - r^2 < 4.5 r^2; others' centres lie within, and their half
-    // axes are no longer than all of the light's own together.
+    // Like that of a disk, for the outline that the point sees. For a ball, this solves D^2 - r^2 < 4.5 r^2. Centres of other outlines lie
+    // within the light. Their half axes are no longer than all half axes of the light together.
     const float reach = std::sqrt(light.deviation2), far = (1 + 1.5f * std::sqrt(2.0f)) * reach;
     light.near_distance2 = light.ball ? 5.51f * e.ball.radius * e.ball.radius : far * far;
     r[2] = with(e.center, e.ball.radius);
@@ -83,7 +83,7 @@ struct Writer {
     r[6] = with(static_cast<Vec3f>(p.axes.y));
     r[7] = with(static_cast<Vec3f>(p.axes.aim));
   }
-  void operator()(const packed::Pieces&) const {}  // of the CPU's shadows alone
+  void operator()(const packed::Pieces&) const {}  // only in the CPU's shadows
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Lights as shaders read them: shaders/lights.glsl.
+// Lights in the layout of shaders: shaders/lights.glsl.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@ namespace steradian::vulkan {
 
 using Vec4Floats = std::array<float, 4>;
 
-// What is behind a light's number.
+// Properties of the light with a number.
 struct LightRecord {
-  int kind = 0;              // of shaders/layout.glsl
+  int kind = 0;              // constant of shaders/layout.glsl
   bool ball = false;         // an ellipsoid of three equal axes
-  int mean = 0;              // whose lobes ask for one: kTextureMean, kProfileMean
+  int mean = 0;              // mean that its lobes need: kTextureMean, kProfileMean
   bool profiled = false;     // by direction alone
-  int edges = 0;             // most edges that the horizon leaves of a polygon; 0 of other lights
-  float deviation2 = 0;      // as the shaders have it
-  Vec3f middle{};            // from where they measure how far a light is
-  float near_distance2 = 0;  // beyond, a point is not near the rim; 0: a light without one
+  int edges = 0;             // most edges of a polygon after the horizon's cut; 0 for other lights
+  float deviation2 = 0;      // as in the shaders
+  Vec3f middle{};            // reference point of their distances to a light
+  float near_distance2 = 0;  // beyond it, a point is not near the rim; 0: a light without one
 };
 
 inline constexpr std::ptrdiff_t kNoDetails = -1;
@@ -28,10 +28,10 @@ inline constexpr std::ptrdiff_t kNoDetails = -1;
 struct LightRecords {
   std::vector<LightRecord> lights;
   std::vector<Vec4Floats> values;    // kRecord each
-  std::vector<Vec4Floats> vertices;  // w: 1 where the vertex goes on with a contour, which begins with its last one
+  std::vector<Vec4Floats> vertices;  // w: 1 if the vertex continues a contour, which begins with its last vertex
 
-  std::uint32_t add(const PackLight& light, std::ptrdiff_t details);  // its number; details: where those begin (LightDetails)
-  void keep(std::size_t lights, std::size_t vertices);                // the first ones
+  std::uint32_t add(const PackLight& light, std::ptrdiff_t details);  // returns its number; details: first vector (LightDetails)
+  void keep(std::size_t lights, std::size_t vertices);                // keeps the first ones
 };
 
 }  // namespace steradian::vulkan

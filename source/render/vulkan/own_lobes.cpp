@@ -12,7 +12,7 @@ namespace {
 #include "shaders/layout.glsl"
 #include "shaders/phong_methods.glsl"
 
-// Of Arvo's recurrence: llvmpipe ends a thread's loops after 65,535 turns in all, and half of these an edge leave room for 500 edges.
+// Limit of Arvo's recurrence: llvmpipe ends a thread's loops after 65,535 turns in all. Half of this limit per edge allows 500 edges.
 constexpr double kMostOfRecurrence = 256;
 
 Vec4Floats with(Vec3d v, double w) {
@@ -80,7 +80,7 @@ OwnLobes::OwnLobes(const Scene& scene, const DirectMethod& method, std::size_t f
       if (m.brdf == Brdf::lambert || !has(m)) continue;
       const Method by = method_.row_for(m).method;
       Lobe lobe = lobe_by(m, by, method_.quality, first + values_.size());
-      // As SpecularPass::add_ggx_override.
+      // Like SpecularPass::add_ggx_override.
       if (m.brdf == Brdf::ggx) lobe.by_points = !m.shadowing || m.tangent != Vec3d{} || by != method_.ggx;
       const bool product = m.brdf == Brdf::lobe_product;
       const auto number = static_cast<double>(lobes_.size());

@@ -1,4 +1,4 @@
-// The lobes of extras.steradian that a scene's surfaces have, as shaders read them (shaders/own_lobe.glsl).
+// Custom lobes (extras.steradian) of a scene's surfaces, in the layout of shaders (shaders/own_lobe.glsl).
 #pragma once
 
 #include <array>
@@ -13,30 +13,30 @@
 
 namespace steradian::vulkan {
 
-// The number of shaders/phong_methods.glsl. Throws Error for a method of other lobes.
+// Number of a method in shaders/phong_methods.glsl. Throws Error for a method of other lobes.
 int phong_method(const PhongOptions& options);
 
 class OwnLobes {
  public:
-  // A lobe by its method. form, phong, low: the constants LOBE_FORM, METHOD and LOW_EXPONENT of shaders/direct.glsl.
+  // A lobe with its method. form, phong, low: the constants LOBE_FORM, METHOD and LOW_EXPONENT of shaders/direct.glsl.
   struct Lobe {
     Material material;
     Method method;
-    std::uint32_t first;  // where it stands
+    std::uint32_t first;  // its first vector
     int form = 0;
     int phong = 0;
     int low = 0;
-    bool by_points;          // whether the CPU takes it point by point, with as many corners for round lights as `eval` has
-    double least_distance2;  // as DirectLight's
+    bool by_points;          // true: the CPU evaluates it point by point, with as many corners for round lights as `eval`
+    double least_distance2;  // as in DirectLight
   };
 
-  // The details of lights hold them from vector `first` on. The scene must stay.
+  // The details of lights contain the lobes from vector `first` on. The scene must outlive this object.
   OwnLobes(const Scene& scene, const DirectMethod& method, std::size_t first);
 
-  // Whether the shaders have a lobe by its method, and all lobes of the surfaces of a tile.
+  // Return true if the shaders have a lobe by its method, or all lobes of the surfaces of a tile.
   bool has(const Material& lobe) const;
   bool has_all(const SurfaceTile& tile) const;
-  // Of a surface's material, counted from 1, whose lobes `of` are; 0: it has none.
+  // Number of a surface's material, counted from 1, for use in `of`; 0: it has no such lobes.
   std::size_t number_of(const SurfaceMaterial* material) const;
   std::span<const Lobe> of(std::size_t number) const { return lobes_[number - 1]; }
 

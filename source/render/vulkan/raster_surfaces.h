@@ -1,4 +1,4 @@
-// The surfaces of a picture found by a device: raster, then a compute pass over tiles. FrameSurfaces is what the CPU has in its place.
+// The surfaces of a picture, found by a device: a raster pass, then a compute pass over tiles. FrameSurfaces is the CPU's counterpart.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace steradian::vulkan {
 
 class RasterSurfaces {
  public:
-  // What is on the device, for any number of pictures, one after another. The device must stay.
+  // Objects on the device, for any number of pictures in turn. The device must outlive them.
   struct Kept {
     explicit Kept(const Device& device);
     SceneBuffers scene;
@@ -23,25 +23,25 @@ class RasterSurfaces {
     ComputeProgram program;
   };
 
-  // Of a scene that nothing keeps on the host (what_keeps_on_host). What is kept and the scene must stay. tiles: most of a find; taken:
-  // whether the host takes some.
+  // Takes a scene that nothing keeps on the host (what_keeps_on_host). `kept` and the scene must outlive this object. tiles: most tiles of
+  // a find; taken: true if the host takes some.
   RasterSurfaces(Kept& kept, const Scene& scene, const MipMaps& maps, const CameraRays& camera, const RenderOptions& options,
                  std::size_t tiles, bool taken);
 
-  // Looks through the places of a primary sample.
+  // Draws the view through the positions of a primary sample.
   void look(int sample);
-  // Writes the surfaces of some tiles, and what they emit, as DirectLight reads them.
+  // Writes the surfaces of some tiles, and their emission, in the layout of DirectLight.
   void find(int first_tile, int count, Buffer& surfaces, Buffer& radiance);
 
-  // Of the tiles that find has written last, by their places among them. Whether the host must find the tile, since it shows what the
-  // shaders do not have.
+  // These functions take the place of a tile among those that find wrote last. is_for_host: true if the host must find the tile, since it
+  // shows features that the shaders do not have.
   static bool is_for_host(const Buffer& radiance, std::size_t place);
-  // What there is in its squares.
+  // Finds the contents of the tile's squares.
   static void find_squares(const Buffer& radiance, std::size_t place, DirectLight::Tile& tile);
-  // Its surfaces, as FrameSurfaces::fill has them; without the background.
+  // Reads the tile's surfaces, as FrameSurfaces::fill writes them, without the background.
   void take(const Buffer& radiance, std::size_t place, SurfaceTile& tile) const;
 
-  // Milliseconds on the device so far, by pass; empty where it does not tell.
+  // Milliseconds on the device so far, by pass; empty if it does not report them.
   const std::map<std::string, double>& times() const { return times_; }
 
  private:

@@ -1,4 +1,4 @@
-// The CPU judges the surfaces that a device finds.
+// The CPU is the reference for the surfaces that a device finds.
 #include "render/vulkan/raster_surfaces.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ struct Pixel {
   const SurfaceMaterial* material = nullptr;
 };
 
-// By pixel of the picture, with the number of what is seen there.
+// Surfaces by pixel of the picture, with the number of the triangle visible there.
 struct Surfaces {
   std::vector<Pixel> pixels;
   std::vector<std::uint64_t> seen;
@@ -136,7 +136,7 @@ float difference(const Pixel& a, const Pixel& b) {
   return a.material == b.material ? largest : 1.0f;
 }
 
-// Whether the CPU sees something else at a neighbour: rasters round corners to a 256th of a pixel, and depths at contacts.
+// Returns true if the CPU sees another triangle at a neighbour: rasters round corners to a 256th of a pixel, and depths at contacts.
 bool where_triangles_meet(const Surfaces& s, int x, int y, const RenderOptions& o) {
   const auto seen = [&](int i, int j) { return s.seen[static_cast<std::size_t>(j * o.width + i)]; };
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, o.height - 1); ++j)
@@ -191,7 +191,7 @@ AreaLight lamp() {
   return lamp;
 }
 
-// Pictures of noise under every texture, wrap and filter, seen from the side, so that pixels cover many of their texels.
+// Pictures of noise with every texture, wrap and filter, seen from the side, so that pixels cover many of their texels.
 Scene textured() {
   Scene scene;
   std::mt19937 random(1);
@@ -243,7 +243,7 @@ Scene textured() {
   return scene;
 }
 
-// Under sheen, a coat, brushing, all by textures; coats and sheen by numbers; no light at all.
+// Surfaces with sheen, a coat and brushing by textures; coats and sheen by numbers; no light at all.
 Scene layered() {
   Scene scene = textured();
   const TextureUse colors = scene.materials[0].base_color_texture, numbers = scene.materials[0].metallic_roughness_texture,
@@ -281,8 +281,8 @@ class VulkanSurfaces : public testing::Test {
 
 }  // namespace
 
-// Where a ray meets a triangle is known to its distance times float's rounding over the cosine of the angle between them: 1e-5 of the
-// distance is that at a hundredth. Blended normals change by the place over the length of an edge, a hundred times as fast.
+// The intersection of a ray and a triangle is known to its distance times float's rounding over the cosine of their angle. At a cosine of
+// a hundredth, that is 1e-5 of the distance. Blended normals change with position over the length of an edge, a hundred times as fast.
 TEST_F(VulkanSurfaces, AreTheCpusButWhereTrianglesMeet) {
   for (const char* name : {"gallery", "ring", "tubes"})
     expect_same(name, load_scene(test::kSourceDir + "/scenes/" + name + ".glb").scene, small(), 1e-3);
@@ -302,7 +302,7 @@ TEST_F(VulkanSurfaces, SayWhatKeepsThemOnTheHost) {
   EXPECT_EQ(what_keeps_on_host(scene, info), "");
   EXPECT_TRUE(materials_for_host(scene).empty());
   scene.materials[1].alpha_mode = AlphaMode::blend;
-  ASSERT_EQ(materials_for_host(scene).size(), 1u);  // of two meshes
+  ASSERT_EQ(materials_for_host(scene).size(), 1u);  // one of two meshes
   EXPECT_NE(materials_for_host(scene)[0].find("'b'"), std::string::npos);
   scene.materials[1].alpha_mode = AlphaMode::opaque;
   scene.materials[0].clearcoat = 1;
@@ -319,7 +319,7 @@ TEST_F(VulkanSurfaces, SayWhatKeepsThemOnTheHost) {
 
 namespace {
 
-// Renders by the host's surfaces and by the device's; prints how many pixels differ, of which there may be one of 200 where triangles meet.
+// Renders with the host's and the device's surfaces, and prints how many pixels differ. One of 200 may differ where triangles meet.
 void expect_same_picture(const std::string& name, const Scene& scene, const RenderOptions& options) {
   static const auto device = std::make_shared<Device>();
   const Picture by_host = Frame(scene, options, device, SurfacesBy::host).render();
@@ -376,7 +376,7 @@ TEST_F(VulkanSurfaces, AreTakenForWhatTheHostAdds) {
   expect_same_picture("layers, environment", lit, options);
 }
 
-// By lamps alone, which light them without the host; and where it has a part.
+// The scenes have lamps alone, which light them without the host, or lights with a part for the host.
 TEST_F(VulkanSurfaces, AreLitWithTheirLayers) {
   RenderOptions options;
   options.width = 120;

@@ -16,11 +16,11 @@ namespace {
 using shadow::Box;
 using shadow::coordinate;
 
-constexpr std::size_t kLeaf = 4;  // triangles at most
+constexpr std::size_t kLeaf = 4;  // most triangles
 static_assert(kLeaf < static_cast<std::size_t>(kLeafSizes));
-constexpr auto kFirst = static_cast<std::size_t>(kHead);  // vector of nodes
+constexpr auto kFirst = static_cast<std::size_t>(kHead);  // first vector of the nodes
 constexpr int kBins = 16;
-constexpr double kCostOfTriangle = 1.5;  // in boxes
+constexpr double kCostOfTriangle = 1.5;  // relative to that of a box
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -44,7 +44,7 @@ class Builder {
       all_.add(triangle.box);
       triangles_.push_back(triangle);
     }
-    // Places relative to a ray's beginning are off by some roundings of how far away they are.
+    // Positions relative to a ray's origin have errors of some roundings of their distance.
     const Vec3d across = triangles_.empty() ? Vec3d{} : all_.high - all_.low;
     margin_ = 0x1p-20 * std::max({across.x, across.y, across.z});
     build(0, triangles_.size());
@@ -69,7 +69,7 @@ class Builder {
     Vec3d middle;
   };
   struct Split {
-    double cost = kInfinity;  // of half areas
+    double cost = kInfinity;  // in half areas
     int axis = 0;
     double at = 0;
   };
@@ -77,8 +77,8 @@ class Builder {
   static std::uint32_t bits(double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); }
   static std::array<std::uint32_t, 4> vector(Vec3d v, std::uint32_t w) { return {bits(v.x), bits(v.y), bits(v.z), w}; }
 
-  // Where along an axis a plane between two bins parts the triangles' middles best, by the areas of the boxes and what is in them. I. Wald,
-  // "On fast construction of SAH-based bounding volume hierarchies", 2007.
+  // Finds the plane between two bins along an axis that separates the triangles' middles best, by the boxes' areas and numbers of
+  // triangles. I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007.
   void try_axis(std::size_t begin, std::size_t end, const Box& middles, int axis, Split& best) const {
     const double low = coordinate(middles.low, axis), width = (coordinate(middles.high, axis) - low) / kBins;
     if (!(width > 0)) return;
@@ -122,13 +122,13 @@ class Builder {
     const bool whole = count <= kLeaf &&
                        !(2 * half_area(box) + kCostOfTriangle * split.cost < kCostOfTriangle * static_cast<double>(count) * half_area(box));
     if (whole) {
-      // Counted from the first triangle, until it is known how many nodes there are.
+      // Counted from the first triangle, until the number of nodes is known.
       vectors_[node][3] = static_cast<std::uint32_t>(3 * begin * static_cast<std::size_t>(kLeafSizes) + count);
     } else {
       const auto first = triangles_.begin();
       const auto at = [&](std::size_t i) { return first + static_cast<std::ptrdiff_t>(i); };
       auto middle = std::partition(at(begin), at(end), [&](const Triangle& t) { return coordinate(t.middle, split.axis) < split.at; });
-      // Of triangles at one place, and where roundings leave none on a side, any half.
+      // Any half will do for triangles at one place, and if roundings leave a side empty.
       if (!(split.cost < kInfinity) || middle == at(begin) || middle == at(end)) middle = at(begin + count / 2);
       const auto half = static_cast<std::size_t>(middle - first);
       build(begin, half);

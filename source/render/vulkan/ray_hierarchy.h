@@ -1,4 +1,4 @@
-// Triangles, sorted into a hierarchy of boxes that a shader walks without a stack (shaders/ray_hierarchy.glsl).
+// Triangles, sorted into a hierarchy of boxes that a shader traverses without a stack (shaders/ray_hierarchy.glsl).
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@ namespace steradian::vulkan {
 
 struct RayTriangle {
   std::array<Vec3d, 3> corners;  // finite
-  std::uint32_t number = 0;      // by which rays name it
+  std::uint32_t number = 0;      // by which rays report it
 };
 
-// Vectors as shaders/ray_layout.glsl has them.
+// Vectors in the layout of shaders/ray_layout.glsl.
 std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(const std::vector<RayTriangle>& triangles);
 
-// How many it has at least: what is too many for a buffer need not be sorted.
+// Least number of its vectors: triangles that exceed a buffer need not be sorted.
 std::size_t least_of_hierarchy(std::size_t triangles);
 
 }  // namespace steradian::vulkan

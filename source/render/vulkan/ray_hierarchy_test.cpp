@@ -1,4 +1,4 @@
-// Embree and rays in double judge the device's walk through the triangles.
+// Embree and rays in double are the reference for the device's traversal of the triangles.
 #include "render/vulkan/ray_hierarchy.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ struct Way {
 };
 enum class Found { free, blocked, not_known };
 
-// By shaders/shadow_rays.comp.
+// Runs shaders/shadow_rays.comp.
 std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& ways) {
   struct Answer {
     Vec3f from;
@@ -73,7 +73,7 @@ Scene of_triangles(std::vector<Vec3f> positions) {
 
 Vec3d in_box(Random& random) { return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; }
 
-// Small and large ones, and needles.
+// Small and large triangles, and needles.
 Scene random_triangles(std::size_t count) {
   Random random(7);
   std::vector<Vec3f> positions;
@@ -91,7 +91,7 @@ double size_of(const shadow::EdgeMesh& mesh) {
   return size;
 }
 
-// From places of triangles to others, both lifted off theirs, to either side.
+// Ways from positions on triangles to others, both lifted off their triangles, to either side.
 std::vector<Way> random_ways(const shadow::EdgeMesh& mesh, std::size_t count) {
   Random random(11);
   const auto lifted = [&] {
@@ -119,8 +119,8 @@ class VulkanRays : public testing::Test {
   }
 };
 
-// Where the device finds other than rays in double, a way that is off by a millionth of the scene must do so, too: corners relative to
-// where a ray begins round by 6e-8 of their distance, and again where the ray's slant moves them.
+// If the device differs from rays in double, a way moved by a millionth of the scene must differ, too. Corners relative to a ray's
+// beginning round by 6e-8 of their distance, and again when the ray's slant moves them.
 void expect_same(const std::string& name, const Scene& scene) {
   const shadow::EdgeMesh mesh = shadow::build_edges(scene);
   const RayScene embree(scene);
@@ -174,7 +174,8 @@ TEST_F(VulkanRays, FindWhatTheHostsRaysFind) {
   expect_same("random triangles", random_triangles(3000));
 }
 
-// Scenes of 1e-18 to 1e18 of their size, by powers of two: every float is the same but for its exponent, and so is every answer.
+// Scenes are scaled by powers of two, from 1e-18 to 1e18 of their size. Every float is the same except for its exponent, and so is every
+// answer.
 TEST_F(VulkanRays, FindTheSameInEveryUnit) {
   Scene scene = random_triangles(3000);
   std::vector<Way> ways = random_ways(shadow::build_edges(scene), 20000);
@@ -195,7 +196,7 @@ TEST_F(VulkanRays, FindTheSameInEveryUnit) {
   }
 }
 
-// Nothing leaves a closed surface, least of all through its corners and sides.
+// No ray leaves a closed surface, not even through its corners and sides.
 TEST_F(VulkanRays, DoNotLeakBetweenTriangles) {
   const Scene scene = of_triangles(ball(24, 48));
   const shadow::EdgeMesh mesh = shadow::build_edges(scene);
@@ -221,7 +222,7 @@ TEST_F(VulkanRays, DoNotLeakBetweenTriangles) {
   EXPECT_LT(of_embree, ways.size() / 1000);  // its robust mode lets a few through corners; without it, one in seven
 }
 
-// Triangles stacked so that a way meets all their boxes and none of them.
+// Triangles are stacked so that a way meets all their boxes, but no triangle.
 TEST_F(VulkanRays, SayWhereAWalkDoesNotEnd) {
   const Way past{{0.5f, -0.5f, -1}, {0, 0, 3}}, beside{{3, 0, -1}, {0, 0, 3}};
   for (const std::size_t count : {0u, 1000u, 50000u}) {

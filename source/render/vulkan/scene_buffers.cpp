@@ -17,8 +17,8 @@ namespace {
 
 using Vec4Floats = std::array<float, 4>;
 
-constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // that a float counts to
-constexpr int kLongestSide = 1 << 20;                       // of a texture: places along longer ones are no whole numbers in float
+constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // largest count that a float holds
+constexpr int kLongestSide = 1 << 20;                       // texture side: positions along longer ones are no whole numbers in float
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;
 
 static_assert(kMaterial == kMaterialTextures + kUses * kUse);
@@ -33,18 +33,18 @@ const SurfaceMaterial& material_of(const Scene& scene, const Mesh& mesh) {
   return scene.materials[static_cast<std::size_t>(mesh.material)];
 }
 
-// Texels of a picture and its pyramid, an upper bound.
+// Upper bound of the number of texels of a picture and its pyramid.
 std::size_t texels_of_pyramid(const Image& image) {
   const auto texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   return texels + texels / 2 + 64;
 }
 
-// The levels of the pictures that are used.
+// Levels of the pictures that are used.
 class Levels {
  public:
   explicit Levels(const MipMaps& maps) : maps_(maps) {}
 
-  // Number of the first of a use.
+  // Number of the first level of a use.
   std::size_t first(const TextureUse& use) {
     const auto [at, is_new] = firsts_.try_emplace({use.image, use.color_space}, all_.size());
     if (is_new) {
@@ -54,7 +54,7 @@ class Levels {
     return at->second;
   }
 
-  // A vector for each: the first of its texels among all, its size.
+  // One vector per level: position of its first texel among all texels, and its size.
   std::vector<Vec4Floats> records() const {
     std::vector<Vec4Floats> to;
     std::size_t texel = 0;
@@ -75,7 +75,7 @@ class Levels {
  private:
   const MipMaps& maps_;
   std::vector<const Image*> all_;
-  std::vector<std::shared_ptr<MipMaps::Pyramid>> pyramids_;  // of these
+  std::vector<std::shared_ptr<MipMaps::Pyramid>> pyramids_;  // pyramids of these levels
   std::map<std::pair<int, ColorSpace>, std::size_t> firsts_;
 };
 
@@ -92,7 +92,7 @@ void add_use(const TextureUse& use, const MipMaps& maps, std::size_t first, std:
   to.push_back({use.uv[4], use.uv[5], use.scale, 0});
 }
 
-// As surface_at takes them.
+// Adds the factors that surface_at uses.
 void add_factors(const Scene& scene, const SurfaceMaterial& m, std::vector<Vec4Floats>& to) {
   const float r = (m.ior - 1) / (m.ior + 1);
   to.push_back({m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w});
@@ -103,7 +103,7 @@ void add_factors(const Scene& scene, const SurfaceMaterial& m, std::vector<Vec4F
   to.push_back({m.clearcoat, m.clearcoat_roughness, m.anisotropy, m.anisotropy_rotation});
 }
 
-// For each vertex, how far its triangles are lifted off the lights that they are the faces of.
+// For each vertex, the distance by which its triangles are lifted off the lights whose faces they are.
 std::vector<float> lifts_of(const Scene& scene, const Mesh& mesh) {
   std::vector<float> lifts(mesh.positions.size(), 0.0f);
   for (std::size_t t = 0; t < mesh.triangle_lights.size(); ++t) {
@@ -128,7 +128,7 @@ void add_vertices(const Scene& scene, const Mesh& mesh, std::vector<Vec4Floats>&
 
 int longer_side(const Image& image) { return std::max(image.width, image.height); }
 
-// Why the shaders do not find a mesh's surfaces; empty: they do.
+// Reason why the shaders do not find a mesh's surfaces; empty: they do.
 std::string why_for_host(const Scene& scene, const Mesh& mesh) {
   const SurfaceMaterial& m = material_of(scene, mesh);
   if (emission_of(scene, mesh) != nullptr) return "which does not shine alike in all directions";
@@ -145,7 +145,7 @@ bool shows_layers(const Scene& scene, const Mesh& mesh) {
   return kind_of(scene, mesh) == SurfaceKind::layered && why_for_host(scene, mesh).empty();
 }
 
-// What shares of light lobes reflect.
+// Tables of the fractions of light that lobes reflect.
 std::vector<Vec4Floats> tables_of_albedo() {
   const CompactTable &ggx = ggx_compact_table(), &charlie = charlie_compact_table();
   std::vector<Vec4Floats> to = {{static_cast<float>(ggx.shape_size), static_cast<float>(ggx.magnitude_size),
@@ -157,13 +157,13 @@ std::vector<Vec4Floats> tables_of_albedo() {
   return to;
 }
 
-// What buffers are made of.
+// Contents of the buffers.
 struct Contents {
   std::vector<Vec4Floats> vertices, triangles, materials;
   Levels pictures;
 
   Contents(const Scene& scene, const MipMaps& maps) : pictures(maps) {
-    // First codes, then the meshes' own vectors, then materials, then the levels that their textures have.
+    // The order is: codes, the meshes' own vectors, materials, levels of their textures.
     const std::size_t first_material = kCodes + scene.meshes.size(), first_level = first_material + scene.materials.size() * kMaterial;
     for (std::size_t i = 0; i < 4 * kCodes; i += 4) {
       const auto code = [&](std::size_t k) { return linear_from_srgb8(static_cast<std::uint8_t>(i + k)); };

@@ -1,4 +1,4 @@
-// A scene as the shaders that find surfaces read it (shaders/surface_layout.glsl): geometry, materials, pyramids of textures.
+// A scene in the layout of the shaders that find surfaces (shaders/surface_layout.glsl): geometry, materials, pyramids of textures.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace steradian::vulkan {
 
-// Why the shaders do not find this scene's surfaces; empty: they do, but those of some materials.
+// Reason why the shaders do not find this scene's surfaces; empty: they do, except for those of some materials.
 std::string what_keeps_on_host(const Scene& scene, const DeviceInfo& device);
-// Those materials, a sentence each: tiles that show one are the host's.
+// One sentence for each of these materials: the host finds the tiles that show one.
 std::vector<std::string> materials_for_host(const Scene& scene);
 
 class SceneBuffers {
  public:
-  // The device must stay. Nothing is there yet.
+  // The device must outlive this object. The buffers are not filled yet.
   explicit SceneBuffers(const Device& device);
 
-  // Become those of a scene that nothing keeps on the host; what has changed of it is written. Computes pyramids that are not there.
+  // Updates the buffers to a scene that nothing keeps on the host; writes only changes. Computes missing pyramids.
   void follow(const Scene& scene, const MipMaps& maps);
 
   std::size_t triangle_count() const { return triangle_count_; }
@@ -29,14 +29,14 @@ class SceneBuffers {
   const Buffer& materials() const { return materials_.get(); }
   const Buffer& texels() const { return texels_.get(); }
   const Buffer& tables() const { return tables_.get(); }
-  // Whether some surface that the shaders find has what shaders/layers.glsl is about, or is unlit.
+  // Returns true if some surface that the shaders find has the features of shaders/layers.glsl, or is unlit.
   bool has_layers() const { return has_layers_; }
 
  private:
   std::size_t triangle_count_ = 0;
   bool has_layers_ = false;
   KeptBuffer vertices_, triangles_, materials_, texels_, tables_;
-  std::vector<std::shared_ptr<MipMaps::Pyramid>> pyramids_;  // that the texels are of
+  std::vector<std::shared_ptr<MipMaps::Pyramid>> pyramids_;  // pyramids of the texels
 };
 
 }  // namespace steradian::vulkan

@@ -9,7 +9,7 @@
 namespace steradian::vulkan {
 namespace {
 
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
 
 bool casts(const Mesh& mesh) { return !mesh.is_light_shape && mesh.casts_shadow && !mesh.indices.empty(); }
 bool is_cut_out(const Scene& scene, const Mesh& mesh) {

@@ -12,13 +12,13 @@ namespace steradian::vulkan {
 
 class SceneRays {
  public:
-  // Null where they take more than a buffer.
+  // Returns null if they exceed a buffer.
   static std::shared_ptr<const SceneRays> of(std::shared_ptr<const Device> device, const Scene& scene);
 
   const Device& device() const { return *device_; }
   const Buffer& hierarchy() const { return hierarchy_; }
 
-  // What the hierarchy's number of a triangle stands for.
+  // Triangle with a number in the hierarchy.
   struct Triangle {
     std::uint32_t mesh, triangle;
   };
@@ -32,7 +32,7 @@ class SceneRays {
   const std::vector<Triangle> triangles_;
 };
 
-// Whether all that casts a shadow casts it exactly: no cut-outs, which a device's rays do not know.
+// Returns true if all shadow casters cast exactly: no cut-outs, which a device's rays do not support.
 bool all_cast_exactly(const Scene& scene);
 
 }  // namespace steradian::vulkan

@@ -7,7 +7,7 @@
 
 namespace steradian::vulkan {
 
-// Of direct light: the diffuse lobe, GGX by each family of methods, sheen.
+// Direct light: the diffuse lobe, GGX by each family of methods, sheen.
 std::span<const std::uint32_t> diffuse_shader();
 std::span<const std::uint32_t> ltc_shader();
 std::span<const std::uint32_t> closed_form_shader();
@@ -15,18 +15,18 @@ std::span<const std::uint32_t> representative_point_shader();
 std::span<const std::uint32_t> sheen_shader();
 std::span<const std::uint32_t> ltc_clipless_shader();
 std::span<const std::uint32_t> half_vector_shader();
-// What lobes see of textured lights, and of those with a profile.
+// Means of textured lights, and of lights with a profile, for lobes.
 std::span<const std::uint32_t> texture_means_shader();
 std::span<const std::uint32_t> profile_means_shader();
 // Lobes of extras.steradian.
 std::span<const std::uint32_t> phong_lobe_shader();
 std::span<const std::uint32_t> arcs_lobe_shader();
-// What points see of lights behind edges; whether the way there is free.
+// Visible parts of lights behind edges, and the test that the way there is free.
 std::vector<std::span<const std::uint32_t>> shadow_shaders();
-// What arrives of round lights that something hides in part.
+// Light of partly occluded round lights.
 std::span<const std::uint32_t> shadow_shares_shader();
 
-// Of the bounce: what rays of the shadow map meet; lobes of virtual lights; boxes, culling, lighting, filter, resolve.
+// The bounce: first hits of the shadow map's rays; lobes of virtual lights; boxes, culling, lighting, filter, resolve.
 std::span<const std::uint32_t> bounce_rays_shader();
 std::span<const std::uint32_t> bounce_lobes_shader();
 std::vector<std::span<const std::uint32_t>> bounce_shaders();

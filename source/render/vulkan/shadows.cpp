@@ -13,16 +13,17 @@ namespace {
 #include "shaders/shadow_layout.glsl"
 
 constexpr std::size_t kVector = 4 * sizeof(std::uint32_t);
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
-// Of one search: work groups in a row, points whose parts fill a quarter of a buffer, lights and groups whose values fill half of one.
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
+// Limits of one search: work groups in a row, points whose parts fill a quarter of a buffer, lights and groups whose values fill half of
+// one.
 constexpr std::size_t kMostGroups = 65535, kMostPoints = 65536, kMostLights = 16384,
                       kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
-constexpr std::size_t kVectorsOfPart = 32;  // what a part takes, in the beginning
+constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
 constexpr int kMorePieces = 16;             // than segments
-// Segments, and pieces of them, of a subgroup for one point; the bytes of one of each in shared memory: shaders/shadow_lanes.glsl.
+// Limits of a subgroup for one point: segments, and pieces of them; bytes of one of each in shared memory (shaders/shadow_lanes.glsl).
 constexpr std::size_t kManySegments = 640, kSegmentBytes = 48;
 
-// As Answers of shaders/shadow_parts.comp.
+// Layout of Answers in shaders/shadow_parts.comp.
 struct AnswersHead {
   std::uint32_t parts_begin, parts_used, parts_room, first_many, many_groups[3], many;
 };
@@ -34,12 +35,12 @@ struct Answer {
 };
 static_assert(sizeof(AnswersHead) == 2 * kVector && sizeof(Answer) == kShadowAnswer * kVector);
 
-constexpr std::size_t kThreads = 64;  // of shaders/shadow_rays.comp
+constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow_rays.comp
 
 std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
-// What of a tile begins where among a batch's.
+// First places of a tile's data among those of a batch.
 struct Begin {
   std::size_t light = 0, point = 0, record = 0, row = 0, group = 0;
 };
@@ -59,7 +60,7 @@ struct Shadows::Batch {
 
   std::span<TileShadows> tiles;
   std::vector<Begin> begins;
-  std::vector<std::uint32_t> many;  // numbers of points before so many edges that no thread tries them
+  std::vector<std::uint32_t> many;  // numbers of points behind so many edges that no thread tries them
   Answer* answers = nullptr;        // by point
 };
 
@@ -107,7 +108,7 @@ void Shadows::upload(Batch& batch) {
                 batch.tiles[i].values.size() * sizeof(std::uint32_t));
 }
 
-// Returns how many vectors the parts' records want.
+// Returns the number of vectors that the parts' records need.
 std::size_t Shadows::search(Batch& batch) {
   const std::size_t count = batch.all().point, many = std::min(batch.many.size(), static_cast<std::size_t>(kMostMany));
   AnswersHead head{0, 0, number(parts().bytes() / kVector), number(count) * kShadowAnswer, {number(many), 1, 1}, number(many)};
@@ -145,7 +146,7 @@ std::size_t Shadows::search(Batch& batch) {
   return head.parts_used;
 }
 
-// Whether ways are free for which the device does not know it.
+// Traces on the host the rays that the device left undecided.
 void Shadows::trace(Batch& batch, const Each& each) {
   each(batch.tiles.size(), [&](std::size_t i) {
     constexpr std::size_t kRays = 16;
@@ -249,7 +250,7 @@ std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
       wanted += batch.tiles[i].records.size();
     }
     if (wanted * kVector > parts().bytes()) {
-      // Once more, with more room or fewer tiles.
+      // Try again with more capacity or fewer tiles.
       if (wanted * kVector > kLargestBuffer && count > 1)
         count /= 2;
       else

@@ -1,7 +1,7 @@
-// Shadows on a device: finds what points see of lights behind edges (shaders/shadow_parts.comp). One ray a point says whether that is free
-// (shaders/shadow_rays.comp, or the host's: also where a buffer has no room for the triangles, and where a walk through them does not end).
-// Points that a thread has no space for a subgroup finds (shaders/shadow_many.comp); those that neither has space for, or is not certain
-// about, the host.
+// Shadows on a device: finds the visible parts of lights behind edges (shaders/shadow_parts.comp). One ray per point tests that the part
+// is unoccluded, on the device (shaders/shadow_rays.comp) or on the host. The host's rays also serve if a buffer has no capacity for the
+// triangles, or if a traversal does not end. A subgroup handles points that exceed a thread's capacity (shaders/shadow_many.comp). The
+// host handles points that exceed both capacities or are uncertain.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ namespace steradian::vulkan {
 
 class Shadows {
  public:
-  // What is on the device, for any number of pictures, one after another. The device must stay.
+  // Objects on the device, for any number of pictures in turn. The device must outlive them.
   struct Kept {
     explicit Kept(const Device& device);
     const Device& device;
@@ -28,26 +28,26 @@ class Shadows {
     KeptBuffer groups, answers, parts, states;
   };
 
-  // Whether a device has what a subgroup for one point needs.
+  // Returns true if a device supports a subgroup per point.
   static bool finds_many_edges(const DeviceInfo& device);
 
-  // All must stay; parts: with edges. rays: null for the host's. many_edges: a subgroup each finds what points see behind many edges, for
-  // which the host finds it otherwise.
+  // All arguments must outlive this object; parts: with edges. rays: null for the host's. many_edges: true: a subgroup per point finds the
+  // visible parts behind many edges; else the host finds them.
   Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays, bool many_edges);
 
-  // Finds what the first tiles need, as many as buffers have room for, and says how many those are: at least one. Throws Error where one is
-  // too many. Calls each(count, work) for work in parallel.
+  // Finds the shadows of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
+  // one is too many. Calls each(count, work) for work in parallel.
   using Each = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
   std::size_t find(std::span<TileShadows> tiles, const Each& each);
 
-  // Of the tiles of the last find(), light after light: kTilePixels states each; and the parts' records.
+  // Results for the tiles of the last find(), light after light: kTilePixels states each; and the parts' records.
   const Buffer& states() const { return kept_.states.get(); }
   const Buffer& parts() const { return kept_.parts.get(); }
 
-  // Milliseconds of the device so far.
+  // Milliseconds on the device so far.
   double time() const { return time_; }
   double rays_time() const { return rays_time_; }
-  // Pairs of a surface and a light that the device has answered; of these, that see a part of the light.
+  // Pairs of a surface and a light that the device has answered, and how many of these see a part of the light.
   std::uint64_t points() const { return points_; }
   std::uint64_t found() const { return found_; }
 
@@ -64,7 +64,7 @@ class Shadows {
 
   Kept& kept_;
   const RayScene& rays_;
-  const SceneRays* const device_rays_;  // null: the host's
+  const SceneRays* const device_rays_;  // null: the host's rays
   const bool many_edges_;
   TileLighting& host_;
   double time_ = 0, rays_time_ = 0;

@@ -1,4 +1,4 @@
-// The CPU judges the device: what tests of whole frames put together and ask.
+// The CPU is the reference for the device: scenes and comparisons that tests of whole frames share.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,9 +26,9 @@ inline RenderOptions small(const std::string& method) {
   return options;
 }
 
-// Prints what is off, and where the most. The bound is what the back end promises (docs/vulkan.md): float's own error along an outline is
-// a hundredth of it. outliers: how many pixels may be off by more than a thousandth of the picture's mean, where a rounding changes how
-// many nodes or corners stand for a light; the bound is that of the others. Returns RenderStats::shadow_on_host.
+// Prints the error, and where it is largest. The bound is the back end's promise (docs/vulkan.md): float's own error along an outline is a
+// hundredth of it. outliers: number of pixels whose error may exceed a thousandth of the picture's mean. There, a rounding changes how
+// many nodes or corners represent a light. The bound is that of the others. Returns RenderStats::shadow_on_host.
 inline double expect_same(const std::string& name, const Scene& scene, RenderOptions options, int outliers = 0,
                           ManyEdgesBy many_edges = ManyEdgesBy::automatic) {
   options.backend = Backend::cpu;
@@ -88,15 +88,14 @@ inline PunctualLight punctual(PunctualKind kind, Vec3d position, Vec3d direction
 
 inline const Polygon kSquare{{{-1, 2.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 2.5, 1}}, {}};
 
-// How triangles lie about an axis: over a disk, each this large, at this height and up to that much above or below it.
+// Arrangement of triangles about an axis: over a disk, with this size, at this height and up to `slope` above or below it.
 struct Spread {
   double radius = 0.6, size = 0.1, height = 1.5, slope = 0.1;
 };
-// Of up to 250 triangles, none is before or behind another one, wherever they are seen from; and from all of the floor each is seen before
-// kSquare as a whole.
+// With up to 250 triangles, none overlaps another one from any viewpoint. From the whole floor, each is seen entirely in front of kSquare.
 inline constexpr Spread kFlatBeforeSquare{0.75, 0.03, 2.4, 0};
 
-// A floor under a light, and triangles between them, here and there.
+// A floor under a light, with scattered triangles in between.
 inline Scene under_triangles(int count, const Shape& light = kSquare, const Spread& spread = {}) {
   Scene scene;
   SurfaceMaterial floor;
@@ -109,7 +108,7 @@ inline Scene under_triangles(int count, const Shape& light = kSquare, const Spre
   scene.meshes = {scene::quad_mesh({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, 0), Mesh{}};
   Mesh& triangles = scene.meshes[1];
   for (int i = 0; i < count; ++i) {
-    const double turn = 2.399963 * i, away = spread.radius * std::sqrt((i + 0.5) / count);  // as seeds of a sunflower
+    const double turn = 2.399963 * i, away = spread.radius * std::sqrt((i + 0.5) / count);  // like the seeds of a sunflower
     for (int corner = 0; corner < 3; ++corner) {
       const double angle = turn + 2.1 * corner;
       triangles.indices.push_back(static_cast<std::uint32_t>(triangles.positions.size()));

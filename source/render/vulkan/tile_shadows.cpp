@@ -12,10 +12,10 @@ namespace {
 
 using shadow::Viewpoint;
 
-constexpr std::size_t kMostEdgesOfThread = 5120, kMostEdges = 20480, kMostIncidences = 1024;  // of a group: shaders/shadow_turns.glsl
-constexpr std::size_t kMostValues = std::size_t{1} << 23;                                     // of a tile: a quarter of a buffer
-constexpr std::uint32_t kMostNumber = 1 << 27;                                                // of a vertex or edge: names have 28 bits
-constexpr std::size_t kMostPlaces = 1 << 16;                                                  // of vertices and planes in a group
+constexpr std::size_t kMostEdgesOfThread = 5120, kMostEdges = 20480, kMostIncidences = 1024;  // per group: shaders/shadow_turns.glsl
+constexpr std::size_t kMostValues = std::size_t{1} << 23;                                     // per tile: a quarter of a buffer
+constexpr std::uint32_t kMostNumber = 1 << 27;                                                // vertex or edge: names have 28 bits
+constexpr std::size_t kMostPlaces = 1 << 16;                                                  // vertices and planes per group
 
 static_assert(std::tuple_size_v<decltype(TileShadows::Search::header)> == 4 * static_cast<std::size_t>(kShadowHeader));
 
@@ -26,7 +26,7 @@ std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 
 Vec4Floats with(Vec3f v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
-// Vectors of four, one after another.
+// Adds vectors of four, one after another.
 class Rows {
  public:
   explicit Rows(std::vector<std::uint32_t>& values) : values_(values) {}
@@ -77,7 +77,7 @@ void add_edges(const shadow::EdgeArrays& arrays, std::vector<std::uint32_t>& val
   rows.fill();
 }
 
-// The place of a point, what it asks, its horizons.
+// Adds a point's position, its flags and its horizons.
 void add_point(const LightSide& side, const Viewpoint& at, bool shares, std::vector<std::uint32_t>& values) {
   const shadow::LightFrame& frame = side.frame;
   const Vec3d local = frame.to_local(at.position), eye{local.x, local.y, -local.z};
@@ -106,7 +106,7 @@ void add_point(const LightSide& side, const Viewpoint& at, bool shares, std::vec
 using FourBits = std::array<std::uint32_t, 4>;
 FourBits with_bits(Vec3d v, double w) { return {bits(v.x), bits(v.y), bits(v.z), bits(w)}; }
 
-// 3, 4 and 5 of a header.
+// Vectors 3, 4 and 5 of a header.
 std::array<FourBits, 3> plane_of(const shadow::LightFrame& f) {
   return {with_bits(f.axes.x, f.half_x), with_bits(f.axes.y, f.half_y), with_bits(f.axes.z, -f.eta)};
 }
@@ -138,7 +138,7 @@ bool TileShadows::find(const Group& asked) {
   const shadow::EdgeArrays& edges = asked.edges;
   const shadow::LaneEdges all = edges.lane_edges();
   const std::vector<shadow::EdgeArrays::Triangle>& crossing = edges.crossing();
-  // A triangle takes half more turns of a thread's loops than an edge.
+  // A triangle takes one and a half times as many loop turns as an edge.
   const std::size_t turns = all.edge_count + crossing.size() + crossing.size() / 2;
   if (values.size() > kMostValues || turns > (many_edges_ ? kMostEdges : kMostEdgesOfThread)) return false;
   for (const auto& triangle : crossing)
@@ -153,7 +153,7 @@ bool TileShadows::find(const Group& asked) {
   for (std::size_t i = 0; i < all.more_count; ++i) incidences += all.more[i].count;
   if (incidences > kMostIncidences) return false;
 
-  // The sides, and whether their outlines are one.
+  // Collect the sides, and test if they share one outline.
   const std::size_t sides_before = sides.size();
   std::vector<Point> found;
   bool own_corners = false;
@@ -213,7 +213,7 @@ bool TileShadows::find(const Group& asked) {
   return true;
 }
 
-// Where the record begins.
+// Returns the place of the record.
 std::size_t TileShadows::add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b,
                                     const Vec4Floats& area) {
   records.insert(records.end(), {center, reach_a, reach_b, area});
@@ -242,7 +242,7 @@ std::size_t TileShadows::add_outline(const packed::Pieces& pieces, std::size_t p
   return begin;
 }
 
-// The state of a slot that sees it.
+// Returns the state of a slot that sees the part.
 std::uint32_t TileShadows::add_part(const TileShadow::Batch& batch, std::size_t point, Light& to) {
   const std::size_t begin = add_outline(batch.visible, point, batch.passes[point], to.edges);
   if (records[begin][3] == 0) return flag(kSeesNone);

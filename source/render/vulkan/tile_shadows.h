@@ -1,5 +1,5 @@
-// What of the shadows of a tile is a device's: how its lights reach the slots, as far as the host knows it, and the groups of points for
-// which the device finds out. Numbers as shaders/shadow_layout.glsl has them.
+// The device's part of a tile's shadows: visibility of its lights from the slots, as far as the host knows it, and groups of points for
+// the device to answer. Numbers are laid out as in shaders/shadow_layout.glsl.
 #pragma once
 
 #include <array>
@@ -12,13 +12,14 @@
 
 namespace steradian::vulkan {
 
-// Segments that a thread may have space for: shaders/shadow_turns.glsl says why not more. Last, what no thread by itself tries.
+// Capacities of a thread for segments: shaders/shadow_turns.glsl explains their limit. The last entry is for groups that no single thread
+// tries.
 inline constexpr int kMostSpace = 256, kManyEdges = 0;
 inline constexpr std::array<int, 5> kSpaces = {32, 64, 128, kMostSpace, kManyEdges};
 
 class TileShadows : public ShadowTaker {
  public:
-  // many_edges: groups behind more edges than a thread goes through are the device's as well.
+  // many_edges: true: the device also takes groups behind more edges than a thread handles.
   explicit TileShadows(bool many_edges) : many_edges_(many_edges) {}
 
   void clear();
@@ -26,14 +27,14 @@ class TileShadows : public ShadowTaker {
   bool find(const Group& group) override;
   void take(const PackLight& light, const TileShadow& shadow) override;
 
-  // Writes what some slots of a light see.
+  // Writes the visibility of a light from some slots.
   void set(std::size_t light, const std::vector<std::uint32_t>& slots, const TileShadow& shadow);
 
   struct Light {
     const PackLight* light;
-    std::array<std::uint32_t, kTilePixels> states{};  // records of parts: counted from the tile's first one
-    int edges = 0;                                    // most of a part
-    bool shares = false;                              // some part counts as a share of a polygon's
+    std::array<std::uint32_t, kTilePixels> states{};  // records of parts are counted from the tile's first one
+    int edges = 0;                                    // most edges of a part
+    bool shares = false;                              // some part counts as a fraction of a polygon's light
   };
   struct Point {
     std::uint32_t light, slot;
@@ -44,14 +45,14 @@ class TileShadows : public ShadowTaker {
   struct Search {
     std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
     std::size_t points;
-    int space;  // for segments: a thread's, or kManyEdges
+    int space;  // capacity for segments: a thread's, or kManyEdges
   };
   std::vector<Light> by_light;
-  std::vector<Vec4Floats> records;  // of parts
+  std::vector<Vec4Floats> records;  // records of parts
   std::vector<Search> groups;
-  std::vector<std::uint32_t> values;  // of groups
+  std::vector<std::uint32_t> values;  // data of groups
   std::vector<Point> points;
-  std::deque<LightSide> sides;  // that do not stay elsewhere
+  std::deque<LightSide> sides;  // sides that are not stored elsewhere
 
  private:
   bool many_edges_;

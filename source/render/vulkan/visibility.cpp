@@ -9,15 +9,15 @@ namespace steradian::vulkan {
 namespace {
 
 constexpr vk::Format kNumbers = vk::Format::eR32Uint, kDepths = vk::Format::eD32Sfloat;  // every device draws to both
-constexpr float kNearest = 1e-6f;                                                        // in metres; what is nearer is not drawn
+constexpr float kNearest = 1e-6f;                                                        // in metres; nearer geometry is not drawn
 
-// As visibility.vert has it.
+// Layout as in visibility.vert.
 struct Push {
   std::array<float, 4> origin, across, down, forward;
 };
 
 Push push_of(const CameraView& v, PixelPlace place) {
-  // Rasters look through the middle of a pixel: the picture is moved so that the place is there.
+  // Rasters look through the middle of a pixel: the picture is moved so that the sample's position is there.
   const auto row = [&](Vec3f step, int pixels, float at) {
     const Vec3f per_pixel = step * (2 / (static_cast<float>(pixels) * dot(step, step)));
     return std::array<float, 4>{per_pixel.x, per_pixel.y, per_pixel.z,
@@ -82,7 +82,7 @@ vk::raii::RenderPass make_render_pass(const vk::raii::Device& d) {
   using Access = vk::AccessFlagBits;
   const vk::PipelineStageFlags tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
   const vk::SubpassDependency dependencies[] = {
-      // What the last picture's copy has read may be drawn over.
+      // The picture may be drawn over once the last copy has read it.
       {VK_SUBPASS_EXTERNAL, 0, Stage::eTransfer | tests, Stage::eColorAttachmentOutput | tests, Access::eDepthStencilAttachmentWrite,
        Access::eColorAttachmentWrite | Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite},
       {0, VK_SUBPASS_EXTERNAL, Stage::eColorAttachmentOutput, Stage::eTransfer, Access::eColorAttachmentWrite, Access::eTransferRead}};
@@ -158,7 +158,7 @@ Visibility::Visibility(const Device& device) : device_(device), seen_(device), h
 
 Visibility::~Visibility() { device_.handles().leave(handles_); }
 
-// Pictures that are as wide and as high as any so far: drawn to is a corner of them.
+// Makes pictures as wide and as high as any so far; a corner of them is drawn to.
 void Visibility::fit(int width, int height) {
   seen_.fit(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(std::uint32_t));
   if (width <= width_ && height <= height_) return;

@@ -1,4 +1,4 @@
-// Which triangle every pixel sees, by raster.
+// The triangle that every pixel sees, found by raster.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace steradian::vulkan {
 
-// The camera as shaders have it.
+// The camera in the layout of shaders.
 struct CameraView {
   int width, height;
   Vec3f origin, corner, right, down, forward;  // a pixel's direction is corner + right x + down y, at distance 1 along `forward`
@@ -19,11 +19,11 @@ struct CameraView {
 
 class Visibility {
  public:
-  // For any number of pictures. The device must stay.
+  // Serves any number of pictures. The device must outlive this object.
   explicit Visibility(const Device& device);
   ~Visibility();
 
-  // Finds what is seen through one place of every pixel, and returns when it stands in seen(). Returns its milliseconds.
+  // Finds the triangles visible through one position of every pixel, and returns when they are in seen(). Returns its milliseconds.
   double draw(const SceneBuffers& scene, const CameraView& view, PixelPlace place);
   // By pixel, row by row: 0, or the triangle's number from 1.
   const Buffer& seen() const { return seen_.get(); }
@@ -34,7 +34,7 @@ class Visibility {
   struct Handles;
   const Device& device_;
   KeptBuffer seen_;
-  int width_ = 0, height_ = 0;  // that there is room for
+  int width_ = 0, height_ = 0;  // allocated size
   std::unique_ptr<Handles> handles_;
 };
 

@@ -6,7 +6,7 @@
 namespace steradian::scene {
 namespace {
 
-// Planes in the order of their angle, by the number of the one that they are like.
+// Planes in the order of their angle, each with the number of the measured plane that it equals.
 struct Planes {
   std::vector<double> angles;
   std::vector<std::size_t> like;
@@ -22,7 +22,7 @@ bool goes_round(const std::vector<double>& planes) {
   const double first = planes.front(), last = planes.back();
   if (planes.size() == 1) return true;
   if (first == 0) return last == 90 || last >= 180;
-  // Mirrored by the plane of 90 and 270 degrees: without the plane of 180 there is none of 0.
+  // The plane of 90 and 270 degrees mirrors the others, so without a plane of 180 there is no plane of 0.
   return first == 90 && last == 270 && std::find(planes.begin(), planes.end(), 180.0) != planes.end();
 }
 
@@ -40,7 +40,7 @@ void complete_circle(LightProfile& profile) {
     const std::size_t half = planes.angles.size();
     for (std::size_t i = half - 1; i-- > 0;) planes.add(360 - planes.angles[i], planes.like[i]);
   } else if (first == 90 && last == 270) {
-    // 180 is like 0.
+    // The plane of 180 also serves as that of 0.
     for (std::size_t i = n; i-- > 0;)
       if (given[i] <= 180) planes.add(180 - given[i], i);
     for (std::size_t i = 1; i < n; ++i) planes.add(given[i], i);

@@ -1,4 +1,4 @@
-// EULUMDAT: one entry a line, in a fixed order; intensities in candela per 1000 lumens of the lamps.
+// EULUMDAT: one entry per line, in a fixed order. Intensities are in candela per 1000 lumens of the lamps.
 #include <string>
 #include <vector>
 
@@ -38,7 +38,7 @@ class Lines {
     return result;
   }
 
-  // Remarks of companies may.
+  // True if a number follows. Remarks of companies may follow the data.
   bool a_number_follows() {
     double value = 0;
     while (!text_.at_end())
@@ -47,7 +47,7 @@ class Lines {
   }
 
  private:
-  // A decimal comma is as good as a point.
+  // A decimal comma counts as a decimal point.
   static bool read_number(std::string_view text, double& value) {
     std::string line(text);
     for (char& c : line)
@@ -61,7 +61,7 @@ class Lines {
   PhotometryText& text_;
 };
 
-// Isym, and which of the Mc planes the file holds: from the first, so many.
+// Isym, and the part of the Mc planes that the file holds: its first plane and the number of planes.
 enum class Symmetry { none, about_axis, by_0_180, by_90_270, by_both };
 struct Held {
   std::size_t first, count;
@@ -77,7 +77,7 @@ Held planes_held(Symmetry symmetry, std::size_t planes) {
   return {0, planes};
 }
 
-// Planes of 270 to 450 degrees, mirrored by that of 90 and 270: those of 90 to 270, in reverse.
+// Mirrors planes of 270 to 450 degrees at the plane of 90 and 270. They become those of 90 to 270, in reverse order.
 void turn_from_270_to_90(LightProfile& profile) {
   const std::vector<double> planes = std::move(profile.horizontal), candela = std::move(profile.candela);
   const std::size_t angles = profile.vertical.size();
@@ -105,7 +105,7 @@ LightProfile read_eulumdat(PhotometryText text) {
   const std::size_t sets = lines.count("the number of sets of lamps", 1, kMostLamps);
   LightProfile profile;
   for (std::size_t i = 0; i < sets; ++i) {
-    lines.skip(2);  // how many (below 0: measured absolutely), what
+    lines.skip(2);  // number of lamps (negative: absolute measurement), type
     profile.rated_lumens += lines.number("the lamps' lumens", 0, kLargestEntry);
     lines.skip(3);  // colour, rendering index, watts
   }

@@ -1,4 +1,4 @@
-// IES LM-63: some lines of text up to one that begins with TILT=, then numbers in a fixed order.
+// IES LM-63: some lines of text up to a line that begins with TILT=, then numbers in a fixed order.
 #include <cctype>
 #include <string>
 
@@ -7,7 +7,7 @@
 namespace steradian::scene {
 namespace {
 
-constexpr double kLargestFactor = 1e12;  // of lumens, candelas and factors
+constexpr double kLargestFactor = 1e12;  // limit of lumens, candelas and factors
 constexpr double kAnyNumber = 1e300;
 
 std::string upper_without_blanks(std::string_view text) {
@@ -17,7 +17,7 @@ std::string upper_without_blanks(std::string_view text) {
   return result;
 }
 
-// In small letters only as a whole: the lines before it may hold any words.
+// Accepts small letters only if they make up the whole line, because the lines before it may hold any words.
 bool is_tilt(std::string_view line) {
   while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
   if (line.starts_with("TILT=") || line.starts_with("TILT =")) return true;
@@ -25,7 +25,7 @@ bool is_tilt(std::string_view line) {
   return upper == "TILT=NONE" || upper == "TILT=INCLUDE";
 }
 
-// Pairs of angle and factor by which a tilted lamp dims: not for a lamp as it was measured.
+// Skips the pairs of angle and factor by which a tilted lamp dims. They do not apply to the lamp as measured.
 void skip_tilt(PhotometryText& text, std::string_view line) {
   if (upper_without_blanks(line) != "TILT=INCLUDE") return;
   text.number("the lamp's geometry", 1, 3);
@@ -33,7 +33,7 @@ void skip_tilt(PhotometryText& text, std::string_view line) {
   for (std::size_t i = 0; i < 2 * pairs; ++i) text.number("a tilt's angle or factor", -kLargestFactor, kLargestFactor);
 }
 
-// -90 to 90 where the file gives one half. Returns how many angles it had.
+// Mirrors the angles to -90 to 90 if the file gives one half. Returns the number of angles that it gave.
 std::size_t mirror(std::vector<double>& angles) {
   const std::size_t given = angles.size();
   if (angles.front() != 0 || given == 1) return given;
@@ -44,7 +44,7 @@ std::size_t mirror(std::vector<double>& angles) {
   return given;
 }
 
-// Writes the symmetry of type b out.
+// Expands the symmetry of type b.
 void complete_b(LightProfile& profile) {
   const std::vector<double> given = std::move(profile.candela);
   const std::size_t planes = mirror(profile.horizontal), angles = mirror(profile.vertical);
@@ -69,7 +69,7 @@ LightProfile read_ies(PhotometryText text) {
 
   LightProfile profile;
   const double lamps = text.number("the number of lamps", -kLargestFactor, kLargestFactor);
-  const double lumens = text.number("the lumens of a lamp", -1, kLargestFactor);  // -1: intensities are those of the whole luminaire
+  const double lumens = text.number("the lumens of a lamp", -1, kLargestFactor);  // -1: the intensities are those of the whole luminaire
   const double multiplier = text.number("the multiplier of intensities", 0, kLargestFactor);
   const std::size_t vertical = text.count("the number of vertical angles", 2, text.size());
   const std::size_t horizontal = text.count("the number of horizontal angles", 1, text.size());
@@ -80,12 +80,12 @@ LightProfile read_ies(PhotometryText text) {
   const double photometric = text.number("the ballast-lamp photometric factor", -kAnyNumber, kAnyNumber);
   text.number("the watts", -kAnyNumber, kAnyNumber);
   if (lumens > 0 && lamps > 0) profile.rated_lumens = lamps * lumens;
-  // In 2002 the third factor became "for future use", in 2019 a code of how the file was made.
+  // The third factor became "for future use" in 2002, and in 2019 a code of how the file was made.
   const bool is_factor = first.find("LM-63-2002") == first.npos && first.find("LM-63-2019") == first.npos && photometric > 0;
   const double factor = multiplier * ballast * (is_factor ? photometric : 1);
   if (!(factor <= kLargestFactor)) text.fail("the multipliers of intensities come to more than 1e12");
 
-  // Each intensity takes a digit and a blank: what the file cannot hold is not asked memory for.
+  // Each intensity takes at least a digit and a blank. So no memory is allocated for more intensities than the file can hold.
   if (vertical * horizontal > text.size())
     text.fail(std::to_string(vertical) + " vertical times " + std::to_string(horizontal) +
               " horizontal angles are more than the file holds");

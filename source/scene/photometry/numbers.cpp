@@ -10,7 +10,7 @@ namespace steradian::scene {
 namespace {
 
 constexpr std::size_t kLongestQuoted = 30;
-constexpr char kEndOfFile = 0x1a;  // of DOS
+constexpr char kEndOfFile = 0x1a;  // the end mark of DOS
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\0' || c == kEndOfFile || c == '\f' || is_line_end(c); }

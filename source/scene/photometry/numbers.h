@@ -1,4 +1,4 @@
-// The texts of photometric files: lines with their numbers, and numbers with the line that they stand in.
+// Readers for the text of photometric files: lines with their numbers, and numbers with the line that they stand on.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ class PhotometryText {
   PhotometryText(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
 
   bool at_end() const { return at_ >= text_.size(); }
-  std::string_view line();  // the next one, without its end
+  std::string_view line();  // the next line, without its end
   std::size_t line_number() const { return number_; }
 
   // The next number, on this line or a later one, between blanks and commas. what: "a vertical angle", for messages.
@@ -21,7 +21,7 @@ class PhotometryText {
   std::size_t count(const std::string& what, std::size_t low, std::size_t high);
   std::vector<double> rising_numbers(const std::string& what, std::size_t size, double low, double high);
   void check_range(const std::string& what, double value, double low, double high) const;
-  // Whether nothing but blanks follows, and the end mark of old systems.
+  // True if only blanks and the end mark of old systems follow.
   bool nothing_follows();
 
   std::size_t size() const { return text_.size(); }
@@ -34,13 +34,13 @@ class PhotometryText {
   std::string_view text_;
   std::string name_;
   std::size_t at_ = 0, number_ = 1;
-  std::size_t last_line_ = 1;  // of what was read last
+  std::size_t last_line_ = 1;  // line of the last token read
 };
 
-// What is printed of a stranger's text.
+// Shortens and cleans a text from a file for a message.
 std::string quoted(std::string_view text);
 
-// The number that all of a text is, blanks around it aside; where it is none, false.
+// Reads a text that is one number with optional blanks around it. Returns false for any other text.
 bool read_whole_number(std::string_view text, double& value);
 
 }  // namespace steradian::scene

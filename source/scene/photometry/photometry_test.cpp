@@ -1,4 +1,4 @@
-// Files written here from the layouts of the standards, against the functions that they tabulate.
+// Files written here by the layouts of the standards, compared with the functions that they tabulate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ Vec3d direction_c(double v, double h) {
   return {std::sin(v * kDegree) * std::cos(h * kDegree), std::sin(v * kDegree) * std::sin(h * kDegree), std::cos(v * kDegree)};
 }
 
-// Of a lamp that is its own mirror image by both planes.
+// Intensity of a lamp that is symmetric about both planes.
 double oval(double v, double h) {
   return 10 + 50 * std::pow(std::cos(v * kDegree / 2), 2) + 20 * std::sin(v * kDegree) * std::cos(2 * h * kDegree);
 }
@@ -70,7 +70,7 @@ TEST(LightProfile, AnswersWhatWasMeasured) {
   EXPECT_EQ(lambert.rated_lumens, 1000);
 }
 
-// Files may have other values there in every plane; roundings of a direction must not choose among them.
+// Files may have different values at the poles in every plane. Roundings of a direction must not choose among them.
 TEST(LightProfile, PolesHaveTheFirstPlanesValue) {
   LightProfile c;
   c.vertical = {0, 90, 180};
@@ -117,7 +117,7 @@ TEST(LightProfile, PlanesRunCounterClockwise) {
   EXPECT_NEAR(intensity(profile, direction_c(60, 270)), 100 + 90 * 270 / 2, 1e-3);
 }
 
-// The polar axis of type b lies across: the vertical angle turns about it, the horizontal one leads to it.
+// The polar axis of type b is horizontal. The vertical angle turns about it; the horizontal angle is measured towards it.
 Vec3d direction_b(double v, double h) {
   return {std::cos(h * kDegree) * std::sin(v * kDegree), -std::sin(h * kDegree), std::cos(h * kDegree) * std::cos(v * kDegree)};
 }
@@ -142,7 +142,7 @@ TEST(LightProfile, TypeBTurnsAboutTheHorizontalAxis) {
     for (double h = -88; h < 90; h += 9) EXPECT_NEAR(intensity(quarter, direction_b(v, h)), intensity(even, direction_b(v, h)), 1e-9);
 }
 
-// Midpoints over the sphere; the integrand bends where angles were measured, so the error is of the order of a step's square.
+// Midpoint rule over the sphere. The integrand has kinks at the measured angles, so the error is of the order of a step's square.
 double flux_by_quadrature(const LightProfile& profile) {
   constexpr int kZ = 3000, kPhi = 720;
   double sum = 0;
@@ -160,7 +160,7 @@ TEST(LightProfile, FluxIsTheIntegralOfTheIntensity) {
   Ies fine;
   fine.vertical = steps(0, 90, 0.5);
   EXPECT_NEAR(luminous_flux(read(fine)), 100 * std::numbers::pi,
-              100 * std::numbers::pi * 2e-5);  // of the chords of a cosine in steps of 0.5 degrees: 6e-6
+              100 * std::numbers::pi * 2e-5);  // chords of a cosine in steps of 0.5 degrees: 6e-6
   Ies c;
   c.vertical = steps(0, 180, 15);
   c.horizontal = steps(0, 90, 22.5);
@@ -173,7 +173,7 @@ TEST(LightProfile, FluxIsTheIntegralOfTheIntensity) {
   for (const Ies& ies : {c, b}) {
     const LightProfile profile = read(ies);
     const double flux = luminous_flux(profile);
-    // A profile that ends before its edge is dark has a jump there: of a point in 720, or in 3000.
+    // A profile that ends before its edge is dark has a jump there. The jump is off by a point in 720, or in 3000.
     EXPECT_NEAR(flux, flux_by_quadrature(profile), (ies.type == 1 ? 1e-5 : 1e-3) * flux);
   }
 }
@@ -195,7 +195,7 @@ TEST(Ies, EveryVersionIsRead) {
   EXPECT_EQ(intensity(read(Ies{}.text() + "\n \x1a"), {0, 0, 1}), middle);
 }
 
-// What each version may have before its numbers and among them; of both types.
+// The optional parts of each version before its numbers and among them, for both types.
 TEST(Ies, EveryVersionIsReadInBothTypes) {
   const char* heads[] = {
       "A LAMP OF 1986: lines of text\nthat may hold anything, [BRACKETS] and what looks like TILT=NONE within\nTILT=NONE\n",
@@ -217,7 +217,7 @@ TEST(Ies, EveryVersionIsReadInBothTypes) {
       ASSERT_EQ(profile.type, type == 1 ? LightProfile::Type::c : LightProfile::Type::b) << head;
       const Vec3d aside = type == 1 ? direction_c(30, 45) : direction_b(30, 45);
       EXPECT_NEAR(intensity(profile, aside), ies.candela(30, 45), 1e-4) << head << type;
-      // Each number on a line of its own, or between tabs and commas, is the same file.
+      // A file with each number on its own line, or with tabs and commas between them, is the same file.
       std::string lines = ies.text(), commas = lines;
       const std::size_t numbers_begin = lines.rfind("2 0.1 0.2 0\n");
       for (std::size_t i = numbers_begin; i < lines.size(); ++i)
@@ -227,7 +227,7 @@ TEST(Ies, EveryVersionIsReadInBothTypes) {
     }
 }
 
-// Planes from 90 to 270, which 1995 brought, and halves of type C that begin below or above.
+// Planes from 90 to 270, which the version of 1995 introduced, and halves of type C that begin below or above.
 TEST(Ies, LampsThatShineUpOrDownAlone) {
   Ies up;
   up.vertical = steps(90, 180, 15);
@@ -245,7 +245,7 @@ TEST(Ies, FactorsMultiply) {
   Ies ies;
   ies.factors = "2 500 3";
   ies.ballast = "0.5 0.8 30";
-  EXPECT_NEAR(intensity(read(ies), {0, 0, 1}), 150, 1e-4);  // since 2002 the third factor is none
+  EXPECT_NEAR(intensity(read(ies), {0, 0, 1}), 150, 1e-4);  // since 2002 the third factor is ignored
   EXPECT_EQ(read(ies).rated_lumens, 1000);
   ies.head = "IESNA:LM-63-1995\nTILT=NONE\n";
   EXPECT_NEAR(intensity(read(ies), {0, 0, 1}), 120, 1e-4);
@@ -284,7 +284,7 @@ TEST(Eulumdat, EverySymmetryIsRead) {
   for (int symmetry = 0; symmetry <= 4; ++symmetry) {
     Ldt ldt;
     ldt.symmetry = symmetry;
-    // Of each symmetry, a lamp that has it and no other.
+    // For each symmetry, a lamp that has this symmetry and no other.
     if (symmetry == 0) ldt.per_klm = [](double v, double h) { return oval(v, h) + h; };
     if (symmetry == 1) ldt.per_klm = [](double v, double) { return 100 + v; };
     if (symmetry == 2) ldt.per_klm = [](double v, double h) { return oval(v, h) + 30 + 30 * std::cos(h * kDegree); };
@@ -327,12 +327,12 @@ TEST(Ies, BadFilesAreRefusedWithTheirLine) {
   refused(head + "1 1000 1 2 1 3 2 0 0 0", 3, "type A");
   refused(head + "1 1000 1 2 1 4 2 0 0 0", 3, "the type of photometry is 4");
   refused(head + "1 1000 1 2.5 1 1 2 0 0 0", 3, "not a whole number");
-  refused(head + "1 1000 1 900 900 1 2 0 0 0\n1 1 30\n", 3, "is 900");  // more than the file has characters
+  refused(head + "1 1000 1 900 900 1 2 0 0 0\n1 1 30\n", 3, "is 900");  // more than the characters of the file
   refused(head + "1 1000 1 20 20 1 2 0 0 0\n1 1 30\n", 4, "more than the file holds");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n90 0\n0\n1 1\n", 5, "0 follows 90");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n0 190\n0\n1 1\n", 5, "is 190");
   refused(head + "1 1000 1 2 2 1 2 0 0 0\n1 1 30\n0 90\n20 50\n1 1\n1 1\n", 6, "horizontal angles");
-  refused(head + "1 1000 1 2 2 1 2 0 0 0\n1 1 30\n0 90\n90 270\n1 1\n1 1\n", 6, "horizontal angles");  // without that of 180
+  refused(head + "1 1000 1 2 2 1 2 0 0 0\n1 1 30\n0 90\n90 270\n1 1\n1 1\n", 6, "horizontal angles");  // without the plane of 180
   refused(head + "1 1000 1 2 1 2 2 0 0 0\n1 1 30\n0 90\n0\n1 1\n", 6, "type B has one horizontal angle");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n0 90\n0\n1\n", 8, "the file ends where an intensity");
   refused(head + "1 1000 1 2 1 1 2 0 0 0\n1 1 30\n0 90\n0\n1 -1\n", 7, "is -1");
@@ -369,7 +369,7 @@ TEST(LightProfile, LimitsAreKept) { EXPECT_THROW(read_light_profile_from_memory(
 
 // ---- In a scene --------------------------------------------------------------------------------------------------
 
-// A white floor of 8 m, a lamp 2 m above it that shines more to its x than to its y, a camera that looks straight down.
+// A white floor of 8 m, and a lamp 2 m above it that shines more along its x than along its y. The camera looks straight down.
 LoadedScene lit_floor(const nlohmann::json& rotation) {
   Ies lamp;
   lamp.horizontal = steps(0, 90, 15);
@@ -391,7 +391,7 @@ LoadedScene lit_floor(const nlohmann::json& rotation) {
   return load_scene(f.write("ies.gltf"));
 }
 
-// Straight down from -z: a turn about x by -90 degrees, after one about z by `turn`.
+// Turns -z straight down: a rotation about x by -90 degrees, after one about z by `turn`.
 nlohmann::json downwards(double turn) {
   const double s = std::sqrt(0.5), c = std::cos(turn / 2), q = std::sin(turn / 2);
   return {-s * c, s * q, s * q, s * c};  // (-s, 0, 0, s) times (0, 0, q, c)
@@ -408,7 +408,7 @@ TEST(IesInAScene, LightsAFloorByItsIntensity) {
     RenderOptions options;
     options.width = options.height = 31;
     const Picture picture = render(loaded.scene, options);
-    options.method = "sampled";  // its own way to the light, in double
+    options.method = "sampled";  // a separate path to the light, in double
     const Picture judged = render(loaded.scene, options);
     double largest = 0;
     for (int y = 0; y < 31; ++y)
@@ -417,7 +417,8 @@ TEST(IesInAScene, LightsAFloorByItsIntensity) {
         const double d2 = dot(from, from), cosine = 2 / std::sqrt(d2);
         const double v = std::acos(cosine), h = std::atan2(-p.z, p.x) - turn;
         const double candela = 2 * (100 + 40 * std::cos(2 * h) * std::sin(v)), want = candela * cosine / d2 / std::numbers::pi;
-        // Linear between planes 15 degrees apart: a chord of cos 2h is off by (0.26)^2 / 2 of 40; of sin v by far less.
+        // The profile is linear between planes 15 degrees apart. A chord of cos 2h is off by (0.26)^2 / 2 of 40, a chord of sin v by far
+        // less.
         EXPECT_NEAR(static_cast<double>(picture.at(x, y).x), want, 0.03 * want) << x << " " << y;
         EXPECT_NEAR(picture.at(x, y).y, picture.at(x, y).x / 2, 1e-5);
         EXPECT_NEAR(picture.at(x, y).x, judged.at(x, y).x, 2e-5f * judged.at(x, y).x);

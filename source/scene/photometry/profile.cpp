@@ -6,7 +6,7 @@
 namespace steradian {
 namespace {
 
-// Symmetries written out take four times the file's numbers, each of eight bytes, of at least two in the file.
+// Expanded symmetries take four times the file's numbers. Each number takes eight bytes in memory and at least two in the file.
 constexpr std::uint64_t kBytesAByte = 32;
 
 bool has_tilt(std::string_view text) {
@@ -22,7 +22,7 @@ LightProfile read_light_profile_from_memory(std::string_view bytes, const std::s
   budget.take_memory(name, "its intensities", bytes.size() * kBytesAByte);
   const scene::PhotometryText text(bytes, name);
   LightProfile profile = ends_with_ldt(name) && !has_tilt(bytes) ? scene::read_eulumdat(text) : scene::read_ies(text);
-  // Within the range of the single precision that packs carry, times a distance of a millimetre.
+  // The limit keeps intensities times a distance of a millimetre within the single precision of packs.
   for (const double candela : profile.candela)
     if (candela > 1e30) throw Error(name, "an intensity is more than 1e30 candela");
   return profile;

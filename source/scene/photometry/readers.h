@@ -11,10 +11,11 @@ namespace steradian::scene {
 LightProfile read_ies(PhotometryText text);
 LightProfile read_eulumdat(PhotometryText text);
 
-// Whether rising angles of planes of type c stand for a circle: one alone, 0 to 90, 0 to 180, 0 to more, or 90 to 270 with 180.
+// True if rising angles of planes of type c cover a circle: one alone, 0 to 90, 0 to 180, 0 to more, or 90 to 270 with 180.
 bool goes_round(const std::vector<double>& planes);
 
-// Writes the symmetry of type c out to the whole circle. profile.horizontal: the planes that profile.candela holds, which go round.
+// Expands the symmetry of type c to the whole circle. profile.horizontal: the planes that profile.candela holds; goes_round must be true
+// for them.
 void complete_circle(LightProfile& profile);
 
 }  // namespace steradian::scene

@@ -1,4 +1,4 @@
-// Calls into the layers that stand on packages; what it prints is what examples/cpp prints first.
+// Calls the layers that depend on packages. Its output equals the first output of examples/cpp.
 #include <steradian/steradian.h>
 
 #include <cstdio>

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-// What the project uses of oneTBB, by std::thread, for the preset tsan alone. Debian's library is built without ThreadSanitizer, which
-// then takes every hand-over of work between its threads for a race. A loop starts its threads and joins them: what it may rely on is
-// what TBB promises, that all before it is seen inside and all inside is seen after it.
+// The parts of oneTBB that the project uses, implemented by std::thread, for the preset tsan alone. Debian's library is built without
+// ThreadSanitizer, which then reports every hand-over of work between its threads as a race. A loop starts its threads and joins them. It
+// relies only on TBB's guarantee: all before the loop is visible inside, and all inside is visible after it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 namespace tbb {
 
@@ -23,7 +23,7 @@ inline int default_concurrency() { return std::max(2, static_cast<int>(std::thre
 }  // namespace info
 
 namespace threads {
-inline thread_local int width = 0;  // of the arena that this thread is in; 0: of none
+inline thread_local int width = 0;  // width of this thread's arena; 0: no arena
 inline thread_local bool at_work = false;
 }  // namespace threads
 
@@ -47,7 +47,7 @@ class task_arena {
   int width_;
 };
 
-// Nothing but starting and joining orders the threads: the next index is taken without (relaxed). A loop in a loop runs on its thread.
+// Only starting and joining order the threads: the next index is taken without ordering (relaxed). A nested loop runs on its thread.
 template <typename Index, typename Work, typename... Partitioner>
 void parallel_for(Index begin, Index end, const Work& work, const Partitioner&...) {
   if (begin >= end) return;
@@ -83,7 +83,7 @@ class enumerable_thread_specific {
   template <typename Make>
   explicit enumerable_thread_specific(Make make) : make_(std::move(make)) {}
 
-  // A thread comes to its own without a lock, which would order what the loops do between.
+  // A thread gets its own element without a lock, because a lock would order the loops' accesses.
   T& local() {
     thread_local std::map<int, T*> own;
     T*& mine = own[number_];
