@@ -1,6 +1,6 @@
-// Arcs of great circles in half vectors' space, and the slivers that they leave of an edge's image: as source/integrals/half_vector.h.
+// Arcs of great circles in half vectors' space, and the slivers between them and an edge's image. Mirrors source/integrals/half_vector.h.
 //
-// A shader defines before: ARC_SUM, the type of what is summed, share_of_arc(view, a, b) and share_at(view, h), of a steradian.
+// A shader defines before: ARC_SUM, the type of the sums, share_of_arc(view, a, b), and share_at(view, h) for each steradian.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 const int SPLITS = QUALITY == 2 ? 8 : 3 + QUALITY;
 const int kSliverNodes = 4;

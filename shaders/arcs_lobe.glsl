@@ -1,4 +1,4 @@
-// Beckmann's and Blinn-Phong's lobes by arcs of half vectors: as source/integrals/half_vector.h.
+// Beckmann's and Blinn-Phong's lobes by arcs of half vectors. Mirrors source/integrals/half_vector.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 const bool BECKMANN = LOBE_FORM == 1;
@@ -16,7 +16,7 @@ float share_at(GgxView view, vec3 h) {
 }
 #include "arcs.glsl"
 
-// The lobe in a direction, for light of one and for a small light's elements.
+// Value of the lobe in a direction; used for light from one direction and for the elements of a small light.
 float arcs_lobe_at(GgxView view, vec3 l) {
     vec3 h = microfacet_half_vector(l, view.v);
     float d = BECKMANN ? beckmann_distribution(h, view.ax, view.ay) : blinn_phong_distribution(h, arcs_lobe.exponent);
@@ -33,7 +33,7 @@ float arcs_over_outline(Light light, Seen seen, mat3 frame, vec3 p, GgxView view
     return half_vector_radiance(view, sum, seen.reversed ? -1.0 : 1.0);
 }
 
-// Radiance towards the view of a light of radiance 1.
+// Radiance towards the view from a light of radiance 1.
 float own_radiance(Light light, vec3 p, vec3 n, vec3 v, vec3 tangent, OwnLobe own) {
     arcs_lobe = own;
     mat3 frame = frame_from_normal_and_view(n, tangent_of(own, tangent));

@@ -1,16 +1,16 @@
-// The bounce: what its passes share. A thread a block, a tile's word of lights, or a pixel.
+// Declarations that all passes of the bounce share. A thread handles a block, a tile's word of lights, or a pixel.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "bounce_layout.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Positions { vec4 positions[]; };  // and alpha
-layout(std430, binding = 1) readonly buffer Normals { vec4 normals[]; };      // zero without a surface; and F90's red, ...
+layout(std430, binding = 1) readonly buffer Normals { vec4 normals[]; };      // zero without a surface; w: F90's red, ...
 layout(std430, binding = 2) readonly buffer Views { vec4 views[]; };          // ... green
 layout(std430, binding = 3) readonly buffer F0s { vec4 f0s[]; };              // ... and blue
 layout(std430, binding = 4) readonly buffer Albedos { vec4 albedos[]; };
 layout(std430, binding = 5) buffer Diffuse { vec4 diffuse_light[]; };
 layout(std430, binding = 6) buffer Glossy { vec4 glossy_light[]; };
-layout(std430, binding = 7) buffer DiffuseRows { vec4 diffuse_rows[]; };  // filtered along x; at last the radiance
+layout(std430, binding = 7) buffer DiffuseRows { vec4 diffuse_rows[]; };  // filtered along x; finally the radiance
 layout(std430, binding = 8) buffer GlossyRows { vec4 glossy_rows[]; };
 layout(std430, binding = 9) readonly buffer Lights { vec4 lights[]; };
 layout(std430, binding = 10) buffer Masks { uint masks[]; };
@@ -21,7 +21,7 @@ layout(push_constant) uniform Push { uint step; };
 
 int parameter(int place) { return int(parameters[place]); }
 
-// The pixel of a tile's receiver (source/render/indirect/receivers.h, Layout); outside of the picture: x < 0.
+// Pixel of a tile's receiver (source/render/indirect/receivers.h, Layout). x is negative outside of the picture.
 ivec2 pixel_of(int set, int tile, int receiver) {
     int block = receiver / 16;
     int tiles_x = parameter(kTilesX);

@@ -1,4 +1,4 @@
-// Bounds of the surfaces of a block (step 0), and of a tile's blocks (step 1), a thread each.
+// Computes the bounds of the surfaces of a block (step 0), and of a tile's blocks (step 1), a thread each.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -40,7 +40,7 @@ void main() {
         boxes[to] = vec4(0.0, 0.0, 0.0, 1.0);
         return;
     }
-    // A little wider than the points: the bounds are computed in float.
+    // The boxes are slightly wider than the points: the bounds are computed in float.
     vec3 center = 0.5 * (high + low);
     float slack = 1.0e-6 * dot(abs(center), vec3(1.0));
     boxes[to] = vec4(center, 0.0);

@@ -1,5 +1,5 @@
-// Which virtual lights can matter to a tile's blocks: a thread looks at 32 of the tile's set, against the tile, then against its blocks.
-// The tests are those of source/render/indirect/cull_pack.cpp.
+// Finds the virtual lights that can matter to a tile's blocks. A thread tests 32 of the tile's set against the tile, then against its
+// blocks. The tests are those of source/render/indirect/cull_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -48,7 +48,7 @@ bool spheroid_reaches(int light, Box box) {
     vec3 q = vec3(x.w - dot(x.xyz, box.center), y.w - dot(y.xyz, box.center), z.w - dot(z.xyz, box.center));
     float wz = kBallAlong * q.z + kBallCenter;
     float deep = kBallAlong * dot(abs(z.xyz), box.extent);
-    float highest = wz + deep + 1.0e-6 * (abs(z.w) + 1.0);  // what float leaves of a difference
+    float highest = wz + deep + 1.0e-6 * (abs(z.w) + 1.0);  // plus the rounding of a difference
     if (!(highest > 0.0 && dot(n, box.center) + dot(abs(n), box.extent) > lights[light + 6].w)) return false;
     float q2 = dot(q, q);
     float gap = q2 - dot(abs(x.xyz * q.x + y.xyz * q.y + z.xyz * q.z), box.extent);

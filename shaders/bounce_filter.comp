@@ -1,11 +1,11 @@
-// The filter that joins what the pixels of a pattern found, along rows (step 0), then along columns (step 1); a thread a pixel.
-// The same as source/render/indirect/filter_pack.cpp.
+// Filter that joins the results of a pattern's pixels, along rows (step 0), then along columns (step 1); a thread a pixel.
+// Mirrors source/render/indirect/filter_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "bounce.glsl"
 
-const float kEnough = 0.6;     // share of the weights
+const float kEnough = 0.6;     // fraction of the weights
 const float kRounding = 1e-5;  // a hundredth of a millimetre
 
 float tap_weight(int kind, int tap) {
@@ -13,7 +13,7 @@ float tap_weight(int kind, int tap) {
     return uintBitsToFloat(parameters[kSets + sets * kSet + kind * kTaps + tap + kTaps / 2]);
 }
 
-// Alpha of the glossy lobe, -1 without one.
+// Alpha of the glossy lobe, or -1 without one.
 float width_at(int i) {
     vec4 f0 = f0s[i];
     return f0.x + f0.y + f0.z + normals[i].w > 0.0 ? positions[i].w : -1.0;
@@ -26,7 +26,8 @@ struct Sums {
     float glossy_weight;
 };
 
-// When a tap belongs to the same surface: least cosine of the normals, most distance from the plane over the tap's, difference of widths.
+// Sums over the taps on the same surface. like holds the limits: least cosine of the normals, greatest distance from the plane over the
+// tap's distance, greatest relative difference of widths.
 Sums gather(int i, ivec2 pixel, vec3 like) {
     vec3 n = normals[i].xyz;
     vec3 p = positions[i].xyz;
@@ -56,7 +57,7 @@ Sums gather(int i, ivec2 pixel, vec3 like) {
 }
 
 vec3 over(vec3 sum, float weight) { return sum / max(weight, 1.0e-12); }
-// The mean of what was found; what it lacks to be enough, from the others.
+// Mean of the sum. If its weight is less than kEnough, the others supply the rest.
 vec3 joined(vec3 sum, float weight, vec3 others, float others_weight) {
     float lack = max(kEnough - weight, 0.0);
     return over(sum + over(others, others_weight) * lack, weight + lack);
@@ -71,7 +72,7 @@ void main() {
     if (n != vec3(0.0)) {
         ivec2 pixel = ivec2(i % parameter(kWidth), i / parameter(kWidth));
         Sums same = gather(i, pixel, vec3(0.9, 0.05, 0.2));
-        // What is let in where so little is found that the pattern would be seen, at edges.
+        // Looser sums, for edges: there the strict ones find so little that the pattern would be visible.
         Sums loose = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
         if (same.diffuse_weight < kEnough || (width_at(i) > 0.0 && same.glossy_weight < kEnough))
             loose = gather(i, pixel, vec3(0.3, 0.7, 0.5));

@@ -1,7 +1,7 @@
-// Algorithm 2 of Xia et al. 2023, its second pass: the light of a pixel's virtual lights, a thread a receiver, its block's lights in turn.
+// Algorithm 2 of Xia et al. 2023, second pass: light from virtual lights at each pixel. A thread handles a receiver and its block's lights.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
-// What source/render/indirect/lighting_pack.cpp does on packs; light is demodulated as there.
+// Mirrors source/render/indirect/lighting_pack.cpp, which runs on packs; light is demodulated as there.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "bounce.glsl"
@@ -9,7 +9,7 @@
 #include "bounce_lobe.glsl"
 
 layout(constant_id = 2) const int GGX_LOBES = 0;
-// Of a tile's receivers: some have a glossy lobe; some are sharp, and see virtual lights as quads.
+// Choices for a tile's receivers: some have a glossy lobe; some are sharp, and see virtual lights as quads.
 layout(constant_id = 3) const int ANY_GLOSSY = 1;
 layout(constant_id = 4) const int ANY_QUADS = 0;
 const bool GGX = GGX_LOBES == 1;
@@ -23,7 +23,7 @@ struct Receiver {
     bool glossy;
     bool sharp;
     IndirectLobe lobe;
-    mat3 frame;  // of GGX, as all below
+    mat3 frame;  // GGX only, like all below
     vec3 view;
     float alpha;
     vec3 f0;
@@ -33,7 +33,7 @@ struct Receiver {
 vec3 diffuse_sum;
 vec3 glossy_sum;
 
-// The integral over the quad in place of the lobe's value at its middle.
+// Integral over the quad, instead of the lobe's value at its middle.
 float quad_half(Receiver at, vec3 normal, vec3 edge_x, vec3 edge_y, float inverse_area, vec3 v, float d2, float soft, float rarity) {
     float grow = sqrt(rarity);
     vec3 ex = edge_x * grow;
@@ -65,7 +65,8 @@ void add_pair(Receiver at, vec3 v, float d2, float inverse, float kept, float va
     }
     float through = indirect_glossy_half(at.lobe, v, d2, 0.0);
     if (QUADS && at.sharp) {
-        // Only where the quad is no speck in the lobe's own space: the lobe is as good as constant there. Nor seen edge-on: lighting_pack.cpp.
+        // Only if the quad is not tiny in the lobe's own space: over a tiny quad, the lobe is nearly constant. Also not if the quad is seen
+        // edge-on: lighting_pack.cpp.
         vec3 w = indirect_under(at.lobe, v);
         float facing = dot(light_normal, v);
         if (size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > d2 * 1.0e-6)

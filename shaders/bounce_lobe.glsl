@@ -1,4 +1,4 @@
-// Lobes from the compact table (source/render/indirect/lobe_pack.h). Its nodes are in `tables`: matrices, then magnitudes.
+// Lobes from the compact table (source/render/indirect/lobe_pack.h). `tables` holds its nodes: matrices, then magnitudes.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 layout(constant_id = 0) const int MATRIX_SIZE = 2;
@@ -18,7 +18,7 @@ vec4 look_up_magnitude(float roughness, float cosine) {
     return look_up(MATRIX_SIZE * MATRIX_SIZE, MAGNITUDE_SIZE, ltc_coordinates(roughness, cosine));
 }
 
-// x along the view, z the normal.
+// Matrix of the lobe in a frame with x along the view and z the normal.
 LtcMatrix lobe_matrix(vec3 normal, vec3 view, mat3 frame, float alpha) {
     float cosine = dot(normal, view);
     vec3 local = vec3(dot(frame[0], view), 0.0, cosine);

@@ -1,4 +1,4 @@
-// Algorithm 2 of Xia et al. 2023, its first pass: the lobe of each texel of the shadow map for the light that comes in, a thread a texel.
+// Algorithm 2 of Xia et al. 2023, first pass: the lobe of each texel of the shadow map for the incoming light, a thread a texel.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// What the rays of a shadow map meet first, a thread a ray.
+// Finds the first triangle that each ray of a shadow map meets, a thread a ray.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

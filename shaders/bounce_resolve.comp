@@ -1,4 +1,4 @@
-// Radiance of every pixel from its demodulated light, a thread a pixel.
+// Computes the radiance of every pixel from its demodulated light, a thread a pixel.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -19,7 +19,7 @@ vec3 polygon_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     return polygon_irradiance_vector(walk, seen.reversed);
 }
 
-// Irradiance vector of radiance 1 in the frame; its z is the irradiance, in [0, pi].
+// Irradiance vector from a light of radiance 1, in the frame; its z is the irradiance, in [0, pi].
 vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     vec3 e;
     float least_distance2 = 500.0;
@@ -44,7 +44,7 @@ vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     return seen.lit ? e : vec3(0.0);
 }
 
-// Irradiance of radiance 1 that reaches the diffuse lobe below a boundary.
+// Irradiance from a light of radiance 1 that reaches the diffuse lobe below a boundary.
 float irradiance_below_boundary(Light light, vec3 p, vec3 n, vec3 v, float loss) {
     if (KIND == kPunctual) {
         PunctualIncident incident = punctual_at(light, p);

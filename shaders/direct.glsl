@@ -1,38 +1,38 @@
-// Direct light of a batch of tiles from lights of one kind by one method: a thread a pixel, the lights of its tile's list in turn.
+// Direct light of a batch of tiles from lights of one kind by one method. A thread handles a pixel and goes through its tile's lights.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
-// A shader is one lobe by one family of methods: diffuse.comp, sheen.comp, and of GGX ltc.comp, ltc_clipless.comp,
-// closed_form.comp, half_vector.comp and representative_point.comp, of lobes of extras.steradian phong_lobe.comp and arcs_lobe.comp define
-// which, as LOBE; texture_means.comp is what they ask before.
-// Drivers compile all that a shader holds for each of its pipelines.
+// A shader is one lobe by one family of methods and defines it as LOBE. The diffuse lobe has diffuse.comp, sheen has sheen.comp. GGX has
+// ltc.comp, ltc_clipless.comp, closed_form.comp, half_vector.comp and representative_point.comp. Lobes of extras.steradian have
+// phong_lobe.comp and arcs_lobe.comp. texture_means.comp computes what they read, and runs before them.
+// Drivers compile everything that a shader holds for each of its pipelines.
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "layout.glsl"
 #include "shadow_layout.glsl"
 
 // A pipeline is one choice of these (source/render/vulkan/direct_light.cpp).
 layout(constant_id = 0) const int KIND = 0;
-layout(constant_id = 1) const int WITH_DIFFUSE = 0;        // of transformed cosines: 1: one walk for both lobes
-layout(constant_id = 2) const int COMPACT_TABLE = 0;       // of transformed cosines
+layout(constant_id = 1) const int WITH_DIFFUSE = 0;        // transformed cosines only: 1: one walk for both lobes
+layout(constant_id = 2) const int COMPACT_TABLE = 0;       // transformed cosines only
 layout(constant_id = 3) const int QUALITY = 1;             // 0 draft, 1 normal, 2 high
-layout(constant_id = 4) const int WHICH_LOBE = 0;          // 1: the clear coat's in the place of the base's, 2: one of own_lobe.glsl; of texture_means.comp, see there
+layout(constant_id = 4) const int WHICH_LOBE = 0;          // 1: coat's, not the base's, 2: own_lobe.glsl's; texture_means.comp: see there
 layout(constant_id = 5) const int CAREFUL_LIGHTS = 1;      // some points may see a light as small, or be near its rim
 layout(constant_id = 6) const int CHUNKED_EDGES = 0;       // an outline may have more edges than there is space for
-layout(constant_id = 7) const int FRESNEL_LOBE = 0;        // the table has a lobe of its own for (1 - v.h)^5
-layout(constant_id = 8) const int ONLY_BALLS = 0;          // ellipsoids of three equal axes
-layout(constant_id = 9) const int CORNERS = 12;            // that stand for a round light
+layout(constant_id = 7) const int FRESNEL_LOBE = 0;        // 1: the table has a separate lobe for (1 - v.h)^5
+layout(constant_id = 8) const int ONLY_BALLS = 0;          // 1: only ellipsoids of three equal axes
+layout(constant_id = 9) const int CORNERS = 12;            // number of corners that replace a round light
 layout(constant_id = 10) const int CORNER_SPACE = 32;      // ... and near its rim
 layout(constant_id = 11) const int EDGE_SPACE = 34;
 layout(constant_id = 12) const int ARC_SPACE = 34;
 layout(constant_id = 13) const int MATRIX_SIZE = 2;
 layout(constant_id = 14) const int MAGNITUDE_SIZE = 2;
-layout(constant_id = 15) const int SHADOWED_LIGHTS = 0;    // 1: something hides the lights from some points, or a part of them
+layout(constant_id = 15) const int SHADOWED_LIGHTS = 0;    // 1: something occludes the lights, or a part of them, from some points
 layout(constant_id = 16) const int UNCUT_LIGHTS = 0;       // 1: every point sees each light whole, above its horizon, from the lit side
-layout(constant_id = 17) const int UNEVEN_LIGHTS = 0;      // kTextureMean, kProfileMean: of lights of such, the means stand in `means`
-layout(constant_id = 18) const int TABLE_FIRST = 0;        // of texture_means.comp: where the table begins
-layout(constant_id = 19) const int PROFILED_LIGHTS = 0;    // 1: points with a profile
-layout(constant_id = 20) const int LOBE_FORM = 0;          // of GGX 1: without shadowing, 2: and without Fresnel; of own lobes: see there
-layout(constant_id = 21) const int METHOD = 0;             // of Phong's lobe: phong_methods.glsl
-layout(constant_id = 22) const int LOW_EXPONENT = 0;       // which of a series' forms serves: own_lobes.cpp
+layout(constant_id = 17) const int UNEVEN_LIGHTS = 0;      // kTextureMean, kProfileMean: textured or profiled, with means in `means`
+layout(constant_id = 18) const int TABLE_FIRST = 0;        // texture_means.comp only: place where the table begins
+layout(constant_id = 19) const int PROFILED_LIGHTS = 0;    // 1: point lights with a profile
+layout(constant_id = 20) const int LOBE_FORM = 0;          // GGX 1: without shadowing, 2: also without Fresnel; custom lobes: see there
+layout(constant_id = 21) const int METHOD = 0;             // Phong's lobe only: phong_methods.glsl
+layout(constant_id = 22) const int LOW_EXPONENT = 0;       // form of a series: own_lobes.cpp
 const float SMITH = LOBE_FORM == 0 ? 1.0 : 0.0;
 const bool COAT = WHICH_LOBE == 1;
 const bool OWN = WHICH_LOBE == 2;
@@ -104,7 +104,7 @@ const int F_IS_X = METHOD == 3 ? 0 : 1;  // the closer form of each fit
 #include "specular.glsl"
 #endif
 
-// Of a square and a light, among its means.
+// Index of the thread's pixel among the means of a square and a light.
 uint slot_of_means() { return gl_WorkGroupID.x * uint(kGroup) + gl_LocalInvocationID.x; }
 
 vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (int(tile) * kPlanes + plane) * kSlots + int(slot)); }
@@ -116,11 +116,11 @@ vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (
 #elif LOBE == LOBE_PROFILE_MEANS
 #include "profile_means.glsl"
 #else
-// What of a pixel's surface the lobe asks for.
+// The values of a pixel's surface that the lobe needs.
 struct Surface {
     vec3 p;
     vec3 n;
-    vec3 up;  // the same, but for a coat's lobe
+    vec3 up;  // the same, except for a coat's lobe
     vec3 v;
     float loss;
     bool has_lobe;
@@ -194,7 +194,7 @@ Surface surface_in(Entry entry) {
     return s;
 }
 
-// Radiance towards the view of a light of radiance 1.
+// Radiance towards the view from a light of radiance 1.
 vec3 sent_by(Light light, Surface s) {
 #if LOBE == LOBE_DIFFUSE
     return s.albedo * lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, s.loss));
@@ -203,7 +203,7 @@ vec3 sent_by(Light light, Surface s) {
 #elif LOBE == LOBE_PHONG || LOBE == LOBE_ARCS
     return s.own.color * own_radiance(light, s.p, s.n, s.v, s.tangent, s.own);
 #else
-    // What is seen of a light lies above the surface's horizon, and no coat's normal differs from that but by rounding.
+    // The visible part of a light lies above the surface's horizon. A coat's normal differs from the surface's only by rounding.
     vec3 n = COAT && by_pieces() ? s.up : s.n;
     Answer answer = specular_answer(light, s.p, n, s.v, s.lobe, s.loss);
     return s.f0 * (answer.specular.x - answer.specular.y) + s.f90 * answer.specular.y +
@@ -211,10 +211,10 @@ vec3 sent_by(Light light, Surface s) {
 #endif
 }
 
-// The radiance that a lobe sees of a light with a profile: the peak's, and what the rest differs from that, over the lobe's integral.
+// Mean radiance of a profiled light for a lobe: the peak's, plus the sum of the differences from it over the lobe's integral.
 //
-//   found  radiance at the peak, sum of what differs, least and most [1 / m2 of the light]
-//   sent   what the lobe sends of a light of radiance 1
+//   found  radiance at the peak, sum of the differences, least and greatest [1 / m2 of the light]
+//   sent   radiance that the lobe sends for a light of radiance 1
 vec3 profiled_mean(Light light, Surface s, vec4 found, vec3 sent) {
 #if LOBE == LOBE_DIFFUSE
     float integral = lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, 0.0));  // the boundary is no part of the mean's lobe
@@ -224,13 +224,13 @@ vec3 profiled_mean(Light light, Surface s, vec4 found, vec3 sent) {
     return light.r[8].xyz * (integral > 0.0 ? clamp(found.x + found.y / integral, found.z, found.w) : 0.0);
 }
 
-// The radiance that the lobe sees of an uneven light. Of what hides a part of it only the share counts that it takes of an even light's
-// radiance (shadow_shares.comp), as on the CPU.
+// Mean radiance of a textured or profiled light for the lobe. An occluder of a part counts only by the fraction that it takes of a uniform
+// light's radiance (shadow_shares.comp), as on the CPU.
 vec3 mean_of(Light light, Surface s, vec4 found, vec3 sent) {
     return UNEVEN_LIGHTS == kProfileMean ? profiled_mean(light, s, found, sent) : found.xyz;
 }
 
-// Of a light in the lists: its own, its states', its means'.
+// Numbers for each light in the lists: its own, that of its states, that of its means.
 const uint kNumbers = 1u + uint(SHADOWED_LIGHTS) + (UNEVEN ? 1u : 0u);
 
 void main() {

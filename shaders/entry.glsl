@@ -1,23 +1,24 @@
-// Which pixel a thread has, and which lights: a work group is 64 pixels of a square of an entry of the lists.
+// The pixel of a thread, and its lights. A work group covers 64 pixels of a square of an entry of the lists.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 struct Entry {
     uint tile;
     uint slot;
-    uint first;  // of its lights in the lists
+    uint first;  // place of its lights in the lists
     uint count;
-    uint own;    // where the lobe begins that it is about: own_lobe.glsl
+    uint own;    // place where the entry's lobe begins: own_lobe.glsl
 };
 
-// The groups of a square lie below each other, those of two squares side by side in turn.
+// Groups of one square lie below each other; groups of two squares lie side by side in turn.
 uint group_of_square(uint square, uint row) { return (square / 2u * uint(kGroupsOfSquare) + row) * 2u + square % 2u; }
 
-// A value that all threads of a work group have in common, so that the compiler sees it: llvmpipe then reads there once, not for each thread.
+// Returns a value that all threads of a work group have in common, so that the compiler knows it. llvmpipe then reads there once, not once
+// for each thread.
 //
-// Right for what follows from the group's number, from the lists and from how often loops have turned, also where threads have left
-// or skipped something: a subgroup lies within a work group, and its operations take in the threads alone that stand at the same turn
-// of each loop around them (of SPIR-V, one dynamic instance), so that the first of these tells the others what they have. Not right
-// for a place at which each thread arrives in its own number of turns.
+// Valid for values that follow from the group's number, from the lists and from the number of turns of loops. This also holds where threads
+// have returned or skipped something. A subgroup lies within a work group. Its operations include only the threads at the same turn of each
+// loop around them (one dynamic instance of SPIR-V). So the first of these has the others' value. Not valid at a place that each thread
+// reaches after its own number of turns.
 uint in_common(uint value) { return subgroupBroadcastFirst(value); }
 
 uint listed(uint at) { return texelFetch(lists, int(in_common(at))).x; }

@@ -1,4 +1,4 @@
-// The kernels that the shaders call, each after what it needs.
+// Kernels that the shaders call, each after the ones that it needs.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "prelude/prelude.glsl"
 

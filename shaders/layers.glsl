@@ -1,8 +1,8 @@
-// What glTF lays over the metallic-roughness surface, and what spreads its lobe: sheen, coats, brushing, light between facets; by the names
-// and in the order of source/render/cpu/surface.cpp.
+// Layers that glTF puts over the metallic-roughness surface, and effects that spread its lobe: sheen, coats, brushing, light between
+// facets. Names and order are those of source/render/cpu/surface.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Widens the lobe along a direction, whose cosine and sine from the tangent on are returned.
+// Widens the lobe along a direction. Returns the direction's cosine and sine, measured from the tangent.
 vec2 brush(inout Surface s, int material, Coordinates c) {
     vec4 factors = texelFetch(materials, material + kMaterialCoat);
     float strength = factors.z;
@@ -19,7 +19,7 @@ vec2 brush(inout Surface s, int material, Coordinates c) {
     return vec2(cos(angle), sin(angle));
 }
 
-// The share of light that a lobe of width alpha reflects, by its compact table: node `first` is the first of its shapes. One that is
+// Fraction of light that a lobe of width alpha reflects, by its compact table; `first` is the first node of its shapes. A lobe that is
 // stored about the normal passes `upright`.
 float table_albedo(int first, vec2 sizes, float alpha, float cosine, bool upright) {
     vec2 at = ltc_coordinates(sqrt(alpha), cosine);
@@ -30,7 +30,7 @@ float table_albedo(int first, vec2 sizes, float alpha, float cosine, bool uprigh
     return clamp(magnitude * ltc_energy_above_horizon(m), 0.0, 1.0);
 }
 
-// Of lobes that are as wide along the tangent as across.
+// Adds light between facets, for lobes that are as wide along the tangent as across it.
 void scatter_between_facets(inout Surface s) {
     vec4 sizes = texelFetch(tables, 0);
     float albedo = table_albedo(1, sizes.xy, s.alpha.x, clamp(dot(s.normal, s.view), 0.0, 1.0), false);
@@ -40,7 +40,7 @@ void scatter_between_facets(inout Surface s) {
     s.f90 *= grown;
 }
 
-// What the fibres reflect does not reach the layers below.
+// Adds sheen. Light that the fibres reflect does not reach the layers below.
 void add_sheen(inout Surface s, int material, Coordinates c) {
     vec4 factors = texelFetch(materials, material + kMaterialSheen);
     int uses = material + kMaterialTextures;
@@ -58,7 +58,7 @@ void add_sheen(inout Surface s, int material, Coordinates c) {
     s.f90 *= under;
 }
 
-// What the coat reflects at the view's angle does not reach the layers below.
+// Adds the coat. Light that it reflects at the view's angle does not reach the layers below.
 void add_coat(inout Surface s, int material, Coordinates c) {
     vec4 factors = texelFetch(materials, material + kMaterialCoat);
     int uses = material + kMaterialTextures;

@@ -1,10 +1,11 @@
 // Measured lamps as the host wrote them (source/render/vulkan/light_details.cpp): a head (type, numbers of vertical and horizontal angles),
-// then the angles in degrees and what was measured, four numbers a vector. As source/shapes/light_profile.cpp.
+// then the angles in degrees and the measured values, four numbers a vector. Mirrors source/shapes/light_profile.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 float profile_number(int first, int i) { return details[first + 1 + (i >> 2)][i & 3]; }
 
-// Between which two of `count` rising angles from number `begin` on a value lies: the first, -1 where it is not within; and how far on.
+// Finds the two of `count` rising angles, from number `begin` on, between which a value lies. Returns the first, or -1 if the value is not
+// within them, and the fraction of the way to the second.
 vec2 profile_place(int first, int begin, int count, float at) {
     if (count == 1) return vec2(0.0);
     float rounding = 1.0e-4;
@@ -24,7 +25,7 @@ vec2 profile_place(int first, int begin, int count, float at) {
     return vec2(float(low), clamp(share, 0.0, 1.0));
 }
 
-// Candela in a direction of the profile's frame.
+// Intensity in candela in a direction of the profile's frame.
 float profile_intensity(int first, vec3 d) {
     vec4 head = details[first];
     int verticals = int(head.y);

@@ -1,10 +1,10 @@
 // Textured lights as the host wrote them (source/render/vulkan/light_details.cpp): a head, the levels of blurred copies, the cells of the
-// tree. As source/integrals/ltc: filtered_texture.h and texture_tree.h, which the parity of frames holds to this.
+// tree. Mirrors filtered_texture.h and texture_tree.h of source/integrals/ltc; the parity of frames holds the two together.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "integrals/ltc/texture_rule.glsl"
 #include "integrals/ltc/texture_cell.glsl"
 
-// The head, and what is known of a level and of a cell: kTextureHead, kTextureLevel and kTextureCell vectors.
+// Contents of the head, of a level and of a cell: kTextureHead, kTextureLevel and kTextureCell vectors.
 //   head   origin, deviation of the smallest cells; axis x, number of levels; axis y, where the cells begin; bounds; mean;
 //          centroid; covariance of its area
 //   level  left, bottom, spacing, sigma; width, height, where its texels begin
@@ -40,7 +40,7 @@ LightTexture light_texture_at(int first) {
     return t;
 }
 
-// Radiance times coverage, and coverage, at a place of a level: between its texels.
+// Radiance times coverage, and coverage, at a place of a level, interpolated between its texels.
 vec4 at_level(LightTexture t, int k, vec2 at) {
     vec4 place = details[t.first + kTextureHead + kTextureLevel * k];
     vec4 size = details[t.first + kTextureHead + kTextureLevel * k + 1];
@@ -61,7 +61,7 @@ vec4 at_level(LightTexture t, int k, vec2 at) {
 
 float finest_sigma(LightTexture t) { return details[t.first + kTextureHead].w; }
 
-// Blurred by sigma: between two levels in proportion to the variance.
+// The texture blurred by sigma, interpolated between two levels in proportion to the variance.
 vec4 blurred_at(LightTexture t, vec2 at, float sigma) {
     float finest = finest_sigma(t);
     float level = clamp(log2(max(sigma, finest) / finest), 0.0, float(t.levels - 1));
@@ -71,7 +71,7 @@ vec4 blurred_at(LightTexture t, vec2 at, float sigma) {
     return mix(at_level(t, k, at), at_level(t, k + 1, at), share);
 }
 
-// Under a Gaussian, by probes along its longer axis.
+// The texture under a Gaussian, by probes along its longer axis.
 vec4 under_gaussian(LightTexture t, vec2 at, LtcTextureEllipse g) {
     float longest = length(g.major);
     float sigma = max(max(g.minor, longest / kTextureAnisotropy), finest_sigma(t));
@@ -90,7 +90,7 @@ vec4 under_gaussian(LightTexture t, vec2 at, LtcTextureEllipse g) {
     return sum / total;
 }
 
-// A cell of the tree, its first child and what comes after it and all below it.
+// A cell of the tree, its first child, and the next cell after it and all below it.
 struct TreeCell {
     LtcTextureCell cell;
     int child;
@@ -119,15 +119,15 @@ TreeCell tree_cell_at(LightTexture t, int number) {
     return tree;
 }
 
-// Radiance times coverage, and coverage, of the finest level, which goes on beyond its border.
+// Radiance times coverage, and coverage, at a texel of the finest level, which continues beyond its border.
 vec4 texel_of_finest(vec4 size, vec2 texel) { return details[int(size.z) + int(texel.y) * int(size.x) + int(texel.x)]; }
 
-// Every second of five bits, the last among them.
+// Every second of five bits, including the last.
 int every_second(int bits) { return ((bits >> 2) & 4) | ((bits >> 1) & 2) | (bits & 1); }
 
-// Part of one of the smallest cells: TextureTree::half, once for each bit of `path` after its first, at most kTextureDeepest times. They
-// halve the two axes in turn, so that the bits of each are a number that says how far along it the part lies; and so no loop is needed,
-// of which llvmpipe allows a thread 65,535 turns in all, silently.
+// Part of one of the smallest cells: TextureTree::half, once for each bit of `path` after its first, at most kTextureDeepest times. The
+// halves alternate between the two axes, so the bits of each axis form a number: how far along it the part lies. So no loop is needed.
+// llvmpipe silently allows a thread only 65,535 turns of loops in all.
 LtcTextureCell part_of(LightTexture t, LtcTextureCell cell, int path) {
     int depth = findMSB(path);
     if (depth == 0) return cell;

@@ -1,5 +1,5 @@
-// Lights as the host wrote them (source/render/vulkan/light_records.cpp), and how a point sees them. What stands here is what
-// source/shapes is to packs; the parity of frames holds the two together.
+// Lights as the host wrote them (source/render/vulkan/light_records.cpp), and how a point sees them. This text mirrors source/shapes for
+// packs; the parity of frames holds the two together.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // One light.
@@ -11,13 +11,13 @@
 //   r[4]  polygon: reach_a; others: axis y, half axis of a capsule; spot_offset
 //   r[5]  polygon: reach_b; others: axis z
 //   r[6]  polygon: area; ellipsoid: row x of the inverse; r[7], r[8]: its rows y and z; punctual: x and y of
-//         the profile's frame, in r[7] where it aims; r[7].w: where the texture or profile begins; polygon, disk with a profile: r[8] the
-//         intensity that its candela are of, over the area
+//         the profile's frame, in r[7] its aim; r[7].w: place where the texture or profile begins; polygon, disk with a profile: r[8] the
+//         intensity to which its candela refer, over the area
 struct Light {
     vec4 r[kRecord];
 };
 
-//   number   in common (entry.glsl)
+//   number   the same for all threads of the group (entry.glsl)
 Light light_at(uint number) {
     Light light;
     int first = int(in_common(number)) * kRecord;
@@ -44,7 +44,7 @@ EllipsoidOutline round_outline(Light light, vec3 p) {
     return ellipsoid_outline(light.r[2].xyz - p, axes, inverse_axes);
 }
 
-// In units of its distance: squares of squares stay in the range of float.
+// The outline in units of its distance, so that squares of squares stay in the range of float.
 Ellipse ellipse_in(Light light, mat3 frame, vec3 p) {
     EllipsoidOutline outline = round_outline(light, p);
     float size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
@@ -73,7 +73,7 @@ Seen see(Light light, vec3 p) {
         float height = dot(p - light.r[2].xyz, light.r[1].xyz);
         bool behind = height < 0.0;
         seen.lit = height > 0.0 || (behind && light.r[1].w > 0.5);
-        if (KIND == kPolygon) seen.reversed = behind;  // a disk's outline is walked as it is seen
+        if (KIND == kPolygon) seen.reversed = behind;  // a disk's outline is always walked as it appears
     } else if (KIND == kEllipsoid) {
         seen.lit = round_outline(light, p).outside;
     } else {
@@ -82,7 +82,7 @@ Seen see(Light light, vec3 p) {
     return seen;
 }
 
-// Mean square of its extent about its middle [m2]; an upper bound of a round light's.
+// Mean square of the light's extent about its middle [m2]; for a round light, an upper bound.
 float deviation2_of(Light light) {
     if (by_pieces()) return parts[part.first + 1].w;
     if (KIND == kPolygon) return light.r[3].w;
@@ -100,8 +100,8 @@ float distance2_of(Light light, vec3 p) {
     return dot(to, to);
 }
 
-// A capsule's strip, which is as wide from everywhere across, and the half balls at its ends, each with its second moment along the
-// axis: source/shapes/capsule.h.
+// Elements of a capsule: its strip, which is equally wide from everywhere across, and the half balls at its ends. Each has its second
+// moment along the axis. Mirrors source/shapes/capsule.h.
 LightElements capsule_elements(Light light, vec3 p) {
     float radius = light.r[2].w;
     float r2 = radius * radius;
@@ -123,7 +123,7 @@ LightElements capsule_elements(Light light, vec3 p) {
     return e;
 }
 
-// In the shading frame, of the side that is seen.
+// Elements in the shading frame, of the visible side.
 LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     LightElements e;
     if (by_pieces()) {
@@ -149,7 +149,7 @@ LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     return e;
 }
 
-// Whether four elements serve in the place of the outline; roundings, bias, least_distance2: source/shapes/small_light.h.
+// Returns true if four elements serve in place of the outline. For roundings, bias and least_distance2 see source/shapes/small_light.h.
 bool elements_serve(LightElements e, float sharpness, float roundings, float bias) {
     return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, roundings, bias);
 }

@@ -1,4 +1,4 @@
-// Names of what a shader holds.
+// Names of the lobes that a shader can hold.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #define LOBE_DIFFUSE 0
 #define LOBE_LTC 1

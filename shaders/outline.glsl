@@ -1,7 +1,7 @@
-// The one walk: what a point sees of a light as corners in walk order, and the edges that the horizon leaves of it.
+// The only walk: corners of a light in walk order, as a point sees them, and the light's edges above the horizon.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Corners that stand for a round light about a lobe.
+// Corners that replace a round light, gathered about a lobe.
 vec3 corners[CORNER_SPACE];
 int corner_count;
 bool has_corners() { return KIND != kPolygon && !by_pieces(); }
@@ -28,7 +28,7 @@ void fill_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
     }
 }
 
-// Places of a walk: at those that are not joined, a contour begins. The first is one of them.
+// Number of places of a walk. A contour begins at each place that is not joined; the first is one of them.
 int outline_length(Light light) {
     if (by_pieces()) return part.places;
     if (KIND == kPolygon) return int(light.r[2].w);
@@ -49,7 +49,7 @@ Place outline_place(Light light, mat3 frame, vec3 p, int i) {
         place.joined = v.w > 0.5;
     } else if (KIND == kPolygon) {
         uint at = uint(light.r[0].w) + uint(i);
-        // Walks in pieces go on where the edges of each thread have had space.
+        // A walk in pieces goes on from the place at which each thread's edges ran out of space.
         if (!CHUNKED) at = in_common(at);
         vec4 v = texelFetch(vertices, int(at));
         place.direction = polygon_direction(transform_transposed(frame, v.xyz - p));
@@ -61,7 +61,7 @@ Place outline_place(Light light, mat3 frame, vec3 p, int i) {
     return place;
 }
 
-// Edges above the horizon, the arcs of the horizon that close them among them.
+// Edges above the horizon, including the arcs of the horizon that close them.
 vec3 edge_begins[EDGE_SPACE];
 vec3 edge_ends[EDGE_SPACE];
 int edge_count;
@@ -86,7 +86,7 @@ void add_arc_of_horizon(HorizonClip clip, float facing) {
     add_edge(start, clip.arc_end);
 }
 
-// Where a walk stands that fills the edges as far as they have space.
+// State of a walk that fills the edges until their space is used up.
 struct ClippedWalk {
     int next;
     vec3 previous;
@@ -103,7 +103,7 @@ ClippedWalk clipped_walk_begin(Light light, mat3 frame, vec3 p) {
     return walk;
 }
 
-// One place of the outline leaves at most an edge and an arc in two parts, and so does its end.
+// Most edges that one place of the outline adds: an edge, and an arc in two parts. The outline's end adds no more.
 const int kMostEdgesOfPlace = 3;
 
 ClippedWalk fill_edges(ClippedWalk walk, Light light, Seen seen, mat3 frame, vec3 p) {
@@ -133,5 +133,5 @@ ClippedWalk fill_edges(ClippedWalk walk, Light light, Seen seen, mat3 frame, vec
     return walk;
 }
 
-// What of an irradiance vector reaches a diffuse lobe below a boundary. view: in the vector's frame.
+// Irradiance, from an irradiance vector, that reaches a diffuse lobe below a boundary. view: in the vector's frame.
 float irradiance_below(vec3 e, vec3 view, float loss) { return loss > 0.0 ? lambert_irradiance_below(e, view, loss) : e.z; }

@@ -1,12 +1,12 @@
-// Lobes of extras.steradian, as the host wrote them among the lights' details (source/render/vulkan/own_lobes.cpp).
+// Lobes of extras.steradian, as the host stored them among the lights' details (source/render/vulkan/own_lobes.cpp).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 struct OwnLobe {
-    vec3 color;      // of GGX: f0
-    float material;  // which a surface has beside its f0
+    vec3 color;      // GGX: f0
+    float material;  // number that a surface has beside its f0
     vec3 f90;
     float exponent;
-    vec3 direction;  // of alpha_x, zero: any; or of the second lobe of a product, zero: the normal
+    vec3 direction;  // direction of alpha_x, zero: any; product: axis of the second lobe, zero: the normal
     float axis_exponent;
     float ax;
     float ay;

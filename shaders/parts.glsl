@@ -1,14 +1,14 @@
-// What a point sees of a light that something hides from its tile in part.
+// The visible part of a light that something occludes partly for its tile.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Of the light in work: shadow_layout.glsl.
+// Part of the current light: shadow_layout.glsl.
 struct Part {
-    bool seen;    // anything of it
-    bool pieces;  // an outline of its own
-    int first;    // of its record
+    bool seen;    // any of it is visible
+    bool pieces;  // it has its own outline
+    int first;    // place of its record
     int places;
     float weight;
-    int whole;    // record of the polygon that stands for a round light, 0: none
+    int whole;    // record of the polygon that replaces a round light, 0: none
 };
 Part part;
 
@@ -33,7 +33,7 @@ void take_part(uint state) {
     }
 }
 
-// A part of a round light takes three turns: the part, the polygon, the light. Others have the last one alone.
+// A part of a round light takes three turns: the part, the polygon, the light. Others take only the last one.
 const int kLastTurn = kPartSums - 1;
 int first_turn() { return !part.seen ? kLastTurn + 1 : part.whole > 0 ? 0 : kLastTurn; }
 void turn_to(int turn) {

@@ -1,12 +1,12 @@
-// Phong lobes of exponent N under a polygon, by the methods that benches compare: a thread a point, edge after edge of what the horizon
-// leaves of the outline.
+// Phong lobes of exponent N under a polygon, by the methods that benches compare. A thread handles a point, edge after edge of the outline
+// above the horizon.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-layout(constant_id = 0) const int METHOD = 0;  // of phong_methods.glsl
+layout(constant_id = 0) const int METHOD = 0;  // number in phong_methods.glsl
 layout(constant_id = 1) const int N = 1;
-layout(constant_id = 2) const int F_IS_X = 0;  // of the fits
+layout(constant_id = 2) const int F_IS_X = 0;  // form of the fits
 layout(constant_id = 3) const int CORNERS = 4;
 layout(constant_id = 4) const int EDGE_SPACE = 8;
 const int LOW_EXPONENT = 0;

@@ -1,5 +1,5 @@
-// A Phong lobe along an edge by each of its methods: METHOD and F_IS_X are the pipeline's choice, and LOW_EXPONENT, 2 where the series goes
-// through n + 2, 3 where each point has an exponent of its own.
+// A Phong lobe along an edge by each of its methods. The pipeline chooses METHOD, F_IS_X and LOW_EXPONENT. The last is 2 where the series
+// goes through n + 2, and 3 where each point has its own exponent.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "comparison/moment_arvo.glsl"
 #include "comparison/moment_peak_fits.glsl"

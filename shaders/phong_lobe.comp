@@ -1,4 +1,4 @@
-// Phong's lobe, and products of two.
+// Phong's lobe, and products of two lobes.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
 // Phong's lobe about the mirrored view, times the light's cosine where the material asks for it, and the product of two as one matched
-// lobe: as source/integrals/phong.h, foreshortened_phong.h and matched_lobe.h.
+// lobe. Mirrors source/integrals/phong.h, foreshortened_phong.h and matched_lobe.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "lobe/lobe_product.glsl"
 #include "phong_front.glsl"
@@ -7,7 +7,7 @@
 const bool PRODUCT = LOBE_FORM == 2;
 const bool FORESHORTENED = LOBE_FORM == 1;
 
-// One edge's share of (n + 1) times the moment; r the lobe's unit axis.
+// Contribution of one edge to (n + 1) times the moment. r: unit axis of the lobe.
 float phong_share(vec3 a, vec3 b, vec3 r, float n) {
     MomentEdge edge = moment_edge(a, b, r);
     if (!FORESHORTENED) return moment_edge_share(edge, phong_front(edge, n));
@@ -32,7 +32,7 @@ float phong_share(vec3 a, vec3 b, vec3 r, float n) {
 struct PhongLobe {
     vec3 mirror;
     float n;
-    vec3 axis;  // of a product's second lobe
+    vec3 axis;  // axis of a product's second lobe
     float n2;
     StretchedLobe matched;
 };
@@ -52,7 +52,7 @@ PhongLobe phong_lobe_of(OwnLobe own, mat3 frame, vec3 view) {
     return lobe;
 }
 
-// The lobe in a direction, for light of one and for a small light's elements.
+// Value of the lobe in a direction; used for light from one direction and for the elements of a small light.
 float phong_at(PhongLobe lobe, vec3 l) {
     float c1 = dot(l, lobe.mirror);
     if (PRODUCT) {
@@ -79,12 +79,12 @@ float phong_over_outline(Light light, Seen seen, mat3 frame, vec3 p, PhongLobe l
         }
     } while (CHUNKED && walk.more);
     float sent = moment_phong_radiance(sum, seen.reversed);
-    // The factor is that of both exponents, the moment's that of the matched one.
+    // The lobe's factor is that of both exponents, the moment's that of the matched one.
     if (PRODUCT) sent *= lobe.matched.scale * ((lobe.n + lobe.n2 + 1.0) / (lobe.matched.exponent + 1.0));
     return sent;
 }
 
-// As source/shapes/small_light.h has them.
+// Values of source/shapes/small_light.h.
 float phong_bias(PhongLobe lobe) {
     bool bends = lobe.n < 2.0 || (PRODUCT && lobe.n2 < 2.0);
     if (bends) return 0.0;
@@ -92,11 +92,11 @@ float phong_bias(PhongLobe lobe) {
     return METHOD == kPhongSeriesHigh ? 1.0 / 115.0 : 0.0;
 }
 
-// Where corners of a round light gather: of a product about its peak.
+// Width and axis of the region where corners of a round light gather; for a product, it is about the peak.
 float phong_width(PhongLobe lobe) { return inversesqrt((PRODUCT ? lobe.n + lobe.n2 : lobe.n) + 1.0); }
 vec3 phong_axis(PhongLobe lobe) { return PRODUCT ? lobe.matched.frame[2] : lobe.mirror; }
 
-// Radiance towards the view of a light of radiance 1, of colour 1.
+// Radiance towards the view from a light of radiance 1, for a lobe of colour 1.
 float own_radiance(Light light, vec3 p, vec3 n, vec3 v, vec3 tangent, OwnLobe own) {
     mat3 frame = frame_from_normal(n);
     vec3 view = transform_transposed(frame, v);

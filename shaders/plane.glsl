@@ -1,14 +1,14 @@
-// Light in the plane: a thread a pixel, the lights of its tile's list in turn; what blockers leave of each is integrated in closed form.
+// Light in the plane. A thread handles a pixel and goes through its tile's lights. Closed forms integrate the visible part of each light.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
-// A shader is one kind of lights: plane_disks.comp, plane_cuts.comp and plane_arcs.comp define which, as KIND. What stands here is what
-// source/plane/frame's packs are; the parity of frames holds the two together.
+// A shader handles one kind of lights: plane_disks.comp, plane_cuts.comp and plane_arcs.comp define it as KIND. This text mirrors the packs
+// of source/plane/frame; the parity of frames holds the two together.
 #include "plane_layout.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 1) readonly buffer Pairs { uint pairs[]; };
-layout(std430, binding = 2) readonly buffer Vertices { vec4 vertices[]; };  // x and y, each as a float and what that leaves
+layout(std430, binding = 2) readonly buffer Vertices { vec4 vertices[]; };  // x and y, each as a float and its remainder
 layout(std430, binding = 3) buffer Sums { float sums[]; };
 #if KIND == PLANE_LISTED
 layout(std430, binding = 4) readonly buffer Masks { uint masks[]; };
@@ -26,7 +26,7 @@ void main() {
     uint job = (first_job + gl_WorkGroupID.y) * uint(kJob);
     uint tile = lists[job];
 
-    // A quarter of the tile, in which neighbours are neighbours: 4 x 2 pixels of 8 threads, 8 x 4 of 32.
+    // A work group covers a quarter of the tile. Neighbouring threads have neighbouring pixels: 4 x 2 pixels of 8 threads, 8 x 4 of 32.
     uint thread = gl_LocalInvocationID.x;
     uint x = (gl_WorkGroupID.x & 1u) * 8u + (thread & 3u) + ((thread >> 3) & 1u) * 4u;
     uint y = (gl_WorkGroupID.x >> 1) * 8u + ((thread >> 2) & 1u) + ((thread >> 4) & 3u) * 2u;

@@ -1,9 +1,9 @@
-// Arcs of ellipses: what is seen of one is an interval; where emission changes along it or with distance, Gauss-Kronrod quadrature, halved
-// until its two rules agree (source/plane/frame/tile_arc.h).
+// Arcs of ellipses. The visible part of an arc is an interval. Where emission changes along it or with distance, Gauss-Kronrod quadrature
+// integrates it, halved until its two rules agree (source/plane/frame/tile_arc.h).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Gauss-Kronrod, 7 and 15 nodes; Piessens et al., QUADPACK, 1983. A node, its weight, its weight in Gauss' rule, and in a rule that is 0 up
-// to degree 11.
+// Gauss-Kronrod, 7 and 15 nodes; Piessens et al., QUADPACK, 1983. A row: a node, its weight, its weight in Gauss' rule, and in a rule that
+// is 0 up to degree 11.
 const vec4 kNodes[8] = vec4[8](vec4(0.991455371120812639, 0.022935322010529225, 0.0, 0.009991356662876932),
                                vec4(0.949107912342758525, 0.063092092629978553, 0.129484966168869693, -0.025246739496563773),
                                vec4(0.864864423359769073, 0.104790010322250184, 0.0, 0.029058304001152294),
@@ -27,21 +27,21 @@ struct Arc {
     bool linear;
 };
 
-// The place z = tan(beta / 2) of the direction of a slope, beta being the angle at which the ray hits the unit circle.
+// The place z = tan(beta / 2) in the direction of a slope. beta is the angle at which the ray hits the unit circle.
 float place_on_arc(Arc arc, vec2 axis, float m) {
     vec2 n = to_unit(arc.shape, axis + m * vec2(-axis.y, axis.x));
     float s = clamp(cross2(n, arc.unit) * inversesqrt(max(dot(n, n), 1.0e-30)), -1.0, 1.0);
     return s / (1.0 + sqrt(max(1.0 - s * s, 0.0)));
 }
 
-// What arrives from a place, and that times the ramp.
+// Light that arrives from a place, and the same times the ramp.
 vec2 arc_node(Arc arc, float z) {
     float over = 1.0 / (1.0 + z * z);
     float s = 2.0 * z * over;
     float c = (1.0 - z * z) * over;
     float root = plane_root(max(arc.d2 - s * s, 1.0e-12));
     float t = root - c;
-    // The ray's direction in unit space, from there in the plane: as long as the two spaces differ along it.
+    // The ray's direction in unit space, mapped from there to the plane. Its length is the scale between the two spaces along it.
     vec2 n = vec2(-arc.unit.x * root + arc.unit.y * s, -arc.unit.y * root - arc.unit.x * s) * arc.inverse_d2;
     vec2 direction = from_unit(arc.shape, n);
     float m2 = dot(direction, direction);
@@ -68,7 +68,7 @@ vec2 arc_integral(Arc arc, float from, float to) {
     vec2 kronrod = vec2(0.0);
     vec2 gauss = vec2(0.0);
     vec2 null_rule = vec2(0.0);
-    // Part by part, and node by node of each: one loop, which drivers compile in a tenth of the time of two.
+    // One loop goes through the parts, and through the nodes of each: drivers compile it in a tenth of the time of two loops.
     int i = 0;
     bool more = true;
     while (more) {
@@ -131,7 +131,7 @@ vec3 arc_light(uint at) {
     float to = slope(along_q.x, along_q.y, kBeyond);
     bool outside = outside2(arc.unit) > 1.0e-6;
     if (lists[own + 11u] == 0u) {
-        // Seen from outside, the near side runs clockwise: the arc's first end is the high one.
+        // As seen from outside, the near side runs clockwise: the arc's first end is the high one.
         bool first = dot(arc.unit, pair_of_numbers(own + 4u)) > 1.0;
         bool last = dot(arc.unit, pair_of_numbers(own + 6u)) > 1.0;
         float middle = dot(arc.unit, pair_of_numbers(own + 8u));

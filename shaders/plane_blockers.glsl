@@ -1,4 +1,4 @@
-// Blockers of the general rules: what they take of the slopes from an axis (source/plane/frame/tile_cut.h).
+// Blockers of the general rules: intervals of slopes from an axis that they occlude (source/plane/frame/tile_cut.h).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Components of v along the axis and across it.
@@ -14,7 +14,7 @@ struct Interval {
     float to;
 };
 
-// Of two directions, p the clockwise one, that span less than half a turn; empty where both are behind the pixel.
+// Slopes between two directions, p the clockwise one, that span less than half a turn. Empty where both are behind the pixel.
 Interval between(vec2 p, vec2 q) {
     if (!(p.x > 1.0e-12 || q.x > 1.0e-12)) return Interval(1.0, 0.0);
     return Interval(slope(p.x, p.y, -kBeyond), slope(q.x, q.y, kBeyond));
@@ -26,7 +26,7 @@ Interval between_in_any_order(vec2 p, vec2 q) {
 
 bool is_nearer(uint at) { return number(at) * eye.x + number(at + 1u) * eye.y + number(at + 2u) > 0.0; }
 
-// The outermost of some vertices on one side.
+// Direction of the outermost of some vertices on one side.
 vec2 outermost(uint at, uint count, float sign_of_side) {
     vec2 v = pair_of_numbers(at) - eye;
     for (uint i = 1u; i < count; i++) {
@@ -36,7 +36,7 @@ vec2 outermost(uint at, uint count, float sign_of_side) {
     return v;
 }
 
-// Slopes of a disk's tangents, the disk in front of the axis.
+// Slope of a tangent to a disk that lies in front of the axis.
 float disk_tangent(vec2 axis, uint at, float side) {
     vec2 v = pair_of_numbers(at) - eye;
     float radius = number(at + 2u);
@@ -61,20 +61,20 @@ vec2 to_unit(Round r, vec2 v) { return vec2(dot(r.row_u, v), dot(r.row_v, v)); }
 vec2 from_unit(Round r, vec2 n) { return r.axis_x * n.x + r.axis_y * n.y; }
 float outside2(vec2 unit) { return dot(unit, unit) - 1.0; }
 
-// Tangent directions from the pixel, given in unit space: the centre's direction turned by the angle whose sine is 1 / d, to the
+// Tangent direction from the pixel, given in unit space: the centre's direction turned by the angle whose sine is 1 / d. It turns to the
 // clockwise side (1) or the other (-1).
 vec2 tangent_direction(Round r, vec2 unit, float side) {
     float tangent = sqrt(max(outside2(unit), 0.0));
     return from_unit(r, vec2(-unit.x * tangent - side * unit.y, -unit.y * tangent + side * unit.x));
 }
 
-// On the line from the eye through a point, a share 1 of the way: the share at which it enters the ellipse.
+// A line runs from the eye through a point, which is at fraction 1. Returns the fraction at which it enters the ellipse.
 float entry_before(Round r, vec2 unit, vec2 v) {
     vec2 n = to_unit(r, v);
     return min(max(outside2(unit), 0.0) / max(dot(n, n), 1.0e-30), 1.0);
 }
 
-// A round blocker that overlaps the light: which of the two is nearer changes only at a crossing that is seen on both.
+// A round blocker that overlaps the light. The nearer one of the two changes only at a crossing that is visible on both.
 void take_lens(uint at, uint light, vec2 axis) {
     Round r = round_at(at);
     int count = int(lists[at + 10u]);
@@ -97,7 +97,7 @@ void take_lens(uint at, uint light, vec2 axis) {
         any_seen = any_seen || seen[i];
     }
     if (!any_seen) {
-        // The order is the same everywhere, also towards the first crossing.
+        // The order is the same everywhere, so also towards the first crossing.
         vec2 v = pair_of_numbers(crossings) - eye;
         float light_entry = 1.0;
         if (int(lists[light]) != 1) {
@@ -106,8 +106,8 @@ void take_lens(uint at, uint light, vec2 axis) {
         }
         if (!(entry_before(r, unit, v) < light_entry)) return;
     }
-    // In front from each crossing where it begins to be, up to the next where it ends; from its tangent up to one where it ends and none
-    // has begun.
+    // The blocker is in front from each crossing at which that begins, up to the next at which it ends. From its tangent, it is in front up
+    // to a crossing at which that ends, if none has begun before.
     for (int i = 0; i < (any_seen ? count : 1); i++) {
         if (any_seen && !seen[i]) continue;
         bool begins_here = lists[crossings + uint(i * kCrossing) + 6u] == 1u;
@@ -124,7 +124,7 @@ void take_lens(uint at, uint light, vec2 axis) {
     }
 }
 
-// Leaves the directions in which a spot's light arrives.
+// Keeps only the directions in which a spot's light arrives.
 void cut_spot(uint at, vec2 axis) {
     uint kind = lists[at];
     if (kind == 0u) return;
@@ -132,7 +132,7 @@ void cut_spot(uint at, vec2 axis) {
     vec2 h = along_axis(axis, pair_of_numbers(at + 3u));
     bool either = l.x > 1.0e-12 || h.x > 1.0e-12;
     if (kind == 2u) {
-        // The rest is less than half a turn, from high to low.
+        // The other directions are less than half a turn, from high to low.
         if (either) take(slope(h.x, h.y, -kBeyond), slope(l.x, l.y, kBeyond));
         return;
     }
@@ -140,7 +140,7 @@ void cut_spot(uint at, vec2 axis) {
     high = either ? min(high, slope(h.x, h.y, kBeyond)) : low;
 }
 
-// Where the lists of a light begin, in the order in which they stand.
+// Number of entries in a list of a light. The lists stand in the order of these counts.
 uint length_of_list(uint light, int list) { return lists[light + uint(kLightCounts + list)]; }
 
 void cut_blockers(uint light, vec2 axis) {
@@ -162,7 +162,7 @@ void cut_blockers(uint light, vec2 axis) {
         high = min(high, disk_tangent(axis, at, -1.0));
         at += uint(kDiskBlocker);
     }
-    // The lists one after another, so that drivers compile one `take`.
+    // One loop handles the lists one after another, so that drivers compile a single `take`.
     int list = 5;
     uint left = length_of_list(light, list);
     while (list < 11 && low < high) {

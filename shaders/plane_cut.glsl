@@ -1,16 +1,16 @@
-// What blockers leave of a light: an interval, and what is taken from within it. Places are slopes, or distances at which rays pass a
-// round light's centre (plane_disk.glsl).
+// The part of a light that blockers leave visible: an interval, and intervals cut out of it. Places are slopes, or distances at which rays
+// pass a round light's centre (plane_disk.glsl).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 const float kBeyond = 1.0e9;
 
 float low;
 float high;
-float begins[kIntervals];  // sorted, apart from each other
+float begins[kIntervals];  // sorted and disjoint
 float ends[kIntervals];
 int taken;
 bool too_many;
-int turns;  // of loops, at least as many as there were
+int turns;  // upper bound of the turns that loops have taken
 
 void open_cut(float from, float to) {
     low = from;
@@ -61,9 +61,9 @@ void take(float from, float to) {
     }
 }
 
-// Gap k of those that are left, 0 ... taken; it may be empty. `from` is where the one before it ended: low at first.
+// End of gap k of the gaps that are left, 0 ... taken; a gap may be empty. `from` is where gap k begins: low at first.
 float gap_end(int k) { return k < taken ? min(begins[k], high) : high; }
 float after_gap(int k, float from) { return k < taken ? max(from, min(ends[k], high)) : high; }
 
-// The slope of a direction (w along the axis, t across it), `beyond` where it is not in front.
+// Slope of a direction (w along the axis, t across it), or `beyond` if it is not in front.
 float slope(float w, float t, float beyond) { return plane_slope(w, t, beyond); }

@@ -1,13 +1,13 @@
-// Round lights: what a part of one sends.
+// Round lights: light from a part of one.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// What a pixel sees of a round light. x is the signed distance at which a ray passes its centre.
+// A round light as a pixel sees it. x is the signed distance at which a ray passes its centre.
 struct DiskView {
-    vec2 to;      // its centre
-    float reach;  // the most x that is seen, either way
-    float d2;     // of the centre; in units of the range, where there is one
+    vec2 to;      // direction to its centre
+    float reach;  // greatest visible x, to either side
+    float d2;     // squared distance of the centre; in units of the range, where there is one
     float rho2;
-    float scale;  // 1 / range, 0 without
+    float scale;  // 1 / range, 0 without a range
 };
 
 DiskView disk_view(vec2 center, float radius, float inverse_range) {
@@ -21,7 +21,7 @@ DiskView disk_view(vec2 center, float radius, float inverse_range) {
     view.rho2 = rho * rho;
     float reach = view.d2 > view.rho2 ? rho : 0.0;
     if (inverse_range > 0.0 && view.d2 - view.rho2 > 1.0) {
-        // The near side leaves the range before the tangent: law of cosines.
+        // The near side leaves the range before the tangent does: law of cosines.
         float along = 0.5 * (view.d2 + 1.0 - view.rho2);
         reach = min(sqrt(max(view.d2 - along * along, 0.0)), rho);
     }
@@ -34,7 +34,7 @@ float disk_slope(DiskView view, float x) {
     return x * inversesqrt(max(view.d2 - x * x, 1.0e-12));
 }
 
-// Between two rays given by their slopes from the centre's direction.
+// Light between two rays, which are given by their slopes from the centre's direction.
 float disk_share(DiskView view, float from, float to) {
     if (view.scale > 0.0) return plane_disk_window(to, view.d2, view.rho2) - plane_disk_window(from, view.d2, view.rho2);
     return trig_atan2_unwrapped(to - from, 1.0 + from * to);

@@ -16,11 +16,11 @@ vec3 disk_light(uint at) {
     return colour_at(at + uint(kLightColour)) * (max(sum, 0.0) * kInverseTurn);
 }
 
-// An edge seen from the pixel: slopes are from its perpendicular, and run along it.
+// An edge as the pixel sees it. Slopes are from its perpendicular, and run along it.
 struct Edge {
-    vec2 normal;  // to the lit side
-    float d;      // of its line
-    float foot;   // of the perpendicular, along it
+    vec2 normal;  // towards the lit side
+    float d;      // distance of its line
+    float foot;   // foot of the perpendicular, along it
     float begin;
     float inverse_d;
     float q;  // (d / range)^2
@@ -42,18 +42,19 @@ float slope_along(Edge e, float place) { return clamp((place - e.foot) * e.inver
 
 float reach_of(Edge e) { return sqrt(max(1.0 / max(e.q, 1.0e-30) - 1.0, 0.0)); }
 
-// How it shines.
+// Emission of an edge.
 struct Emission {
     bool ranged;
     bool linear;
     int profile;
 };
 
-// Integrals over slopes: of the light at the edge's foot, and of its change along the edge.
+// Integrals over slopes: light at the edge's foot, and its change along the edge.
 vec2 edge_integral(Edge e, Emission emission, float from, float to) {
     int power = emission.profile == 0 ? 0 : 1;
     vec2 sum = vec2(0.0);
-    // plane_edge_integral's terms one by one, so that drivers compile one of them: of a range 1, -2 q and q^2 times powers that fall by 2.
+    // Adds plane_edge_integral's terms one by one, so that drivers compile only one. A range has the terms 1, -2 q and q^2, times powers
+    // that fall by 2.
     int terms = emission.ranged ? 3 : 1;
     int degrees = emission.linear ? 2 : 1;
     for (int i = 0; i < 2 * terms * degrees; i++) {
@@ -70,15 +71,15 @@ vec2 edge_integral(Edge e, Emission emission, float from, float to) {
     return sum;
 }
 
-// An edge of uniform or linear radiance without a range that is small as every pixel sees it. Between two points of it at distances r0 and
-// r1, the angle is atan(cross / dot), and ln(r1 / r0), the integral of tan f, is atanh((r1^2 - r0^2) / (r1^2 + r0^2)). Both arguments are
-// below 1/5, so that x^9 / 9 < 6e-8 is what their series leave out.
+// For an edge that every pixel sees as small, with uniform or linear radiance and no range. Between two of its points, at distances r0 and
+// r1, the angle is atan(cross / dot). ln(r1 / r0), the integral of tan f, is atanh((r1^2 - r0^2) / (r1^2 + r0^2)). Both arguments are
+// below 1/5, so the first term that the series omit is x^9 / 9 < 6e-8.
 float odd_series(float x, float sign_of_thirds) {
     float x2 = x * x;
     return x * (1.0 + x2 * (sign_of_thirds / 3.0 + x2 * (0.2 + x2 * (sign_of_thirds / 7.0))));
 }
 
-// a, b: two points of the edge as the pixel sees them. Angle, logarithm.
+// Returns the angle and the logarithm. a, b: two points of the edge, relative to the pixel.
 vec2 small_sums(vec2 a, vec2 b) {
     vec2 along = b - a;
     vec2 twice = a + b;
@@ -87,7 +88,7 @@ vec2 small_sums(vec2 a, vec2 b) {
                 odd_series(dot(along, twice) / (0.5 * (dot(twice, twice) + dot(along, along))), 1.0));
 }
 
-// How far along the edge a slope of the run's axis is.
+// Fraction of the edge at which a slope of the run's axis meets it.
 float share_at(float m, vec2 begin, vec2 end) {
     float g0 = m * begin.x - begin.y;
     float g1 = m * end.x - end.y;
@@ -110,13 +111,13 @@ vec3 small_part_light(uint part, vec2 run_axis, bool whole) {
         from = after_gap(k, from);
     }
     sum *= kInverseTurn;
-    // Towards the edge is against its normal; along it is (y, -x) of that.
+    // The direction towards the edge is against its normal; the direction along the edge is (y, -x) of that.
     float foot = cross2(normal, begin);
     float d = -dot(normal, begin);
     return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * (foot * sum.x + d * sum.y);
 }
 
-// One edge of a run, or one that is its own run: what it sends of the slopes that are left of the run's chord.
+// Light from one edge of a run, or from an edge that is its own run, over the slopes left of the run's chord.
 vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range) {
     Edge e = edge_of(pair_of_numbers(part), pair_of_numbers(part + 2u), number(part + 4u), inverse_range);
     // An edge of a run may face away.
@@ -137,7 +138,8 @@ vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range
         if (to > from) {
             vec2 a = vec2(c.x - from * c.y, c.y + from * c.x);
             vec2 b = vec2(c.x - to * c.y, c.y + to * c.x);
-            // An interval is less than half a turn: an end behind the edge's line is beyond all of the edge on its own side, unless both are.
+            // An interval is less than half a turn. So an end behind the edge's line is beyond all of the edge on its own side, unless both
+            // ends are behind it.
             bool ahead = a.x > 1.0e-12 || b.x > 1.0e-12;
             float own_from = max(slope(a.x, a.y, -kBeyond), own_low);
             float own_to = min(slope(b.x, b.y, kBeyond), own_high);
@@ -150,7 +152,7 @@ vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range
     return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * ((e.foot - e.begin) * sum.x + sum.y * e.d);
 }
 
-// An edge that is the same in all directions and at all distances, or a chord that stands for such edges, has no parts.
+// An edge that emits equally in all directions and at all distances has no parts. Neither has a chord that replaces such edges.
 vec3 edge_light(uint at) {
     float inverse_range = number(at + uint(kLightInverseRange));
     uint parts = length_of_list(at, 0);

@@ -6,13 +6,13 @@ float pair_line(uint pair, int line, vec2 p) {
     return number_of_pair(pair, line, 0) * p.x + (number_of_pair(pair, line, 1) * p.y - number_of_pair(pair, line, 2));
 }
 
-// A vertex from the tile's centre.
+// A vertex relative to the tile's centre.
 vec2 vertex_at(uint number, vec4 center) {
     vec4 v = vertices[number];
     return vec2((v.x - center.x) + (v.y - center.y), (v.z - center.z) + (v.w - center.w));
 }
 
-// Where the ray through a vertex passes the light's centre; beyond all of the light where the vertex is behind the pixel.
+// Place on the light: where the ray through a vertex passes its centre. If the vertex is behind the pixel, it is beyond all of the light.
 float place_on_light(vec2 from_light, vec2 from_eye) {
     float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
     float ahead = dot(from_eye - from_light, from_eye);
@@ -44,7 +44,7 @@ RoundEnds round_ends(vec2 to_light, vec2 from_light, float s) {
 
 float beyond_light(float place) { return place > 0.0 ? 1.0e6 : -1.0e6; }
 
-// A blocker that stands within the light, or that no line decides about.
+// A blocker within the light, or one for which no line decides.
 void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
     if (!(pair_line(pair, 2, p) > 0.0)) return;
     uint first = pairs[pair + uint(kPairFirst)];
@@ -74,7 +74,7 @@ void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
     take(from, to);
 }
 
-// All from one end of the light up to where the blocker ends, or down to where it begins.
+// Occludes everything from one end of the light up to the blocker's end, or down to its beginning.
 void take_end(uint pair, bool from_low, vec2 p, vec2 light, vec4 center) {
     uint first = pairs[pair + uint(kPairFirst)];
     uint kind = pairs[pair + uint(kPairKind)];
@@ -100,7 +100,7 @@ void take_end(uint pair, bool from_low, vec2 p, vec2 light, vec4 center) {
     }
 }
 
-// What one pair takes, by the lines that the pixel is clear of.
+// Cuts out what one pair occludes, decided by the lines that the pixel is clear of.
 void take_pair(uint pair, vec2 p, vec2 light, vec4 center, float slack) {
     ++turns;
     float separator = pair_line(pair, 2, p);
@@ -116,7 +116,7 @@ void take_pair(uint pair, vec2 p, vec2 light, vec4 center, float slack) {
         take_within(pair, p, light, center);
 }
 
-// Of what is left of a light.
+// Light from the part that is left of a light.
 float share_left(DiskView view) {
     float sum = 0.0;
     float from = max(low, -view.reach);
@@ -144,11 +144,11 @@ vec3 event_light(uint at, vec4 center) {
 
 #else
 
-// By the lists that shaders/plane_lists.comp has made.
+// Uses the lists that shaders/plane_lists.comp has computed.
 vec3 listed_light(uint at, vec4 center) {
     uint disk = lists[at];
     uint mask_at = lists[at + 1u];
-    if (masks[mask_at] == 1u) return vec3(0.0);  // hidden from all of the tile
+    if (masks[mask_at] == 1u) return vec3(0.0);  // occluded from all of the tile
     vec2 light = vec2((number(disk) - center.x) + (number(disk + 1u) - center.y), (number(disk + 2u) - center.z) + (number(disk + 3u) - center.w));
     DiskView view = disk_view(light, number(disk + 4u), number(disk + 5u));
     uint first = lists[disk + uint(kDiskFirstPair)];

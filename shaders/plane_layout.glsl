@@ -1,11 +1,11 @@
-// What the host and shaders/plane.glsl agree on: places in buffers and kinds of work. This text is C++ and GLSL at once.
+// Layout of the buffers that the host and shaders/plane.glsl share, and kinds of work. This text is C++ and GLSL at once.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// A job is one tile's lights of one kind: tile, where its lights begin, how many there are, the tile's centre (x and y, each as a float and
-// what that leaves), 1 where it is the tile's first job.
+// A job is one tile's lights of one kind: tile, place of its lights, their number, the tile's centre (x and y, each as a float and its
+// remainder), 1 if it is the tile's first job.
 const int kJob = 8;
 
-// Of a tile: a plane of pixels for each colour, and one number that is 1 where the CPU has to draw it.
+// Results of a tile: a plane of pixels for each colour, and one number that is 1 if the CPU has to draw it.
 const int kPixels = 256;
 const int kTileSums = 772;
 const int kToCpu = 768;
@@ -19,20 +19,20 @@ const int kPairFirst = 19;
 const int kPairKind = 20;   // kind, count
 const int kPairChain = 21;  // end_first, ends, begin_first, begins
 
-// A light whose lists the device makes: where its disk stands, where its mask of the tile.
+// A light whose lists the device computes: place of its disk, place of its mask of the tile.
 const int kListedLight = 2;
-// A disk: x and y, each as a float and what that leaves, radius, 1 / range, red, green, blue; x and y from the picture's corner; its first
-// pair, how many there are; tiles that it reaches: the first one's column and row, how many across and down; where its masks begin. A mask:
-// 1 where one blocker hides the light from all of the tile, then a bit a pair.
+// A disk: x and y, each as a float and its remainder, radius, 1 / range, red, green, blue; x and y from the picture's corner; its first
+// pair, number of pairs; tiles that it reaches: column and row of the first one, numbers across and down; place of its masks. A mask:
+// 1 if one blocker occludes the light from all of the tile, then a bit for each pair.
 const int kDisk = 20;
 const int kDiskCorner = 9;
 const int kDiskFirstPair = 11;
 const int kDiskPairs = 12;
 const int kDiskTiles = 13;
 const int kDiskMasks = 17;
-const int kDiskHeader = 3;  // in the header: where the disks begin
+const int kDiskHeader = 3;  // in the header: place of the disks
 
-// Turns that a thread's loops may take in all: a software device ends them at 65,535 without a word.
+// Most turns that all loops of a thread may take together: a software device silently ends them at 65,535.
 const int kMostTurns = 60000;
 
 // A light by the general rules: words, then its lists in the order of their counts.
@@ -52,13 +52,13 @@ const int kLightSpot = 17;  // 0 none, 1, 2 more than half a turn; then low and 
 const int kLightShape = 22;
 const int kLightCounts = 32;
 const int kLightArc = 44;
-const int kLightWords = 60;  // of it and its lists
-const int kLightCorners = 61;  // of a run: how many it may begin in, and end in; they stand behind the lists
+const int kLightWords = 60;  // number of words of the light and its lists
+const int kLightCorners = 61;  // run only: numbers of corners in which it may begin and end; they come after the lists
 const int kLight = 64;
-// Words of an entry of each list; spans and bodies are followed by their vertices.
-const int kPart = 17;  // those of TilePart; the last is one of the following or 0
+// Words of an entry of each list; the vertices of spans and bodies follow them.
+const int kPart = 17;  // words of TilePart; the last is 0 or one of the two below
 const int kSmallPart = 1;
-const int kSmallAndSeen = 2;  // and all of the light's parts are seen where nothing is taken of it
+const int kSmallAndSeen = 2;  // also, all of the light's parts are visible if nothing is cut out of it
 const int kVertex = 2;
 const int kDiskBlocker = 3;
 const int kSpan = 2;
@@ -69,5 +69,5 @@ const int kRound = 13;
 const int kLens = 39;
 const int kCrossing = 7;
 
-// Intervals within a light that a thread keeps; what takes more goes to the CPU.
+// Capacity of a thread for intervals within a light; a tile that needs more goes to the CPU.
 const int kIntervals = 24;

@@ -1,5 +1,5 @@
-// The lights of a list, one after another, as a pixel sees them. What asks for it has `lists`, `pairs`, `vertices` and, for lists that the
-// device makes, `masks`.
+// The lights of a list, one after another, as a pixel sees them. The shader that includes this has `lists`, `pairs`, `vertices` and, for
+// lists that the device computes, `masks`.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 const float kInverseTurn = 0.159154943091895336;  // 1 / (2 pi)
@@ -9,7 +9,7 @@ vec2 pair_of_numbers(uint at) { return vec2(number(at), number(at + 1u)); }
 vec3 colour_at(uint at) { return vec3(number(at), number(at + 1u), number(at + 2u)); }
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-vec2 eye;  // the pixel, from the tile's centre
+vec2 eye;  // the pixel, relative to the tile's centre
 
 #include "plane_cut.glsl"
 #include "plane_disk.glsl"
@@ -24,7 +24,7 @@ vec2 eye;  // the pixel, from the tile's centre
 #endif
 #endif
 
-// Of a job, at pixel (x, y) of its tile.
+// Light of a job at pixel (x, y) of its tile.
 vec3 light_of_job(uint job, float x, float y) {
     uint at = lists[job + 1u];
     uint count = lists[job + 2u];
@@ -53,5 +53,5 @@ vec3 light_of_job(uint job, float x, float y) {
     return sum;
 }
 
-// Was the last job more than a thread can do?
+// Returns true if the last job exceeded a thread's budget.
 bool is_for_cpu() { return too_many || turns > kMostTurns; }

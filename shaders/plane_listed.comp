@@ -1,4 +1,4 @@
-// Round lights in the plane, by event lines and the lists that the device has made.
+// Round lights in the plane, by event lines and the lists that the device has computed.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,14 +1,14 @@
-// What a lobe sees of a rect or disk with a measured profile, the mean of its radiance: Gauss's rule of 3 x 3 points in cells that are as
-// fine as lobe and profile ask for, as source/integrals/profiled_light.cpp, which the parity of frames holds to this.
+// Mean radiance of a rect or disk with a measured profile, as a lobe sees it: Gauss's rule of 3 x 3 points in cells. Cells are as fine as
+// lobe and profile need. Mirrors source/integrals/profiled_light.cpp; the parity of frames holds the two together.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Which of a surface's lobes: 0 the diffuse one, 1 the base's, 2 the coat's, 3 sheen.
+// The surface's lobe: 0 the diffuse one, 1 the base's, 2 the coat's, 3 sheen.
 const int OF_LOBE = WHICH_LOBE;
 
-// As source/integrals/profiled_light.cpp has it: the share of the lobe's width that a cell may span.
+// Fraction of the lobe's width that a cell may span, as in source/integrals/profiled_light.cpp.
 const float kProfileLobeShare = 0.6;
 
-// As the host wrote it (source/render/vulkan/light_details.cpp): kProfileHead vectors.
+// A profiled light as the host wrote it (source/render/vulkan/light_details.cpp): kProfileHead vectors.
 struct ProfiledLight {
     vec3 center;
     bool round;
@@ -16,7 +16,7 @@ struct ProfiledLight {
     float widest;
     vec3 y;
     int profile;
-    mat3 axes;  // of the profile: x, y, aim
+    mat3 axes;  // the profile's: x, y, aim
     float size;
     float mean;
 };
@@ -60,11 +60,11 @@ float lobe_towards(SeeingLobe lobe, vec3 direction) {
     return dot(ggx_lobe_and_fresnel(lobe.ggx, l, 1.0), lobe.factors);
 }
 
-// Cells: bounds u0, u1, v0, v1. A heap by what a cell spans over what it should, the widest first, from the front; from the back, those that are
-// fine enough.
+// Cells: bounds u0, u1, v0, v1. A heap of cells that are too wide stands at the front, the widest first: it compares a cell's span with the
+// allowed span. Cells that are fine enough stand at the back.
 const int kMostCells = 256;
 vec4 cells[kMostCells];
-float excess_of[kMostCells];  // negative where the cell is to be halved along v
+float excess_of[kMostCells];  // negative if the cell is to be halved along v
 int waiting;
 int fine;
 
@@ -96,7 +96,7 @@ void put_cell(ProfiledLight light, SeeingLobe lobe, vec4 cell) {
     excess_of[i] = across_u > across_v ? excess : -excess;
 }
 
-// The last one in the place of the first.
+// Puts the last cell in place of the first.
 void drop_first() {
     --waiting;
     vec4 cell = cells[waiting];
@@ -135,7 +135,7 @@ void find_cells(ProfiledLight light, SeeingLobe lobe) {
 
 float candela_along(ProfiledLight light, vec3 l) { return profile_intensity(light.profile, -transform_transposed(light.axes, l)); }
 
-// 0 where the peak misses the light.
+// Returns 0 if the peak misses the light.
 float radiance_of_peak(ProfiledLight light, SeeingLobe lobe) {
     vec3 aim = light.axes[2];
     float cosine = -dot(lobe.axis, aim);
@@ -151,7 +151,7 @@ float radiance_of_peak(ProfiledLight light, SeeingLobe lobe) {
     return misses ? 0.0 : candela_along(light, lobe.axis) / abs(cosine);
 }
 
-// As profiled_mean (direct.glsl) takes it.
+// The mean in the form that profiled_mean (direct.glsl) reads.
 vec4 mean_seen(ProfiledLight light, SeeingLobe lobe) {
     find_cells(light, lobe);
     float peak = radiance_of_peak(light, lobe);

@@ -1,17 +1,17 @@
-// Which triangles stand in a ray's way, from a hierarchy of boxes in a buffer (source/render/vulkan/ray_hierarchy.h). The walk needs no
-// stack: nodes stand in the order of a walk through all of them, and each knows where to go on past what is below it.
+// Finds the triangles that a ray meets, in a hierarchy of boxes in a buffer (source/render/vulkan/ray_hierarchy.h). The traversal needs no
+// stack: nodes stand in its order, and each has the number of the node past all that is below it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// From a point along a vector, in the hierarchy's unit; places on it are in lengths of that.
+// A ray from a point along a vector, in the hierarchy's unit. Places on it are in lengths of the vector.
 struct Ray {
     vec3 origin;
     vec3 along;
     vec3 inverse;  // 1 / along
-    int axis;      // along which it is longest
-    vec3 shear;    // to a ray along that axis, from 0 to 1
+    int axis;      // axis along which it is longest
+    vec3 shear;    // maps it to a ray along that axis, from 0 to 1
 };
 
-// The other two coordinates, and that along the axis.
+// The other two coordinates, then the one along the axis.
 vec3 to_axis(vec3 v, int axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
 
 Ray ray_of(vec3 origin, vec3 along) {
@@ -24,14 +24,14 @@ Ray ray_of(vec3 origin, vec3 along) {
     ray.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     vec3 turned = to_axis(along, ray.axis);
     ray.shear = vec3(turned.xy / turned.z, 1.0 / turned.z);
-    // No product with 0 then; no ray is that long.
+    // This avoids products of infinity and 0; no ray is that long.
     for (int i = 0; i < 3; i++) ray.inverse[i] = 1.0 / (size[i] < 1.0e-30 ? 1.0e-30 : along[i]);
     return ray;
 }
 
-// Never false where the ray meets the box between two places. T. Ize, "Robust BVH Ray Traversal", Journal of Computer Graphics Techniques
-// 2(2), 2013: a difference, a reciprocal of 2.5 units in the last place and a product are off by less than 4e-7 of themselves, and so is
-// its end by less than twice that of its beginning.
+// Returns true wherever the ray meets the box between two places. T. Ize, "Robust BVH Ray Traversal", Journal of Computer Graphics
+// Techniques 2(2), 2013. A difference, a reciprocal of 2.5 units in the last place and a product have a relative error of less than 4e-7.
+// The end is then off by less than twice that relative to the beginning.
 bool meets_box(Ray ray, float first, float last, vec3 low, vec3 high) {
     vec3 a = (low - ray.origin) * ray.inverse;
     vec3 b = (high - ray.origin) * ray.inverse;
@@ -43,7 +43,7 @@ bool meets_box(Ray ray, float first, float last, vec3 low, vec3 high) {
 }
 
 // Twice the area of a triangle with a corner at 0. Its sign is right or it is 0: products round, but never past each other. With the sides
-// in the other order it is the same number, negative, which it would not be if a compiler made one rounding of two.
+// in the other order the result is exactly the negative. It would not be if a compiler made one rounding of two.
 float twice_area(vec2 a, vec2 b) {
     precise float left = a.x * b.y;
     precise float right = a.y * b.x;
@@ -51,9 +51,9 @@ float twice_area(vec2 a, vec2 b) {
     return twice;
 }
 
-// S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1), 2013: seen along the
-// ray, which of the corners' sides pass it on the left? Neighbours see the same corners, so they agree about the side between them, and
-// one of them is hit; a ray through a side hits both. A triangle seen edge-on is not hit: those around it are. place: where, if it is hit.
+// S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", Journal of Computer Graphics Techniques 2(1), 2013. The test: which
+// sides between the corners pass the ray on the left? Neighbours have the same corners, so they agree about their common side, and one of
+// them is hit. A ray through a side hits both. A triangle seen edge-on is not hit; those around it are. place: valid after a hit.
 bool meets_triangle(Ray ray, float first, float last, vec3 v0, vec3 v1, vec3 v2, out float place) {
     vec3 a = to_axis(v0 - ray.origin, ray.axis);
     vec3 b = to_axis(v1 - ray.origin, ray.axis);
@@ -72,8 +72,8 @@ bool meets_triangle(Ray ray, float first, float last, vec3 v0, vec3 v1, vec3 v2,
     return (left || right) && size > 0.0 && at >= first * size && at <= last * size;
 }
 
-// Software devices end a thread's loops after 65,535 turns in all, silently: a node takes one, a triangle another, and a leaf's loop that
-// ends one more. This many nodes keep below that, and whoever is not at the end did not finish.
+// Software devices silently end a thread's loops after 65,535 turns in all. A node takes one, a triangle another, and the end of a leaf's
+// loop one more. This many nodes stay below that. A traversal that is not at the end did not finish.
 const int kMostNodes = 10000;
 
 const float kFarthest = 3.0e38;
@@ -81,7 +81,7 @@ const float kFarthest = 3.0e38;
 uvec4 node_low(uint node) { return hierarchy[uint(kHead) + 2u * node]; }
 uvec4 node_high(uint node) { return hierarchy[uint(kHead) + 2u * node + 1u]; }
 
-// The number from 1 of the triangle that a ray meets first, from a place on.
+// Number, from 1, of the first triangle that a ray meets from a place on.
 uint first_along(Ray ray, float first) {
     uint end = node_high(0u).w;
     uint node = 0u;
@@ -109,9 +109,9 @@ uint first_along(Ray ray, float first) {
 
 const int kFree = 0;
 const int kBlocked = 1;
-const int kNotKnown = 2;  // the walk took too many turns
+const int kNotKnown = 2;  // the traversal took too many turns
 
-// Whether anything stands between a ray's beginning and the end of its vector.
+// Tests if anything occludes the ray between its beginning and the end of its vector.
 int way_along(Ray ray) {
     uint end = node_high(0u).w;
     uint node = 0u;

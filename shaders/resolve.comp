@@ -1,4 +1,4 @@
-// What is at the pixels of tiles: the surfaces of the triangles that they see, as source/render/cpu/surface.h has them.
+// Computes the surfaces at the pixels of tiles, from the visible triangles. Mirrors source/render/cpu/surface.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer vertices;
 layout(binding = 1) uniform samplerBuffer triangles;  // numbers of three vertices and of the mesh
-layout(binding = 2) uniform samplerBuffer materials;  // and what they name
+layout(binding = 2) uniform samplerBuffer materials;  // and the data that they refer to
 layout(binding = 3) uniform samplerBuffer view;
 layout(binding = 4) uniform samplerBuffer texels;
 layout(binding = 5) uniform samplerBuffer tables;
@@ -16,8 +16,8 @@ layout(std430, binding = 6) readonly buffer Seen { uint seen[]; };
 layout(std430, binding = 7) writeonly buffer Surfaces { vec4 surfaces[]; };
 layout(std430, binding = 8) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 9) writeonly buffer Taken { vec4 taken[]; };  // the same surfaces, for the host
-layout(constant_id = 0) const int kTaken = 0;                          // whether it wants them
-layout(constant_id = 1) const int kLayers = 0;                         // whether some surface may have what layers.glsl is about
+layout(constant_id = 0) const int kTaken = 0;                          // 1: the host needs them
+layout(constant_id = 1) const int kLayers = 0;                         // 1: some surface may have a layer of layers.glsl
 layout(push_constant) uniform Push { uint first_tile; };
 
 #include "prelude/prelude.glsl"
@@ -34,7 +34,7 @@ float square_of(vec3 a) { return dot(a, a); }
 bool has_direction(vec3 a) { return square_of(a) > 1.0e-30 && square_of(a) < 1.0e30; }
 vec3 unit(vec3 a) { return has_direction(a) ? a * inversesqrt(square_of(a)) : vec3(0.0); }
 
-// Values at the corners of a triangle, blended.
+// Corners of a triangle, and the weights that blend their values.
 struct Corners {
     ivec3 number;
     vec3 weight;
@@ -44,14 +44,14 @@ vec4 blended(Corners at, int value) {
            texelFetch(vertices, at.number.z * kVertex + value) * at.weight.z;
 }
 
-// How texture coordinates change with the weights of the second and third corner.
+// Change of texture coordinates with the weights of the second and third corner.
 vec4 change(Corners at, vec2 by) {
     vec4 first = texelFetch(vertices, at.number.x * kVertex + kVertexTexcoords);
     return (texelFetch(vertices, at.number.y * kVertex + kVertexTexcoords) - first) * by.x +
            (texelFetch(vertices, at.number.z * kVertex + kVertexTexcoords) - first) * by.y;
 }
 
-// Of both sets of coordinates; sets that the mesh lacks are 0 all over.
+// Both sets of coordinates; sets that the mesh lacks are 0 everywhere.
 struct Coordinates {
     vec4 at;
     vec4 right;
@@ -72,14 +72,14 @@ vec4 texture_of(int use, Coordinates c) {
 
 float alpha_of(float roughness) { return clamp(roughness * roughness, 1.0e-4, 1.0); }
 
-// A surface that is seen is seen from above: surface.cpp's turned_to.
+// Turns a normal towards the view, because a visible surface is seen from above. Mirrors surface.cpp's turned_to.
 vec3 turned_to(vec3 n, vec3 to_view, float facing) {
     float least = min(0.01, 0.5 * facing);
     float c = dot(n, to_view);
     return c >= least ? n : unit(n + to_view * (least - c));
 }
 
-// The normal that a map shows; `up` where there is none, and where it points below the surface.
+// Normal from a map, or `up` if there is no map or its normal points below the surface.
 vec3 bent_normal(int use, Coordinates c, vec3 x, vec3 y, vec3 up) {
     if (texelFetch(materials, use).x < 0.0) return up;
     vec3 map = 2.0 * texture_of(use, c).xyz - 1.0;
@@ -133,7 +133,7 @@ Surface surface_of(uint triangle, vec3 direction) {
     vec3 e2 = texelFetch(vertices, at.number.z * kVertex + kVertexPosition).xyz - p0;
     vec3 n = cross(e1, e2);
 
-    // Where the ray meets the triangle's plane, and the place next to it in the triangle: rasters round corners.
+    // Intersects the ray with the triangle's plane, and takes the nearest place in the triangle: rasters round corners.
     vec3 from = texelFetch(view, kViewOrigin).xyz - p0;
     vec3 across = cross(direction, e2);
     float determinant = dot(e1, across);
@@ -172,7 +172,7 @@ Surface surface_of(uint triangle, vec3 direction) {
         c.down = change(at, vec2(dot(cross(down, e2), n), dot(cross(e1, down), n)));
     }
 
-    // What surface_at does, in its order.
+    // The steps of surface_at, in its order.
     s.sheen = vec3(0.0);
     s.sheen_alpha = s.coat_alpha = 1.0;
     s.coat = 0.0;
@@ -251,7 +251,7 @@ void main() {
     vec4 down = texelFetch(view, kViewDown);
     uint tiles_across = uint(right.w);
     uint number = first_tile + tile;
-    // tile_slot's inverse.
+    // The inverse of tile_slot.
     uint block = slot / 16u;
     uvec2 pixel = uvec2(number % tiles_across, number / tiles_across) * 32u + uvec2(block % 8u, block / 8u) * 4u + uvec2(slot % 4u, slot % 16u / 4u);
     uint triangle_and_one = 0u;
@@ -288,7 +288,7 @@ void main() {
     }
     radiance[tile * uint(kRadiance) + slot] = s.found ? vec4(s.emission, s.mesh) : vec4(0.0);
 
-    // The bounds of the group's surfaces, by which the host finds which lights reach the tile.
+    // Bounds of the group's surfaces: by these, the host finds the lights that reach the tile.
     positions_of_group[gl_LocalInvocationID.x] = s.found ? s.position : vec3(0.0);
     normals_of_group[gl_LocalInvocationID.x] = s.found ? s.normal : vec3(0.0);
     kinds_of_group[gl_LocalInvocationID.x] = kinds;

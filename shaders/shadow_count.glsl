@@ -1,8 +1,8 @@
-// The counts along all segments, and the pieces at the lowest of them: steps 5 and 6 of docs/shadows.md, as arrange() of
-// source/shadow/arrangement.cpp and lanes_cut_pack.cpp have them.
+// The counts along all segments, and the pieces at the lowest count: steps 5 and 6 of docs/shadows.md. Mirrors arrange() of
+// source/shadow/arrangement.cpp, and lanes_cut_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// The three orders of f x (p - scale f.a) in the displacement's infinitely small number. p, shift: a vertex, or twice a midpoint.
+// Terms of order 0, 1 and 2 of f x (p - scale f.a) in the infinitely small displacement. p, shift: a vertex, or twice a midpoint.
 struct Side {
     Long d0;
     Long d1;
@@ -22,7 +22,7 @@ bool is_left(Side s) {
     if (sign == 0) sign = sign_of(s.d2);
     return sign >= 0;
 }
-// The share of the way between two vertices at which the line lies.
+// Fraction of the way between two vertices at which the line lies.
 float place_between(Side from, Side to) {
     float a = to_float(from.d0);
     float d = a - to_float(to.d0);
@@ -33,8 +33,8 @@ float place_between(Side from, Side to) {
     return d == 0.0 ? 0.5 : clamp(a / d, 0.0, 1.0);
 }
 
-// Floats hold differences of cells exactly; a product is off by 2^-24 of itself, and so is the difference of two. 1 left, -1 right, 0: they
-// do not tell.
+// Floats hold differences of cells exactly. A product has a relative error of 2^-24, and so has the difference of two. Returns 1 for left,
+// -1 for right, 0 if floats cannot decide.
 int float_side(ivec2 d, ivec2 q) {
     float a = float(d.x) * float(q.y);
     float b = float(d.y) * float(q.x);
@@ -48,7 +48,7 @@ bool share_an_end(uvec2 e, uvec2 f) {
     return a.x == b.x || a.x == b.y || a.y == b.x || a.y == b.y;
 }
 
-// Pieces of segments at the lowest count so far: from which share of the way to which.
+// Pieces of segments at the lowest count so far: fractions of the way at which each begins and ends.
 SHARED vec2 pieces[PIECE_SPACE];
 SHARED int piece_segments[PIECE_SPACE];
 int piece_count;
@@ -57,14 +57,14 @@ bool too_many_pieces;
 
 #ifdef MANY_EDGES
 
-// Those of the segment that this lane is at.
+// Pieces of the segment that this lane handles.
 const int TAKEN_SPACE = kCrossings + 1;
 vec2 taken[TAKEN_SPACE];
 int taken_segments[TAKEN_SPACE];
 int taken_count;
 int taken_level;
 
-// Puts what each lane has taken behind what there is, as far as it is at the lowest count of all.
+// Appends the pieces that each lane has taken to those of all lanes, if they are at the lowest count of all.
 void gather_pieces() {
     int lowest = least_of_lanes(taken_level);
     if (lowest < level) {
@@ -114,7 +114,7 @@ void take_piece(vec2 ways, int segment, int left) {
     ++taken_count;
 }
 
-// Where a piece begins and ends, the lower side on its left.
+// Begin and end of a piece, with the side of the lower count on its left.
 vec4 piece_ends(int i) {
     ivec4 e = cells[piece_segments[i]];
     vec2 d = vec2(e.zw - e.xy);
@@ -123,7 +123,7 @@ vec4 piece_ends(int i) {
     return weights[piece_segments[i]] > 0 ? ends.zwxy : ends;
 }
 
-// Segments that a segment may cross, or its middle's ray to the left, with what floats know.
+// Segments that a segment, or the left ray from its middle, may cross, with flags for what floats could decide.
 const int kMeets = 1;
 const int kNotCertain = 2;
 const int kEndAbove = 4;
@@ -134,9 +134,9 @@ int close_count;
 // Crossings of one segment, in their order.
 float crossing_at[kCrossings];
 int crossing_change[kCrossings];
-int shifts_here;  // in putting them in order
+int shifts_here;  // moves made while sorting them
 
-// A segment whose count is wanted.
+// A segment whose count is computed.
 struct Walk {
     int number;
     ivec4 cells;
@@ -147,16 +147,16 @@ struct Walk {
     ivec4 bounds;
 };
 
-// What a segment whose start and end lie on different sides of a height adds to a ray to the left along it, from a place on its left or right.
+// Change that a segment across a height adds to the count of a left ray at that height. left: the ray starts on the segment's left.
 int left_ray(int weight, bool upwards, bool left) { return upwards ? (left ? 0 : -weight) : (left ? weight : 0); }
 
-// What segment i adds to the count left of the middle, as far as floats know; notes the segment where that is not all.
+// Returns what segment i adds to the count left of the middle, as far as floats can decide. Stores it in `close` if more is needed.
 int look_at_segment(Walk e, int i) {
     ivec4 f = cells[i];
     uvec2 named_f = names[i];
     int weight = weights[i];
     int count = 0;
-    // Events of the box's left side, and which ends lie above the middle; ties go by displacements.
+    // Events of the box's left side, and the ends that lie above the middle; displacements break ties.
     ivec2 height = 2 * f.yw - ivec2(e.m.y);
     ivec2 shifted = 2 * height_shifts(i) - ivec2(e.shift_m.y);
     bool start_above = height.x > 0 || (height.x == 0 && shifted.x > 0);
@@ -195,7 +195,7 @@ int look_at_segment(Walk e, int i) {
     return count;
 }
 
-// mine: else the lane only looks at what all lanes look at.
+// If `mine` is false, the lane only takes part in looking at the segments that all lanes look at.
 void cut_segment(int number, int base, bool mine) {
     Walk w;
     w.number = number;
@@ -254,7 +254,7 @@ void cut_segment(int number, int base, bool mine) {
         crossing_change[k] = change;
         ++crossings;
     }
-    // The count is on the -x side: the left if the segment runs up.
+    // The count is on the -x side, which is the left if the segment runs up.
     bool up = d.y > 0 || (d.y == 0 && shift_e.w > shift_e.y);
     int left = (up ? count : count + weights[number]) - before_middle;
     float from = 0.0;

@@ -1,4 +1,4 @@
-// Signs of whole numbers of 64 bits, and the displacements that break ties: as source/shadow/arrangement.cpp and cell_of have them.
+// Signs of integers of 64 bits, and the displacements that break ties. Mirrors source/shadow/arrangement.cpp and cell_of.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 struct Long {
@@ -33,15 +33,15 @@ float to_float(Long a) {
 // a x b
 Long long_cross(ivec2 a, ivec2 b) { return long_difference(long_product(a.x, b.y), long_product(a.y, b.x)); }
 
-// What an end of a segment is: equal names, the same vertex.
+// The name of a segment's end: ends with equal names are the same vertex.
 const uint kNameNumber = 0x0fffffffu;
 const uint kVertexName = 0u;
-const uint kCutName = 0x10000000u;     // of an edge by the light's plane
-const uint kCornerName = 0x20000000u;  // of the outline
-const uint kClipName = 0x30000000u;    // of an edge by the box: twice its number, 1 more at its end
-const uint kHorizonName = 0x40000000u; // by the box: 0, 1; of the triangle's: 2, 3
-const uint kSectionName = 0x50000000u; // of a triangle's section by the light's plane, by the box: as of an edge
-const uint kLeftName = 0x80000000u;    // beside it: by the box's left side
+const uint kCutName = 0x10000000u;     // cut of an edge by the light's plane
+const uint kCornerName = 0x20000000u;  // corner of the outline
+const uint kClipName = 0x30000000u;    // cut of an edge by the box: twice its number, plus 1 at its end
+const uint kHorizonName = 0x40000000u; // cut of a horizon by the box: 0, 1; the triangle's: 2, 3
+const uint kSectionName = 0x50000000u; // cut of a triangle's section (by the light's plane) by the box: as for an edge
+const uint kLeftName = 0x80000000u;    // flag beside it: cut by the box's left side
 
 uvec2 long_times(uvec2 a, uvec2 b) {
     uint high;
@@ -61,7 +61,7 @@ int odd_of(uint bits) {
     return (bits & 0x100000u) != 0u ? -size : size;
 }
 
-// Sebastiano Vigna's splitmix64 of the vertex's id.
+// Displacement of a vertex: Sebastiano Vigna's splitmix64 of its id.
 ivec2 displacement(uint name) {
     uint kind = name & 0x70000000u;
     uvec2 id = uvec2(name & kNameNumber, kind);

@@ -1,5 +1,5 @@
-// Who works on a point: one thread, or all those of a subgroup, its lanes, each on every LANES-th edge or segment. What lanes find is put in the
-// order of the edges, so nothing depends on who was first. Segments and pieces stand in shared memory; all else goes through the subgroup.
+// The threads that work on a point: one thread, or all lanes of a subgroup, each on every LANES-th edge or segment. Results of lanes are
+// stored in the order of the edges, so nothing depends on timing. Segments and pieces are in shared memory; all else uses the subgroup.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 #ifdef MANY_EDGES
@@ -8,15 +8,15 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-// A work group is as large as the device says that its subgroups are. Where it is several of them nevertheless, main() leaves the point.
+// A work group is as large as the device says that its subgroups are. If it is several of them nevertheless, main() skips the point.
 layout(local_size_x_id = 2) in;
 #define LANE gl_SubgroupInvocationID
 #define LANES gl_WorkGroupSize.x
 #define SHARED shared
 
-// What lanes have written is there for all of them. Every lane must come here and to all below: no branch that they do not all take.
+// Makes what lanes have written visible to all of them. Every lane must call this and all functions below, without divergent branches.
 void meet() { subgroupBarrier(); }
-// Where what this lane has begins among all lanes' in their order; all: how much they have.
+// Place at which this lane's results begin among all lanes' results, in lane order. all: number of all results.
 uint begin_of(uint count, out uint all) {
     meet();
     all = subgroupAdd(count);
@@ -50,5 +50,5 @@ uint of_first_lane(uint x) { return x; }
 
 #endif
 
-// Lane by lane what is first, first + 1 and so on, as far as there is one.
+// Returns true if this lane's element exists. Lane by lane, i is first, first + 1 and so on.
 bool is_mine(uint i, uint count) { return LANES == 1u || i < count; }

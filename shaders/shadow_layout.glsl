@@ -1,54 +1,54 @@
-// What the host and shadow_parts.comp agree on. This text is C++ and GLSL at once.
+// Layout of the buffers that the host and shadow_parts.comp share. This text is C++ and GLSL at once.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Groups of points, vectors of four uints each, the headers of all of them first. Where a vector holds floats, it holds their bits.
-//   0  where the vertices, planes and edges begin; number of edges
-//   1  where the incidences, corners and points begin; number of corners and kTurned, kOwnCorners: what each point has
+// Groups of points, in vectors of four uints each; the headers of all groups come first. A vector of floats holds their bits.
+//   0  places of the vertices, planes and edges; number of edges
+//   1  places of the incidences, corners and points; number of corners with the flags kTurned, kOwnCorners: data of each point
 //   2  number of points, kTriangles times that of triangles that cross the light's plane; number of the first answer; half sides of the box
 //   3  axis x of the light's frame; half side of the light along it
 //   4  axis y; half side
 //   5  axis z; height below which edges block
 const int kShadowHeader = 6;
-const int kTurned = 65536;       // a plane of its own before the light
-const int kOwnCorners = 131072;  // corners of its own
+const int kTurned = 65536;       // each point has its own plane in front of the light
+const int kOwnCorners = 131072;  // each point has its own corners
 const int kTriangles = 65536;
-// Vertices: place in the frame, number in the mesh. Planes: normal, offset. Edges: ends, planes (16 bits each), number, walks. Those of
-// more than two triangles: where in the incidences theirs begin, and how many. Incidences: plane, walk, four a vector. Corners: cells of
-// the outline's edge that begins there; numbers of its ends.
+// Vertices: place in the frame, number in the mesh. Planes: normal, offset. Edges: ends, planes (16 bits each), number, walks. An edge of
+// more than two triangles has the place and number of its incidences instead of planes. Incidences: plane, walk, four a vector.
+// Corners: cells of the outline's edge that begins there; numbers of its ends.
 const int kWalks0 = 1;      // there is a first triangle ...
 const int kAgainst0 = 2;    // ... that walks against the edge
 const int kWalks1 = 4;      // and a second one
 const int kAgainst1 = 8;
 const int kManyWalks = 16;
-const int kAgainst = 65536;  // of an incidence
-// Behind the corners the triangles: corners and plane (16 bits each), number; numbers of the edges from each corner to the next.
+const int kAgainst = 65536;  // flag of an incidence that walks against the edge
+// The triangles come after the corners: corners and plane (16 bits each), number; numbers of the edges from each corner to the next.
 const int kShadowCorner = 2;
 const int kShadowTriangle = 2;
 
-// Points: place in the frame, flags; shading normal; cells of the horizons by it and by the triangle. Of a light that each sees in a
-// plane of its own, then that plane: 3, 4 and 5 of the header; the frame's origin, half side of the box; place in the coordinates
-// of the edges, other half side. Then the cells of its own corners.
+// Points: place in the frame, flags; shading normal; cells of the horizons by it and by the triangle. With kTurned, the point's own plane
+// follows: 3, 4 and 5 of the header; the frame's origin, half side of the box; place in the coordinates of the edges, other half side.
+// Then come the cells of its own corners.
 const int kShadowPoint = 4;
 const int kShadowPlane = 5;
-const int kArranged = 1;      // even if no occluder is seen
+const int kArranged = 1;      // even if no occluder is visible
 const int kCutByTriangle = 2;
-const int kHorizon = 4;       // twice that: of the triangle
-const int kHorizonLeft = 16;  // the box's left side cuts: start, end; of the triangle's: start, end
-const int kShares = 256;      // of a round light, for which the outline stands
-const int kBase = 512;        // times how often the lower left corner is hidden
+const int kHorizon = 4;       // by the shading normal; twice that: by the triangle
+const int kHorizonLeft = 16;  // the box's left side cuts: start, end; then the triangle's: start, end
+const int kShares = 256;      // the outline replaces a round light
+const int kBase = 512;        // times how often the lower left corner is occluded
 
 // Answers:
-//   0  where a ray begins, as the host has it; number of edges of the outline, and kAskRay
-//   1  the ray's way, to its end; what is known
+//   0  begin of a ray, as the host has it; number of edges of the outline, and kAskRay
+//   1  vector of the ray to its end; the result so far
 const int kShadowAnswer = 2;
-const int kAskRay = 65536;  // whether the way is free: until that is known
+const int kAskRay = 65536;  // set until it is known if the ray is free
 const int kSeesNone = 0;
-const int kSeesWhole = 1;    // if the way is free; so is a part
+const int kSeesWhole = 1;    // if the ray is free; the same holds for a part
 const int kAskHost = 2;
-const int kNoRoom = 3;       // for what it sees
-const int kSeesPart = 4;     // and where its record begins
+const int kNoRoom = 3;       // no capacity for the visible part
+const int kSeesPart = 4;     // plus the place of its record
 
-// Points for which a thread has no space: kGroupPoints times the number of the group, and their own in it.
+// Points that exceed the capacity of a thread: kGroupPoints times the number of the group, plus the point's number in it.
 const int kGroupPoints = 64;
 const int kMostMany = 65535;  // work groups in a row
 
@@ -58,9 +58,9 @@ const int kMostMany = 65535;  // work groups in a row
 //   0  centre of the elements relative to the point; number of places of the outline, 0: the light's own
 //   1  reach_a; mean square deviation
 //   2  reach_b; weight
-//   3  area; 0, or how far on there is the record of the polygon that stands for a round light
-// and its places, relative to the point: 1 where they go on with an edge, 0 where they begin one.
+//   3  area; 0, or distance to the record of the polygon that replaces a round light
+// and its places, relative to the point: 1 if they go on with an edge, 0 if they begin one.
 const int kPartHeader = 4;
-// Of a round light counts what share of the polygon's radiance the part sends. Before the polygon's record stand what arrives of the part,
-// of the polygon and of the light itself, sums over the lobes.
+// A round light uses the fraction of the polygon's radiance that the part sends. Before the polygon's record are the radiances that arrive
+// from the part, from the polygon and from the light itself, summed over the lobes.
 const int kPartSums = 3;

@@ -1,4 +1,5 @@
-// What points before many edges see of flat lights: a work group of one subgroup is a point, for which shadow_parts.comp has no space. docs/shadows.md.
+// Visible parts of flat lights for points with many edges, which exceed the capacity of shadow_parts.comp. A work group of one subgroup is
+// a point. docs/shadows.md.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

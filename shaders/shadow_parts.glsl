@@ -1,5 +1,5 @@
-// What points see of flat lights behind edges: what shadow_parts.comp and shadow_many.comp have in common. MANY_EDGES: all threads of a
-// subgroup for a point. docs/shadows.md.
+// Visible parts of flat lights behind edges: the text that shadow_parts.comp and shadow_many.comp share. With MANY_EDGES, all threads of a
+// subgroup work on one point. docs/shadows.md.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 #include "shadow_layout.glsl"
@@ -11,11 +11,11 @@ layout(std430, binding = 0) readonly buffer Groups { uvec4 groups[]; };
 layout(std430, binding = 1) writeonly buffer Parts { vec4 parts[]; };
 layout(std430, binding = 2) buffer Answers {
     uint parts_begin;
-    uint parts_used;  // of all that there are, with those that had no room
+    uint parts_used;  // by all parts, including those that did not fit
     uint parts_room;
-    uint first_many;     // behind the answers: numbers of the points for shadow_many.comp, four a vector
-    uvec3 many_groups;   // x: how many of these it is for
-    uint many;           // all of them
+    uint first_many;     // after the answers: numbers of the points for shadow_many.comp, four a vector
+    uvec3 many_groups;   // x: number of points that it handles
+    uint many;           // number of all of them
     uvec4 answers[];
 };
 layout(push_constant) uniform Push { uint first_group; };
@@ -31,22 +31,22 @@ layout(push_constant) uniform Push { uint first_group; };
 #include "shadow_count.glsl"
 #include "shadow_region.glsl"
 
-// Of the part in work.
+// The view of the part in work.
 struct View {
     Eye eye;
     vec3 normal;
-    vec2 scale;  // of cells
+    vec2 scale;  // size of a cell
 };
 
 vec3 relative(View view, vec2 on_plane) { return view.eye.axes * vec3(on_plane - view.eye.eye.xy, view.eye.eye.z); }
 
-// A place in cells, relative to the point; on or above its horizon, so that no rounding puts an edge below.
+// A place in cells, relative to the point. It is on or above the point's horizon, so that no rounding puts an edge below.
 vec3 corner_at(View view, vec2 cell) {
     vec3 d = relative(view, cell * view.scale);
     return d + view.normal * max(1.0e-6 * length(d) - dot(d, view.normal), 0.0);
 }
 
-// Area moments of what edges bound, about a place of the light's plane.
+// Area moments of a region that edges bound, about a place of the light's plane.
 struct Moments {
     float area;
     vec2 first;
@@ -69,11 +69,11 @@ Moments moments_of_lanes(Moments m) {
     return Moments(low.x, sum_of_lanes(vec4(m.first, 0.0, 0.0)).xy, low.yzw);
 }
 
-// A part's record but for its places. With the four elements that stand for it where it is small: quarters_of of
+// Writes a part's record without its places. It includes the four elements that replace the part if it is small: quarters_of of
 // source/shapes/area_moments.h.
 //
-//   about  what the moments are about, in cells
-//   ahead  how far on the polygon's record begins, or 0
+//   about  place about which the moments are, in cells
+//   ahead  distance to the polygon's record, or 0
 void write_record(View view, Moments m, vec2 about, uint at, uint places, uint ahead) {
     vec2 c = m.first / m.area;
     vec3 second = m.second / m.area - vec3(c.x * c.x, c.x * c.y, c.y * c.y);
@@ -102,7 +102,7 @@ void write_part(View view, vec2 inside, uint at, uint ahead) {
     write_record(view, moments_of_lanes(m), inside, at, 2u * uint(piece_count), ahead);
 }
 
-// The polygon that stands for a round light, one contour, behind room for the sums.
+// Writes the polygon that replaces a round light, one contour, after the space for the sums.
 void write_polygon(View view, Corners corners, uint at) {
     for (int i = int(LANE); i < kPartSums; i += int(LANES)) parts[at + uint(i)] = vec4(0.0);
     at += uint(kPartSums);
@@ -213,7 +213,7 @@ void main() {
     }
     if (LANE > 0u) return;
     if (sees != uint(kSeesNone) && sees != uint(kAskHost)) edges += uint(kAskRay);
-    // As far as it is from the light's plane below which things block.
+    // The ray ends at the height below which things block.
     vec3 way = relative(view, place.xy * view.scale) * max(1.0 + eye.height / eye.eye.z, 0.0);
     uint to = uint(kShadowAnswer) * (h2.y + number);
     answers[to].w = edges;

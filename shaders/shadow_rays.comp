@@ -1,4 +1,4 @@
-// Whether the ways are free to the places that shadow_parts.comp has found: a thread a point.
+// Tests if the rays to the places that shadow_parts.comp has found are free: a thread a point.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

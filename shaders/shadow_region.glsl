@@ -1,4 +1,4 @@
-// The region that the pieces bound: whether it is thin, and a place well inside it, as source/shadow/lanes_region_pack.cpp finds them.
+// The region that the pieces bound: tests if it is thin, and finds a place well inside it. Mirrors source/shadow/lanes_region_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 const float kCellSize = 1.0 / 4194304.0;      // in half sides of the box
@@ -21,7 +21,7 @@ bool region_is_wide() {
     return sums.x > 2.0 * kThin * sums.y;
 }
 
-// From a place along a unit direction, how far it is to the next segment but one.
+// Distance from a place along a unit direction to the next segment except `but`.
 float distance_to_next(vec2 from, vec2 n, int but) {
     float nearest = 1.0e30;
     for (int i = int(LANE); i < segment_count; i += int(LANES)) {
@@ -37,7 +37,7 @@ float distance_to_next(vec2 from, vec2 n, int but) {
     return least_of_lanes(nearest);
 }
 
-// The distance of a place from all segments, 0 where its count is above the level or not certain.
+// Distance of a place from all segments, or 0 if its count is above the level or uncertain.
 float room_at(vec2 q, int base) {
     float least2 = 1.0e30;
     int count = 0;
@@ -48,7 +48,7 @@ float room_at(vec2 q, int base) {
         vec2 p = q - s.xy;
         vec2 r = p - clamp(dot(p, f) / max(dot(f, f), 1.0), 0.0, 1.0) * f;
         least2 = min(least2, dot(r, r));
-        // The place is no whole number: differences round as well.
+        // The place is not in whole numbers, so differences round as well.
         bool start_above = s.y > q.y;
         bool end_above = s.w > q.y;
         float a = f.x * p.y;
@@ -66,7 +66,7 @@ float room_at(vec2 q, int base) {
     return certain && count <= level ? sqrt(least2) : 0.0;
 }
 
-// From the middles of the longest pieces along their normals, half way to what comes next: z: the room there.
+// Tries places from the middles of the longest pieces along their normals, half way to the next segment. z: distance from all segments.
 vec3 place_inside(int base) {
     vec3 best = vec3(0.0);
     float last = 1.0e30;

@@ -1,12 +1,12 @@
-// What a point sees of a group's edges, of the light's outline and of its own horizons: segments in cells, as source/shadow/edge_arrays.cpp
-// and lanes_see_pack.cpp find them.
+// A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells. Mirrors
+// source/shadow/edge_arrays.cpp and lanes_see_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 SHARED ivec4 cells[SEGMENT_SPACE];  // start, end
 SHARED uvec2 names[SEGMENT_SPACE];
 SHARED int weights[SEGMENT_SPACE];
 int segment_count;
-bool too_much;  // for the space there is
+bool too_much;  // the capacity is exceeded
 
 const int kHidden = 1048576;  // source/shadow/segments.h
 
@@ -14,9 +14,9 @@ ivec4 displacements(uvec2 named) { return ivec4(displacement(named.x), displacem
 
 #ifdef MANY_EDGES
 
-shared ivec2 heights[SEGMENT_SPACE];  // displacements of both ends in y: what is asked most
+shared ivec2 heights[SEGMENT_SPACE];  // displacements of both ends in y: the most frequent query
 
-// Of this lane.
+// The segment that this lane has found.
 ivec4 found_cells;
 uvec2 found_names;
 int found_weight;
@@ -29,7 +29,7 @@ void add_segment(ivec4 ends, uvec2 named, int weight) {
     found = true;
 }
 
-// Puts what each lane has found, one segment at most, behind the first `before`. Returns the place of this lane's, or -1.
+// Appends what each lane has found, one segment at most, after the first `before`. Returns the place of this lane's, or -1.
 int gather_segments(int before) {
     uint all;
     int to = before + int(begin_of(found ? 1u : 0u, all));
@@ -46,7 +46,7 @@ int gather_segments(int before) {
     return to;
 }
 
-// Of what has just been gathered, each lane keeps its own or not.
+// After gathering: each lane keeps or discards its own segment.
 void keep_gathered(int before, int own, bool keep) {
     meet();
     found = own >= 0 && keep;
@@ -85,22 +85,22 @@ ivec2 height_shifts(int i) { return shifts[i].yw; }
 
 #endif
 
-// A point before a light's plane.
+// A point in front of a light's plane.
 struct Eye {
     vec3 at;       // in the coordinates of the edges
-    vec3 eye;      // in the light's frame, below its plane: shadow_project
+    vec3 eye;      // in the light's frame, below the light's plane: shadow_project
     vec2 box;
-    float height;  // only what lies below blocks
-    mat3 axes;     // of the light's frame
+    float height;  // only geometry below it blocks
+    mat3 axes;     // axes of the light's frame
     bool turned;   // the frame is not the edges' own
-    vec3 origin;   // of such a frame
+    vec3 origin;   // origin of such a frame
     vec2 extent;   // half sides of the light
 };
 
 // A vertex in the light's frame.
 vec3 place_of(Eye eye, vec3 v) { return eye.turned ? (v - eye.origin) * eye.axes : v; }
 
-const int kAboveOut = 16;  // beside one bit for each side: left, right, bottom, top
+const int kAboveOut = 16;  // in addition to one bit for each side: left, right, bottom, top
 
 struct End {
     vec3 h;
@@ -118,10 +118,10 @@ End look_at(Eye eye, vec3 v) {
     return end;
 }
 
-// A distance from a side with the sign that `outside` has: all edges of a vertex agree.
+// Distance from a side, with the sign that `outside` has, so that all edges of a vertex agree.
 float side_distance(float d, int outside, int bit) { return (outside & bit) != 0 ? min(d, 0.0) : max(d, 1.0e-30); }
 
-// clip_name: of its ends at the box.
+// clip_name: name of the segment's ends at the box.
 void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight) {
     if ((a.outside & b.outside & 15) != 0) return;
     ivec4 ends = ivec4(ivec2(a.cell), ivec2(b.cell));
@@ -138,7 +138,7 @@ void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight)
     span = shadow_clip_side(span, side_distance(sa.y - a.h.y, a.outside, 8), side_distance(sb.y - b.h.y, b.outside, 8), 4.0);
     bool at_a = span.sides.x > 0.5;
     bool at_b = span.sides.y > 0.5;
-    // An end inside is not lost where the other lies a rounding beyond its side: its chain would break.
+    // An end inside stays, even if the other end lies a rounding beyond its side. Otherwise its chain would break.
     if (!(span.t0 < span.t1) && at_a && at_b) return;
     vec3 d = b.h - a.h;
     if (at_a) {
@@ -152,7 +152,7 @@ void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight)
     add_segment(ends, named, weight);
 }
 
-// 1 where the point sees the front of a plane, else -1.
+// Returns 1 if the point sees the front of a plane, else -1.
 int facing_of(Eye eye, uint plane) {
     vec4 p = uintBitsToFloat(groups[plane]);
     return int(shadow_facing(p.xyz, p.w, eye.at));
@@ -175,7 +175,7 @@ void see_edge(Eye eye, uvec4 begins, uint incidences, uint e) {
             if ((flags & kWalks0) != 0) weight -= facing_of(eye, begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
             if ((flags & kWalks1) != 0) weight -= facing_of(eye, begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
         }
-        // A loop of one turn at most, here and below: software devices skip those, but no branch.
+        // A loop of at most one turn, here and below: software devices skip such loops, but no branches.
         for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
             uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
             uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
@@ -207,14 +207,14 @@ void see_edges(Eye eye, uvec4 begins, uint incidences) {
     }
 }
 
-// Where the light's plane cuts the side of a triangle from one corner to the next.
+// The place at which the light's plane cuts a triangle's side, which goes from one corner to the next.
 End cut_of(Eye eye, uvec4 from, uvec4 to) {
     vec3 a = place_of(eye, uintBitsToFloat(from.xyz));
     vec3 b = place_of(eye, uintBitsToFloat(to.xyz));
     return look_at(eye, from.w < to.w ? shadow_cut(a, b, eye.height) : shadow_cut(b, a, eye.height));
 }
 
-// The section of a triangle by the light's plane, from where the triangle's walk leaves the space below to where it comes back.
+// The section of a triangle by the light's plane. It starts where the triangle's walk leaves the space below, and ends where it returns.
 void see_section(Eye eye, uint vertices, uint planes, uint triangles, uint count, uint t) {
     if (is_mine(t, count)) {
         uvec4 triangle = groups[triangles + uint(kShadowTriangle) * t];
@@ -235,8 +235,8 @@ void see_section(Eye eye, uint vertices, uint planes, uint triangles, uint count
     }
 }
 
-// That of a coincident triangle only adds its weight to the first one's: two segments with the same ends could not tell who lies left of
-// whom.
+// The section of a coincident triangle only adds its weight to the first one's. Two segments with the same ends could not decide which lies
+// left of the other.
 const int kMostSections = 48;
 void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint count) {
     int first = segment_count;
@@ -261,13 +261,13 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
 
 // The edges of a light's outline, in cells.
 struct Corners {
-    uint first;  // of the group's
-    uint own;    // of the point's, or 0
+    uint first;  // place of the group's
+    uint own;    // place of the point's, or 0
     uint count;
 };
 ivec4 corner_cells(Corners c, uint i) { return ivec4(groups[c.own > 0u ? c.own + i : c.first + uint(kShadowCorner) * i]); }
 
-// The outline, and the horizons that the host found.
+// Adds the outline, and the horizons that the host has found.
 void see_surroundings(Corners c, uint at, int flags) {
     for (uint first = 0u; first < c.count; first += LANES) {
         uint i = first + LANE;

@@ -1,4 +1,4 @@
-// Adds what arrives of round lights that something hides in part, once all lobes have summed it up: a thread a pixel.
+// Adds the light that arrives from partly occluded round lights, after all lobes have summed it up: a thread a pixel.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -7,7 +7,7 @@
 #include "layout.glsl"
 #include "shadow_layout.glsl"
 
-// As direct.glsl's.
+// Same declarations as in direct.glsl.
 layout(local_size_x = 64) in;
 layout(binding = 4) uniform samplerBuffer radiance_before;
 layout(binding = 5) uniform usamplerBuffer lists;
@@ -18,8 +18,8 @@ layout(push_constant) uniform Push { uint first_entry; };
 
 #include "entry.glsl"
 
-// What of the light itself arrives: as much of it as of the polygon that stands for it. Methods that approximate may find more of a part
-// than of all.
+// Light that arrives from the light itself: the same fraction as from the polygon that replaces it. The fraction is at most 1, because
+// approximate methods may find more for a part than for the whole.
 float arriving(float light, float part, float polygon) { return polygon > 0.0 ? min(part / polygon, 1.0) * light : 0.0; }
 
 void main() {

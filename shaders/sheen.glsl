@@ -1,7 +1,7 @@
-// Sheen, Charlie's lobe, by its cubature: as source/integrals/charlie.h.
+// Sheen, Charlie's lobe, by its cubature. Mirrors source/integrals/charlie.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Two walks over the edges; edges that have no space together are walked afresh the second time.
+// Walks over the edges twice. If the edges exceed their space, the second turn clips the outline again.
 float sheen_over_outline(Light light, Seen seen, mat3 frame, vec3 p, CharlieLobe lobe) {
     float facing = seen.reversed ? -1.0 : 1.0;
     vec3 e = vec3(0.0);
@@ -22,7 +22,7 @@ float sheen_over_outline(Light light, Seen seen, mat3 frame, vec3 p, CharlieLobe
     return charlie_cubature_finish(c);
 }
 
-// Radiance towards the view of a light of radiance 1, of colour 1.
+// Radiance towards the view from a light of radiance 1, for a lobe of colour 1.
 float sheen_radiance(Light light, vec3 p, vec3 n, vec3 v, float alpha) {
     mat3 frame = frame_from_normal(n);
     vec3 view = transform_transposed(frame, v);
@@ -34,7 +34,7 @@ float sheen_radiance(Light light, vec3 p, vec3 n, vec3 v, float alpha) {
     }
     Seen seen = see(light, p);
     if (!seen.lit || !(view.z > 0.0)) return 0.0;
-    // About the normal and wide: the lobe has no peak about which corners should gather.
+    // Corners gather about the normal, widely: the lobe has no peak about which they should.
     if (has_corners()) fill_corners(light, frame, p, vec3(0.0, 0.0, 1.0), 1.0);
     float sent = sheen_over_outline(light, seen, frame, p, lobe);
     if (CAREFUL && may_be_small(light, p, 2000.0)) {

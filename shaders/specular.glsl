@@ -1,8 +1,8 @@
-// The specular lobe, GGX, by each of the methods: what arrives at the view of a light of radiance 1, x with F = 1 and y with
-// F = (1 - v.h)^5. A method's way along the outline is that of its file in source/integrals.
+// The specular lobe, GGX, by each of its methods. Results are radiance at the view from a light of radiance 1, x with F = 1, y with
+// F = (1 - v.h)^5. The walk of each method along the outline is that of its file in source/integrals.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Of one point.
+// The lobe at one point.
 struct SpecularLobe {
     vec3 tangent;
     float ax;
@@ -10,7 +10,7 @@ struct SpecularLobe {
 };
 
 struct Answer {
-    float irradiance;  // that reaches the diffuse lobe, where both are wanted
+    float irradiance;  // that reaches the diffuse lobe, if both are wanted
     vec2 specular;
 };
 
@@ -23,7 +23,7 @@ struct LtcLobe {
     float f_a;
 };
 
-// The table's lobe: matrices from node `first` on, then magnitudes.
+// A lobe of the table, whose matrices begin at node `first`; magnitudes come after them.
 LtcLobe ltc_lobe_at(int first, float roughness, vec3 view) {
     vec2 at = ltc_coordinates(roughness, view.z);
     vec4 entry = look_up(first, MATRIX_SIZE, at);
@@ -38,7 +38,7 @@ LtcLobe ltc_lobe_at(int first, float roughness, vec3 view) {
     return lobe;
 }
 
-// By the light's elements where they are better than the outline.
+// Uses the light's elements instead of the outline where they are better.
 float ltc_small_or(float outline, LightElements e, LtcMatrix m) {
     if (!elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), 8.0)) return outline;
     float sum = 0.0;
@@ -70,7 +70,7 @@ vec2 clipless(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha
 }
 #else
 struct LtcAnswer {
-    vec3 irradiance;  // vector, of the diffuse lobe; where both are wanted
+    vec3 irradiance;  // vector for the diffuse lobe, if both are wanted
     float specular;   // integral of the transformed cosine
 };
 
@@ -126,7 +126,7 @@ Answer ltc_answer(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float a
 }
 #endif
 #else
-// By the light's elements where they are better than the outline.
+// Uses the light's elements instead of the outline where they are better.
 vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView view, float deviation, float roundings) {
     LightElements e = elements_in(light, seen, frame, p);
     if (!elements_serve(e, light_elements_half_vector_sharpness(deviation, view.v.z), roundings)) return outline;
@@ -139,7 +139,7 @@ vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView 
 }
 
 #if LOBE != LOBE_REPRESENTATIVE_POINT
-// Of the arcs that two walks want, what is dear to find: the rest of an arc costs less than to keep it.
+// The expensive part of the arcs that two walks need: to compute the rest of an arc again costs less than to store it.
 vec4 poles[ARC_SPACE];
 void keep_poles(int i, QuarticPoles of) { poles[i] = vec4(of.z1, of.z2); }
 QuarticPoles kept_poles(int i) {
@@ -149,7 +149,7 @@ QuarticPoles kept_poles(int i) {
     return kept;
 }
 
-// An edge's share of E.
+// Contribution of an edge to E.
 #if LOBE == LOBE_CLOSED_FORM
 const bool DRAFT = QUALITY == 0;
 const bool EXACT = LOBE_FORM == 2;
@@ -169,7 +169,7 @@ vec3 share_at(GgxView view, vec3 h) { return ggx_at_half_vector(view, h); }
 vec3 vector_of(GgxView view, ConicArc edge) { return sum_over_arcs(view, edge); }
 #endif
 
-// Of a light that nothing cuts, whose edges are the outline's own.
+// A light that nothing cuts: its edges are the outline's own.
 vec2 by_arcs_uncut(Light light, mat3 frame, vec3 p, GgxView view) {
     int count = outline_length(light) - 1;
     vec3 previous = outline_place(light, frame, p, 0).direction;
@@ -205,8 +205,8 @@ ConicArc edge_scaled(GgxView view, int i) {
     return ggx_edge_scaled(view, begin, there ? edge_ends[i] : begin);
 }
 
-// Two walks over the edges: of their vectors' sum, and of the cubature about it. Edges that have no space together are walked
-// afresh the second time.
+// Two walks over the edges: one sums their vectors, the other is the cubature about that sum. If the edges exceed their space, the second
+// walk clips them again.
 vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
     float facing = seen.reversed ? -1.0 : 1.0;
     if (UNCUT && !CHUNKED) return by_arcs_uncut(light, frame, p, view);
@@ -233,7 +233,7 @@ vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
         return ggx_cubature_finish(c);
     }
     walk = fill_edges(walk, light, seen, frame, p);
-    // An edge that there is not has no length: so no loop has to ask first whether there is one.
+    // Missing edges are degenerate (begin == end), so the loop needs no test.
     int i = 0;
     do {
         ConicArc arc = edge_scaled(view, i);

@@ -1,15 +1,15 @@
-// Where the shaders that find surfaces read a scene (source/render/vulkan/scene_buffers.cpp). This text is C++ and GLSL at once.
+// Layout of a scene for the shaders that find surfaces (source/render/vulkan/scene_buffers.cpp). This text is C++ and GLSL at once.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Vertices: vectors of four each.
 const int kVertexPosition = 0;
 const int kVertexNormal = 1;
 const int kVertexTangent = 2;
-const int kVertexTexcoords = 3;  // of both sets
+const int kVertexTexcoords = 3;  // both sets
 const int kVertexColor = 4;
 const int kVertex = 5;
 
-// The view: where rays begin and which way they go, in pixels from the picture's upper left corner.
+// The view: origin and directions of rays, in pixels from the picture's upper left corner.
 const int kViewOrigin = 0;     // width of the picture
 const int kViewCorner = 1;     // height
 const int kViewRight = 2;      // tiles across
@@ -19,10 +19,10 @@ const int kViewStepDown = 5;   // y of it
 const int kViewForward = 6;
 const int kViewVectors = 7;
 
-// Materials begin with what the 256 codes of sRGB are in linear light, four a vector.
+// Materials begin with the linear values of the 256 codes of sRGB, four a vector.
 const int kCodes = 64;
-// Meshes: one vector each: number of its material's first vector, whether it has tangents, colours, sets of texture coordinates (1 + 2);
-// and kForHost where it is the host's.
+// Meshes: one vector each: number of its material's first vector, 1 if it has tangents, 1 if it has colours, sets of texture coordinates
+// (1 + 2), plus kForHost if the host handles it.
 const int kForHost = 4;
 // Materials:
 const int kMaterialBase = 0;           // rgba
@@ -33,9 +33,9 @@ const int kMaterialSheen = 4;          // rgb, roughness
 const int kMaterialCoat = 5;           // weight, roughness; strength of anisotropy, its rotation
 const int kMaterialTextures = 6;
 const int kUnlit = 1;
-const int kScatters = 2;  // light between its facets
+const int kScatters = 2;  // light bounces between its facets
 
-// Uses of textures, kUse vectors each: number of its first level (below 0: none), how many levels, flags, set of coordinates; the
+// Uses of textures, kUse vectors each: number of its first level (below 0: none), number of levels, flags, set of coordinates; the
 // transform's numbers 0 to 3; 4 and 5 of them, scale.
 const int kUseBase = 0;
 const int kUseMetallicRoughness = 1;
@@ -53,11 +53,11 @@ const int kUses = 12;
 const int kUse = 3;
 const int kMaterial = 42;  // kMaterialTextures + kUses * kUse
 
-// Flags: how u is wrapped (0 repeats, 1 mirrors, 2 stays at the edge), four times how v is, and these.
+// Flags: wrap mode of u (0 repeats, 1 mirrors, 2 stays at the edge), four times the mode of v, and these.
 const int kNearest = 16;
 const int kSrgb = 32;
 
-// Levels: one vector each: number of its first texel over kTexelRow, what is left of that, width, height.
+// Levels: one vector each: number of its first texel divided by kTexelRow, the remainder of that, width, height.
 const int kTexelRow = 65536;
 
 // Tables: the sizes of GGX's shapes and magnitudes and of Charlie's, then their nodes, one vector each, in that order.

@@ -1,4 +1,4 @@
-// Tables of lobes, between their nodes.
+// Tables of lobes, interpolated between their nodes.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 vec4 look_up(int first, int size, vec2 at) {

@@ -1,4 +1,4 @@
-// What lobes see of textured lights: means, for the shaders of the lobes.
+// Mean radiances of textured lights, for the shaders of the lobes.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,8 +1,8 @@
-// What a lobe sees of a textured light, the mean of its radiance: over cells of it, as source/integrals/ltc/texture_mean.h, and by a look-up
-// in its blurred copies where it is too narrow for them, as source/integrals/ltc/textured_light.cpp.
+// Mean radiance of a textured light, as a lobe sees it: over cells of it, as in source/integrals/ltc/texture_mean.h. If the lobe is too
+// narrow for cells, it is a look-up in blurred copies, as in source/integrals/ltc/textured_light.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Which of a surface's lobes: 0 the diffuse one, 1 the base's, 2 the coat's, 3 one of extras.steradian.
+// The surface's lobe: 0 the diffuse one, 1 the base's, 2 the coat's, 3 one of extras.steradian.
 const int OF_LOBE = WHICH_LOBE;
 
 struct Mean {
@@ -10,7 +10,7 @@ struct Mean {
     bool found;
 };
 
-// The sum over the cells that a threshold leaves.
+// Sum over the cells that a threshold does not split.
 struct CellSums {
     LtcTextureCellSeen seen;
     int splits;
@@ -25,7 +25,7 @@ CellSums sum_cells(LightTexture t, LtcTextureCellView view, vec3 expected, float
     sums.splits = 0;
     sums.too_deep = false;
     int number = 0;
-    int path = 1;  // below the cell: a half for each bit after the first
+    int path = 1;  // below the cell: one half for each bit after the first
     do {
         TreeCell tree = tree_cell_at(t, number);
         LtcTextureCell cell = part_of(t, tree.cell, path);
@@ -166,7 +166,7 @@ void main() {
         weight = vec3(surface_at(entry.tile, kTangent, entry.slot).w);
     }
     bool reflects = dot(normal.xyz, normal.xyz) > 0.25 && weight.x + weight.y + weight.z > 0.0 && (OF_LOBE == 0 || dot(n, v) > 0.0);
-    // One light: llvmpipe ends a thread's loops after 65,535 turns in all.
+    // Only one light: llvmpipe ends a thread's loops after 65,535 turns in all.
     Light light = light_at(listed(entry.first));
     vec3 mean = vec3(0.0);
     if (reflects && see(light, position.xyz).lit) mean = mean_seen(light, position.xyz, n, v, alpha);

@@ -1,14 +1,14 @@
-// Textures as source/core/mip_maps.h looks them up: the mean over what a pixel covers.
+// Textures as source/core/mip_maps.h looks them up: the mean over the footprint of a pixel.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Coordinates, and how they change to the next pixels.
+// Coordinates, and their change to the next pixels.
 struct Footprint {
     vec2 at;
     vec2 right;
     vec2 down;
 };
 
-// By the host's table: what devices have as powers is not as good.
+// Uses the host's table: the powers of devices are less accurate.
 float linear_from_srgb(float c) {
     int code = int(c * 255.0 + 0.5);
     return texelFetch(materials, code >> 2)[code & 3];
@@ -32,7 +32,7 @@ vec4 texel_at(int first, int width, ivec2 at, bool srgb) {
     return srgb ? vec4(linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z), c.w) : c;
 }
 
-// Of a level, at coordinates from 0 to 1 over the picture.
+// Bilinear look-up in a level, at coordinates from 0 to 1 over the picture.
 vec4 bilinear(int level, vec2 uv, int flags) {
     vec4 record = texelFetch(materials, level);
     int first = int(record.x) * kTexelRow + int(record.y);
@@ -49,9 +49,9 @@ vec4 bilinear(int level, vec2 uv, int flags) {
     return mix(top, bottom, share.y);
 }
 
-bool is_usual(float u) { return abs(u) < 1.0e7; }  // not beyond all that have a fraction, and a number
+bool is_usual(float u) { return abs(u) < 1.0e7; }  // a number, and small enough to have a fraction
 
-// White without a texture. use: number of the use's first vector.
+// Returns white without a texture. use: number of the use's first vector.
 vec4 sample_texture(int use, Footprint of_mesh) {
     const float most_taps = 16.0;
     vec4 a = texelFetch(materials, use);
@@ -65,7 +65,7 @@ vec4 sample_texture(int use, Footprint of_mesh) {
     vec2 middle = turn * of_mesh.at + vec2(b.z, c.y);
     middle = vec2(is_usual(middle.x) ? middle.x : 0.0, is_usual(middle.y) ? middle.y : 0.0);
 
-    // texture_taps.
+    // Same steps as texture_taps.
     vec2 right = turn * of_mesh.right * size;
     vec2 down = turn * of_mesh.down * size;
     float xx = right.x * right.x + down.x * down.x;
@@ -78,7 +78,7 @@ vec4 sample_texture(int use, Footprint of_mesh) {
     float level = 0.0;
     vec2 axis = vec2(0.0);
     if (!(longer2 > 1.0)) {
-        if ((flags & kNearest) != 0) middle = (floor(middle * size) + 0.5) / size;  // in the middle of a texel, where no neighbour counts
+        if ((flags & kNearest) != 0) middle = (floor(middle * size) + 0.5) / size;  // middle of a texel, where no neighbour counts
     } else if (!(longer2 < 1.0e12)) {
         level = last;
     } else {

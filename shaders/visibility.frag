@@ -1,4 +1,4 @@
-// The number of the triangle, from 1; 0 is where there is none.
+// Number of the triangle, from 1; 0 where there is none.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 

@@ -1,4 +1,4 @@
-// Which triangle every pixel sees: corners of all triangles of a scene, three after three.
+// Finds the triangle visible at every pixel. The vertices are the corners of all triangles of a scene, three after three.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -6,8 +6,8 @@
 
 layout(binding = 0) uniform samplerBuffer vertices;
 layout(binding = 1) uniform samplerBuffer triangles;
-// Of a vertex d from the origin at a depth along `forward`: where in the picture, from -1 to 1, times the depth. Depths are kept as
-// forward.w over them: nearer is more, and as fine in the distance as next to the camera.
+// For a vertex d from the origin at a depth along `forward`: its place in the picture, from -1 to 1, times the depth. Depths are stored
+// as forward.w over them: nearer is greater, and as fine in the distance as next to the camera.
 layout(push_constant) uniform View {
     vec4 origin;
     vec4 across;
