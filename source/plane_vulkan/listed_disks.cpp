@@ -11,13 +11,13 @@ namespace {
 
 #include "shaders/plane_layout.glsl"
 
-// A thread looks at a disk's pairs one after another, each in a few turns of its loops.
+// A thread processes a disk's pairs one after another, each in a few turns of its loops.
 constexpr std::size_t kMostPairs = kMostTurns / 8;
 
 std::uint32_t bits(double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); }
 std::uint32_t rest(double x) { return bits(x - static_cast<double>(static_cast<float>(x))); }
 
-// What EventWalk takes as in range.
+// The limit within which EventWalk treats a place as in range.
 double limit_of(const FrameScene& frame, const Emitter& e) {
   return std::min(e.range + e.radius, 1e15) + static_cast<double>(slack_of(frame));
 }
@@ -35,7 +35,7 @@ struct Stretch {
 
 }  // namespace
 
-// use(disk, tile, cell) for the tiles in each disk's range.
+// Calls use(disk, tile, cell) for the tiles in each disk's range.
 template <class Use>
 void ListedDisks::for_each_tile(const FrameScene& frame, const PixelGrid& grid, Use use) const {
   const Vec2d half = grid.step * (0.5 * (kTileSide - 1));
@@ -107,7 +107,7 @@ void ListedDisks::choose(const FrameScene& frame, const PixelGrid& grid, std::si
     mask_words_ += words;
     most_cells_ = std::max(most_cells_, cells);
   }
-  // By tile: how many, where they begin, and then each in its place.
+  // Counts the entries of each tile, computes their starts, and then writes each to its place.
   first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows) + 1, 0);
   for_each_tile(frame, grid, [&](std::size_t, std::size_t tile, std::uint32_t) { ++first_[tile + 1]; });
   for (std::size_t tile = 1; tile < first_.size(); ++tile) first_[tile] += first_[tile - 1];

@@ -29,13 +29,13 @@ using vulkan::BufferUse;
 
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // what Vulkan promises
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // the size that Vulkan guarantees
 constexpr std::size_t kWordsOfBatch = std::size_t{4} << 20;
 constexpr std::size_t kTilesOfBatch = 8192;
 constexpr std::size_t kWordBytes = sizeof(std::uint32_t);
 constexpr std::size_t kHeader = kJob;  // pixel steps, slack: in the place of a job
 constexpr std::uint32_t kGroupsOfTile = 4, kThreads = 64;
-constexpr std::size_t kBuffers = 5, kMostOfDispatch = 65535;  // groups along one axis, as Vulkan promises
+constexpr std::size_t kBuffers = 5, kMostOfDispatch = 65535;  // groups along one axis, as Vulkan guarantees
 
 static_assert(kPixels == kTilePixels);
 
@@ -53,7 +53,7 @@ struct PlaneDevice::Impl {
     for (std::size_t g = 0; g < kPrograms; ++g) pipelines[g] = program.pipeline(g);
   }
 
-  // One that holds so many bytes: made anew, with room for half as much again, where it is too small.
+  // A buffer of at least `bytes`. One that is too small is replaced by a new one with a capacity of half as much again.
   Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, BufferUse use) {
     if (buffer == nullptr || buffer->bytes() < bytes) {
       const std::size_t room = std::min(bytes + bytes / 2, kLargestBuffer);
@@ -63,7 +63,7 @@ struct PlaneDevice::Impl {
     return *buffer;
   }
 
-  // Pairs and vertices that the device has; lights with others go by the general rules.
+  // Uploads pairs and vertices, and returns the number of pairs on the device. Lights with other pairs use the general rules.
   std::size_t upload_pairs(const FrameScene& frame) {
     const std::size_t vertex_bytes = 4 * sizeof(float) * frame.vertices.size(), most = kLargestBuffer / (kPair * kWordBytes);
     const std::size_t count = vertex_bytes > kLargestBuffer ? 0 : std::min(frame.pairs.size(), most);
@@ -87,7 +87,7 @@ struct PlaneDevice::Impl {
   std::size_t pipelines[kPrograms];
   std::unique_ptr<Buffer> lists, pairs, vertices, sums, masks;
   ListedDisks disks;
-  bool lists_made = false;  // of the disks, in this frame
+  bool lists_made = false;  // have the lists of the disks been computed in this frame?
   std::vector<RecordedTiles> squares;
   struct InBatch {
     const RecordedTiles* of;
@@ -110,11 +110,11 @@ struct PlaneDevice::Impl {
   }
 };
 
-// The batch's tiles on the device, and their sums into the picture.
+// Renders the batch's tiles on the device, and adds their sums to the picture.
 void PlaneDevice::Impl::run(const PixelGrid& grid, float slack, Picture& picture) {
   if (batch.empty()) return;
   auto start = Clock::now();
-  // The header, disks, jobs, and what they are about.
+  // The buffer holds the header, disks, jobs, and their data.
   const std::size_t before_jobs = (kHeader + disks.records().size() + kJob - 1) / kJob * kJob;
   std::size_t jobs = 0, words = before_jobs;
   int rounds = 0;

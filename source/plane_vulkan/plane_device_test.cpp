@@ -1,4 +1,4 @@
-// The CPU judges the device: whole frames of the plane.
+// The CPU is the reference for the device: whole frames of the plane.
 #include "steradian/plane_device.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ class VulkanPlane : public ::testing::Test {
     if (vulkan::list_devices().empty()) GTEST_SKIP() << "no Vulkan device";
   }
 
-  // The bound is the interface's: either is within 1e-5 of the query where its light is 1, and where there is none both are 0.
+  // The bound is the interface's: both are within 1e-5 of the query if its light is 1, and without light both are 0.
   void expect_same(const std::string& name, const PlaneScene& scene, PlaneFrameOptions options, double bound = 1e-5) {
     const PlaneWorld world(scene);
     const Picture cpu = render_plane(world, options);
@@ -61,7 +61,7 @@ class VulkanPlane : public ::testing::Test {
     EXPECT_GT(d.tiles, d.tiles_of_cpu) << name << ": the device drew something";
   }
 
-  // Pipelines are made once.
+  // Pipelines are created once.
   static PlaneDevice& device() {
     static PlaneDevice device;
     return device;
@@ -85,15 +85,15 @@ TEST_F(VulkanPlane, DrawsLightFieldsAsTheCpu) {
 // Every shape with every emission: edges, runs, arcs, spots.
 TEST_F(VulkanPlane, DrawsEveryLightAsTheCpu) {
   for (const Drawing& drawing : all_drawings()) {
-    // A software device takes its time over outlines of hundreds of edges.
+    // A software device is slow with outlines of hundreds of edges.
     if (drawing.shape == "stroke" && drawing.emission != "uniform" && drawing.emission != "gradient") continue;
     const PlaneFrameOptions size = drawing.shape == "stroke" || drawing.shape == "curve" ? sized(33, 21) : sized(97, 61);
-    // As PlaneFrame: lights divided by the distance are within 3e-5 close to them.
+    // As in PlaneFrame: lights divided by the distance are within 3e-5 close to them.
     expect_same(drawing.shape + "-" + drawing.emission, make_drawing(drawing), size, drawing.emission == "inverse" ? 3e-5 : 1e-5);
   }
 }
 
-// Where it is a pixel wide or less, roundings of the slopes that bound a light's edges would mix its colours.
+// If a gradient is a pixel wide or less, roundings of the slopes that bound a light's edges would mix its colours.
 TEST_F(VulkanPlane, DrawsSmallGradientsAsTheCpu) {
   PlaneScene scene;
   scene.width = 320;
@@ -107,7 +107,8 @@ TEST_F(VulkanPlane, DrawsSmallGradientsAsTheCpu) {
   expect_same("a small gradient", scene, sized(160, 100));
 }
 
-// From close to the chord of a run, its far end is seen behind the line of one of its edges; and a line's bend hides what a gradient cuts.
+// From close to the chord of a run, its far end is visible behind the line of one of its edges; and a line's bend occludes a part that a
+// gradient cuts.
 TEST_F(VulkanPlane, DrawsBendsAsTheCpu) {
   PlaneScene scene;
   scene.width = scene.height = 80;
@@ -123,7 +124,7 @@ TEST_F(VulkanPlane, DrawsBendsAsTheCpu) {
   expect_same("a bend", scene, sized(320, 320));
 }
 
-// What overlaps, stands within lights, or hides them: lenses, concave outlines, niches.
+// Bodies that overlap lights, lie within them, or occlude them: lenses, concave outlines, niches.
 TEST_F(VulkanPlane, DrawsEveryFamilyAsTheCpu) {
   for (int family = 1; family <= 10; ++family)
     if (family != 5)  // dark
@@ -148,7 +149,7 @@ TEST_F(VulkanPlane, DrawsBouncesAsTheCpu) {
   EXPECT_LE(std::sqrt(errors / squares), 1e-5);
 }
 
-// More intervals within a light than a thread keeps: a comb before a long light.
+// More intervals within a light than a thread stores: a comb in front of a long light.
 TEST_F(VulkanPlane, LeavesToTheCpuWhatItHasNoRoomFor) {
   PlaneScene scene;
   scene.width = scene.height = 128;

@@ -28,7 +28,7 @@ void put_disks(Words& to, const TileDisk* disks, int count) {
   for (int i = 0; i < count; ++i) put(to, disks[i].x, disks[i].y, disks[i].radius);
 }
 
-// An edge that is no run but shines by direction or distance is its own only part.
+// An edge that is no run but depends on direction or distance is its own only part.
 bool is_own_part(const TileLight& light) {
   return light.kind == TileKind::edge && light.part_count == 0 && (light.inverse_range > 0 || light.linear || light.profile != 0);
 }
@@ -47,7 +47,7 @@ void put_parts(Words& to, const TileLight& light) {
   }
 }
 
-// In the order of shaders/plane_layout.glsl.
+// The order is that of shaders/plane_layout.glsl.
 void put_header(Words& to, const TileLight& light) {
   put(to, static_cast<int>(light.kind), light.x, light.y, light.radius, light.nx, light.ny, light.begin, light.end, light.inverse_range,
       light.red, light.green, light.blue, light.red_slope, light.green_slope, light.blue_slope, light.profile, light.linear);
@@ -97,7 +97,8 @@ void put_lists(Words& to, const TileLight& light) {
   put_vertices(to, light.high_corners, light.high_corner_count);
 }
 
-// Rounds of a thread's loops that a job may take, and those of one blocker: its place among the intervals, and what moves for it.
+// Largest number of rounds of a thread's loops for a job, and the rounds of one blocker. These place it among the intervals, and move
+// others for it.
 constexpr std::size_t kMostSteps = kMostTurns, kStepsOfBlocker = 2 + 2 * kIntervals, kNone = static_cast<std::size_t>(-1);
 
 std::size_t steps_of(const TileLight& light) {
@@ -111,7 +112,7 @@ std::size_t steps_of(const TileLight& light) {
   steps += within * kStepsOfBlocker;
   const std::size_t gaps = std::min<std::size_t>(within + 1, kIntervals + 1);
   steps += size(light.part_count + 1) * 13 * gaps;
-  // Arcs: 15 nodes a gap, and halvings near one end.
+  // Arcs: 15 nodes for each gap, and halvings near one end.
   if (light.kind == TileKind::arc) steps += 15 * (gaps + 64);
   return steps;
 }

@@ -18,24 +18,24 @@ struct RecordedTile {
   int x = 0, y = 0;  // the first pixel
   Vec2d center;
   std::bitset<kTilePixels> filled;
-  bool for_cpu = false;  // one light takes more steps than a job may
+  bool for_cpu = false;  // one light needs more steps than a job may have
   std::size_t words = 0;
   std::size_t first_job = 0, jobs = 0;
 };
 
-// Lights of a tile that are one thread's work. A software device ends a thread's loops after 65,535 rounds of all of them together,
-// without a word, and others watch over long work: what takes more becomes several jobs, one after another.
+// Lights of a tile that are one thread's work. A software device silently ends a thread's loops after 65,535 rounds of all of them
+// together, and other devices have watchdogs for long work. So larger work becomes several jobs, one after another.
 struct RecordedJob {
   LightGroup group;
-  int round;                     // jobs of a tile and group that come before it
+  int round;                     // number of jobs of the same tile and group that come before it
   std::size_t first, words = 0;  // in RecordedTiles::words
   std::uint32_t lights = 0;
-  std::size_t steps = 0;  // at most
+  std::size_t steps = 0;  // upper bound
 };
 
 class RecordedTiles final : public TileLists {
  public:
-  // Keeps its memory for the next frame. Of the frame's pairs the device has the first `pairs`; elsewhere must stay.
+  // Keeps its memory for the next frame. The device has the first `pairs` of the frame's pairs; `elsewhere` must stay valid.
   void clear(std::size_t pairs, const std::vector<char>& elsewhere);
 
   const std::vector<char>* elsewhere() const override { return elsewhere_; }
@@ -49,7 +49,7 @@ class RecordedTiles final : public TileLists {
   const std::uint32_t* words(LightGroup group) const { return words_[static_cast<std::size_t>(group)].data(); }
 
  private:
-  // Where to put a light of so many steps; null: in no job.
+  // Destination of a light of so many steps; null: in no job.
   std::vector<std::uint32_t>* begin_light(LightGroup group, std::size_t steps);
   void end_light(LightGroup group);
 

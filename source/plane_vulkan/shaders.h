@@ -7,7 +7,7 @@
 
 namespace steradian::plane {
 
-// By LightGroup; then that of round lights by the device's lists, and what makes these.
+// By LightGroup; then the shader of round lights by the device's lists, and the one that computes these lists.
 std::vector<std::span<const std::uint32_t>> plane_shaders();
 
 }  // namespace steradian::plane

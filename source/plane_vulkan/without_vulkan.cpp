@@ -1,4 +1,4 @@
-// Compiled where STERADIAN_VULKAN is OFF: the plane has no device.
+// Compiled if STERADIAN_VULKAN is OFF: the plane has no device.
 #include "steradian/error.h"
 #include "steradian/plane_device.h"
 

@@ -21,19 +21,19 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kMostAlbedo = 0.98;  // of all bounces: a closed white room would have no end of light
-constexpr double kInitialParts = 32;  // elements to the picture's larger side, before any is halved
+constexpr double kMostAlbedo = 0.98;  // for all bounces: in a closed white room light would never end
+constexpr double kInitialParts = 32;  // elements along the picture's larger side, before any is halved
 constexpr int kMostRounds = 5;
 constexpr int kMostSweeps = 2000;
-constexpr double kSettled = 1e-14;        // a sweep that changes less than this share of the brightest is the last
-constexpr double kErrorSettled = 1e-3;    // the same of what errors are estimated to be
+constexpr double kSettled = 1e-14;        // a sweep that changes less than this fraction of the brightest value is the last
+constexpr double kErrorSettled = 1e-3;    // the same for the estimates of errors
 constexpr double kRoughlySettled = 1e-4;  // while elements are still halved
 
 double largest(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 Vec3d times(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 Vec3d magnitude(Vec3d v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
-// What a point of a wall sees: parts of walls in front of it, and the light that arrives at once.
+// View from a point of a wall: parts of walls in front of it, and the direct light.
 struct Node {
   ElementPlace place;
   std::vector<SeenPart> walls;
@@ -59,7 +59,7 @@ Node look(const World& world, const Outlook& outlook, const Elements& elements, 
   return node;
 }
 
-// The integral of what the elements send, over the directions of a node's parts, times the cosine.
+// The integral of the elements' radiance, over the directions of a node's parts, times the cosine.
 class Row {
  public:
   Row() = default;
@@ -69,7 +69,7 @@ class Row {
     finish(table, node.place.normal, making);
   }
 
-  // After some elements have been halved: what other walls send stays as it is.
+  // Updates the row after some elements have been halved: the weights of other walls stay the same.
   void follow(const RowsTable& table, const World& world, const Elements& before, const Elements& elements, const Node& node) {
     Making& making = begin();
     std::size_t at = 0;
@@ -96,11 +96,11 @@ class Row {
   }
 
  private:
-  // A row that is being made. Pieces of segments wait until the ends of all of them are there.
+  // A row under construction. Pieces of segments wait until the ends of all of them are known.
   struct Making {
     struct Piece {
       SeenPiece seen;
-      std::size_t end, weight;  // its first ones
+      std::size_t end, weight;  // index of its first end and its first weight
     };
     EndColumns ends;
     std::vector<Piece> pieces;
@@ -145,7 +145,7 @@ class Row {
       ElementWeight* weight = making.weights.data() + piece.weight;
       piece.seen.for_each_weight(
           piece.end, [&](std::size_t k) { return piece.seen.with_cosine(making.ends[k], normal); },
-          // Nowhere is u above 1, nor anything seen from behind.
+          // u is nowhere above 1, and nothing is visible from behind.
           [&](std::size_t, double w0, double w1) {
             *weight++ = {w0, std::clamp(w1, -std::fabs(w0), std::fabs(w0))};
           });
@@ -156,7 +156,7 @@ class Row {
   }
 
   std::vector<std::uint32_t> elements_;
-  std::vector<ElementWeight> weights_;  // of each of them
+  std::vector<ElementWeight> weights_;  // of each element
   std::vector<std::size_t> ends_;       // by part of the node's walls
 };
 
@@ -190,12 +190,12 @@ class Solver {
   }
 
  private:
-  // Of every element: two nodes at the places of Gauss' rule, and a third one between them that checks.
+  // Nodes of every element: two at the places of Gauss' rule, and a third one between them for the error check.
   static constexpr double kShares[3] = {0.5 - 0.28867513459481288, 0.5 + 0.28867513459481288, 0.5};
   struct Nodes {
     Node at[3];
     Row rows[3];
-    Vec3d middle;  // what the third one sends on
+    Vec3d middle;  // radiance of the third one
   };
   using Lines = std::vector<ElementLine>;
 
@@ -216,12 +216,12 @@ class Solver {
     });
   }
 
-  // What a node sends on, of what arrives at once and from all elements.
+  // Radiance that a node reflects, from direct light and from all elements.
   Vec3d sent(std::size_t i, int k, const Lines& lines) const {
     return times(elements_.all()[i].albedo, nodes_[i].at[k].direct + nodes_[i].rows[k].gather(table_, lines)) * 0.5;
   }
 
-  // The line through what an element's two nodes send.
+  // The line through the radiances of an element's two nodes.
   ElementLine line_of(std::size_t i, const Lines& lines) const {
     const Vec3d first = sent(i, 0, lines), second = sent(i, 1, lines);
     const double u0 = nodes_[i].at[0].place.u, u1 = nodes_[i].at[1].place.u;
@@ -231,7 +231,7 @@ class Solver {
 
   static std::span<double> numbers(Lines& lines) { return {lines.data()->constant, 8 * lines.size()}; }
 
-  // All bounces go on from what is there; those that are counted begin with none.
+  // For all bounces the iteration starts from the current values; for a fixed number of bounces it starts from none.
   void solve(double settled) {
     Lines lines(nodes_.size());
     if (lines.empty()) return;
@@ -256,7 +256,7 @@ class Solver {
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
       ++stats_.sweeps;
       before = lines;
-      // In place: what follows sees it at once.
+      // In place: later elements use the new values at once.
       for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = line_of(i, lines);
       double change = 0, most = 0;
       const std::span<double> now = numbers(lines), then = numbers(before);
@@ -270,7 +270,7 @@ class Solver {
     for (std::size_t i = 0; i < lines.size(); ++i) nodes_[i].middle = sent(i, 2, lines);
   }
 
-  // Each waits for the end of the one before it.
+  // Each bounce uses only the results of the one before it.
   void count_bounces(Lines& lines) {
     Lines next(lines.size());
     for (int bounce = 0; bounce < options_.bounces; ++bounce) {
@@ -283,7 +283,7 @@ class Solver {
     }
   }
 
-  // How far each element is off at its middle; those that are too far.
+  // Computes each element's error at its middle, and marks those that exceed the tolerance.
   std::vector<char> check() {
     std::vector<char> marked(nodes_.size(), 0);
     const double size = std::max(world_.scene.width, world_.scene.height);
@@ -295,12 +295,13 @@ class Solver {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       Element& e = elements_.all()[i];
       e.error = magnitude(nodes_[i].middle - e.constant - e.slope * nodes_[i].at[2].place.u);
-      // By the tolerance, an element of the first length; a shorter one may be off by more, as it sends less.
+      // The tolerance applies to an element of the initial length; a shorter one may be off by more, because it sends less.
       const auto judge = [&](std::size_t k, double error) {
         if (error * 2 * elements_.all()[k].half * kInitialParts > options_.tolerance * brightest * size) marked[k] = 1;
       };
       judge(i, largest(e.error));
-      // A sharp edge of light may spare the middle: then lines do not meet. Half of what they are apart is each one's, at its end.
+      // A sharp edge of light may miss the middle: then neighbouring lines do not meet. Each element gets half of the difference, at its
+      // end.
       if (i + 1 == nodes_.size()) continue;
       const Element& next = elements_.all()[i + 1];
       if (next.curve != e.curve || next.back != e.back || next.from != e.to) continue;
@@ -333,7 +334,7 @@ class Solver {
     look_at(fresh);
   }
 
-  // Errors are sent on as light is.
+  // Errors are propagated like light.
   void spread_error() {
     std::vector<Element>& all = elements_.all();
     Lines errors(all.size());

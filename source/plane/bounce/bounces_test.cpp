@@ -1,4 +1,4 @@
-// Interreflection against what is known exactly, against paths, and against itself refined.
+// Interreflection against exact results, against traced paths, and against a refined solution.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ double total(const PlaneWorld& world, const PlaneBounces& bounces, Vec2d p) {
   return world.query(p).radiance.x + bounces.query(p).radiance.x;
 }
 
-// A room with things in it, lit by a lamp with a range and a lamp in the corner.
+// A furnished room, lit by a lamp with a range and a lamp in the corner.
 PlaneScene furnished_room(int boxes, std::uint64_t seed) {
   SceneRandom random(seed);
   PlaneScene scene;
@@ -44,7 +44,7 @@ PlaneScene furnished_room(int boxes, std::uint64_t seed) {
   for (int k = 0; k < 4; ++k) scene.bodies.push_back(wall(p[k], p[(k + 1) % 4], 0.75, 0));
   for (int i = 0; i < boxes;) {
     const Vec2d c{random.uniform(15, 85), random.uniform(15, 85)};
-    // Clear of the lamps: paths know nothing of walls within a light.
+    // Boxes keep clear of the lamps: paths do not handle walls within a light.
     if (length(c - Vec2d{22, 24}) < 16 || length(c - Vec2d{75, 70}) < 16) continue;
     const double t = random.uniform(0, pi), h = random.uniform(3, 8);
     const Vec2d x{h * std::cos(t), h * std::sin(t)}, y = Vec2d{-x.y, x.x} * random.uniform(0.2, 1);
@@ -62,9 +62,9 @@ PlaneScene furnished_room(int boxes, std::uint64_t seed) {
 
 }  // namespace
 
-// Where all walls emit 1 and send on rho of what arrives, every point and wall has 1 / (1 - rho): in a bare room, and among boxes, rounds
-// and lines that cut each other and stand before each other at any angle. What is left is rounding: a row has some hundred terms of 1e-16,
-// and sweeps end at 1e-14, times 1 / (1 - rho)^2.
+// If all walls emit 1 and reflect rho of the arriving light, every point and wall has 1 / (1 - rho). This holds in a bare room, and among
+// boxes, rounds and lines that cut and occlude each other at any angle. The rest is rounding: a row has some hundred terms of 1e-16, and
+// sweeps end at 1e-14, times 1 / (1 - rho)^2.
 TEST(PlaneBounces, FillAFurnaceEvenly) {
   for (int furniture : {0, 12, 30})
     for (double albedo : {0.3, 0.7}) {
@@ -129,7 +129,7 @@ TEST(PlaneBounces, CountTheBounces) {
   EXPECT_GT(PlaneBounces(world, options).query(p).radiance.x, last);
 }
 
-// A lamp half in a box: the box' edges within the lamp are not seen, and those outside are not lit by what is within.
+// A lamp half in a box: the box' edges within the lamp are not visible, and light from within does not reach those outside.
 TEST(PlaneBounces, StopAtOutlinesThatCrossAWall) {
   PlaneScene scene;
   scene.width = scene.height = 100;
@@ -139,8 +139,8 @@ TEST(PlaneBounces, StopAtOutlinesThatCrossAWall) {
   scene.bodies.back().light.emplace();
   const PlaneWorld world(scene);
   const PlaneBounces bounces(world);
-  // At a distance x from its centre the top receives the integral of the sine up to the lamp's tangent: 1 - sqrt(1 - (5/x)^2). What the
-  // lamp hides of the top, from 20 above it, ends at 20 tan(asin(1/4)).
+  // At a distance x from its centre the top receives the integral of the sine up to the lamp's tangent: 1 - sqrt(1 - (5/x)^2). The part of
+  // the top that the lamp occludes, from 20 above it, ends at 20 tan(asin(1/4)).
   double expected = 0;
   const double first = 20 / std::sqrt(15.0), step = (20 - first) / 10000;
   for (int i = 0; i < 10000; ++i) {
@@ -150,11 +150,11 @@ TEST(PlaneBounces, StopAtOutlinesThatCrossAWall) {
   const double above = bounces.query({40, 20}).radiance.x, beside = bounces.query({30, 39}).radiance.x;
   std::printf("above the lamp %.6f, expected %.6f\n", above, expected);
   EXPECT_NEAR(above, expected, 1e-3 * expected + bounces.error({40, 20}).x);
-  // By symmetry.
+  // This follows by symmetry.
   EXPECT_NEAR(beside, bounces.query({50, 39}).radiance.x, 1e-6 * beside);
 }
 
-// The estimate is the right size: the default against a solution five times as fine.
+// The error estimate has the right size: the default against a solution five times as fine.
 TEST(PlaneBounces, SayHowFarTheyAreOff) {
   for (std::uint64_t seed : {1u, 2u}) {
     const PlaneScene scene = furnished_room(8, seed);
@@ -188,7 +188,7 @@ TEST(PlaneBounces, SayHowFarTheyAreOff) {
 
 namespace {
 
-// Radiance along random paths, by every curve in turn.
+// Radiance along random paths; every ray is tested against every curve.
 class PathTracer {
  public:
   PathTracer(const World& world, std::uint64_t seed) : world_(world), random_(seed) {}
@@ -205,7 +205,7 @@ class PathTracer {
       if (hit == nullptr) return sum;
       const PlaneBody& body = world_.scene.bodies[static_cast<std::size_t>(hit->body)];
       if (body.light) {
-        if (bounce == 0) return 0;  // seen at once: not a bounce
+        if (bounce == 0) return 0;  // direct light: not a bounce
         const double q = nearest / body.light->range, window = std::isinf(body.light->range) ? 1 : q < 1 ? (1 - q * q) * (1 - q * q) : 0;
         return sum + weight * body.light->radiance.x * window;
       }
@@ -248,7 +248,7 @@ class PathTracer {
 
 }  // namespace
 
-// Within four standard errors of the paths' mean, and of what the elements may be off by.
+// The difference is within four standard errors of the paths' mean, plus the estimated error of the elements.
 TEST(PlaneBounces, AgreeWithTracedPaths) {
   const PlaneScene scene = furnished_room(6, 4);
   const PlaneWorld world(scene);
@@ -272,8 +272,8 @@ TEST(PlaneBounces, AgreeWithTracedPaths) {
   }
 }
 
-// Pictures draw the elements as lights, on packs: every pixel is what a query at its centre says. Boxes that overlap, outlines with many
-// edges and round walls.
+// Pictures draw the elements as lights, on packs: every pixel equals a query at its centre. The scene has overlapping boxes, outlines with
+// many edges and round walls.
 TEST(PlaneBounces, FramesEqualTheQuery) {
   PlaneScene scene = furnished_room(9, 6);
   PlaneBody heart;
@@ -309,10 +309,10 @@ TEST(PlaneBounces, FramesEqualTheQuery) {
     brightest = std::max(brightest, expected.x);
   }
   std::printf("largest difference %.1e, of the error %.1e; brightest %.2f\n", worst, worst_error, brightest);
-  // 1e-5 of the brightest light, and as much again for the walls, which are many lights of their own.
+  // 1e-5 of the brightest light, and as much again for the walls, which are many separate lights.
   EXPECT_LT(worst, 2e-5 * 6);
   EXPECT_LT(worst_error, 2e-5);
-  // Deterministic, at any number of threads.
+  // Deterministic, with any number of threads.
   options.threads = 1;
   EXPECT_TRUE(std::equal(picture.pixels.begin(), picture.pixels.end(), render_plane(world, options).pixels.begin(),
                          [](const Vec3f& a, const Vec3f& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }));

@@ -6,10 +6,10 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kOnDividingLine = 1e-9;  // of a line, of 1024 to 2048 units a side
-constexpr std::size_t kCandidates = 8;    // facets whose lines are tried
-constexpr std::size_t kSplitsWeigh = 4;   // a facet that is cut, against one more on the larger side
-constexpr std::size_t kMostParts = 6;     // facets a segment, on average
+constexpr double kOnDividingLine = 1e-9;  // distance from a line; the picture has 1024 to 2048 units a side
+constexpr std::size_t kCandidates = 8;    // number of facets whose lines are tried
+constexpr std::size_t kSplitsWeigh = 4;   // weight of a cut facet, relative to one more on the larger side
+constexpr std::size_t kMostParts = 6;     // facets for each segment, on average
 
 struct Line {
   Vec2d normal;
@@ -30,7 +30,7 @@ struct Heights {
 };
 Heights heights(const Line& line, const Facet& f) { return {line.height(f.a), line.height(f.b)}; }
 
-// Across the longer side of the facets' middles, half of them on each side.
+// A line across the longer side of the facets' middles, with half of them on each side.
 Line halving(const std::vector<Facet>& facets) {
   Box box;
   for (const Facet& f : facets) box.add((f.a + f.b) * 0.5);
@@ -42,7 +42,7 @@ Line halving(const std::vector<Facet>& facets) {
   return {wide ? Vec2d{1, 0} : Vec2d{0, 1}, *middle};
 }
 
-// None where one side would have them all.
+// Returns kUseless if one side would have all of them.
 constexpr std::size_t kUseless = static_cast<std::size_t>(-1);
 std::size_t cost_of(const Line& line, const std::vector<Facet>& facets) {
   std::size_t front = 0, back = 0, cut = 0;
@@ -118,7 +118,7 @@ DepthOrder::DepthOrder(const World& world) {
         ++count;
       }
     }
-    // Of coincident ones a light's is seen, else the last in the scene's order.
+    // Among coincident facets a light's is visible, else the last in the scene's order.
     std::stable_sort(facets_.begin() + node.first, facets_.end(), [&](const Facet& f, const Facet& g) {
       if (shines(f) != shines(g)) return shines(f);
       return f.curve->body > g.curve->body;

@@ -1,4 +1,4 @@
-// The straight outlines of a world in a tree of lines, which any point can walk through from near to far.
+// The straight outlines of a world in a tree of lines, which any point can traverse from near to far.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ struct Facet {
   const Curve* curve;
 };
 
-// Binary space partition (Fuchs, Kedem, Naylor 1980): what lies on the point's side of a line can hide what lies on the line, and both can
-// hide what is beyond. Lines are those of facets, or halve a set across its longer side.
+// Binary space partition (Fuchs, Kedem, Naylor 1980). Facets on the point's side of a line can occlude facets on the line, and both can
+// occlude facets beyond it. The lines are those of facets, or halve a set across its longer side.
 class DepthOrder {
  public:
   DepthOrder() = default;
   explicit DepthOrder(const World& world);
 
-  // Segments that cut each other into too many parts are left out, all of them.
+  // If segments cut each other into too many parts, all of them are omitted.
   bool has_segments() const { return !nodes_.empty(); }
 
-  // Calls add(facet), nearest first, of coincident ones the one that is seen first; subtrees are passed by of whose box skip(box) is true,
-  // and the walk ends where done() is.
+  // Calls add(facet), nearest first; of coincident facets the visible one comes first. Subtrees are skipped if skip(box) is true for their
+  // box. The traversal ends when done() is true.
   template <class Add, class Skip, class Done>
   void walk(Vec2d from, Add add, Skip skip, Done done) const {
     if (nodes_.empty()) return;
@@ -54,8 +54,8 @@ class DepthOrder {
     Vec2d normal;
     double offset = 0;
     std::int32_t front = -1, back = -1;
-    std::uint32_t first = 0, last = 0, facets = 0;  // on the line; of the subtree
-    Box box;                                        // of the subtree
+    std::uint32_t first = 0, last = 0, facets = 0;  // on the line; in the subtree
+    Box box;                                        // around the subtree
   };
   std::vector<Node> nodes_;
   std::vector<Facet> facets_;

@@ -9,14 +9,14 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kThinnest = 60;                    // ellipses beyond are not on packs
-constexpr double kMostTurn = std::numbers::pi / 4;  // of an arc's element, in the ellipse's own parameter
+constexpr double kThinnest = 60;                    // thinner ellipses are not on packs
+constexpr double kMostTurn = std::numbers::pi / 4;  // for an arc's element, in the ellipse's own parameter
 
 Vec2d point_on(const Curve& c, double share) {
   return c.kind == Curve::Kind::segment ? c.a + (c.b - c.a) * share : c.ellipse.at(c.tau0 + share * c.tau_span);
 }
 
-// Away from the body.
+// The normal away from the body.
 Vec2d normal_on(const Curve& c, double share) {
   if (c.kind == Curve::Kind::segment) {
     const Vec2d e = c.b - c.a;
@@ -54,7 +54,8 @@ double share_of(const Curve& c, Vec2d p) {
   return (tau - c.tau0) / c.tau_span;
 }
 
-// Shares at which outlines of other bodies cross the curve, with 0 and 1: between them the wall is in one place, or in another.
+// Places, as fractions of the curve, at which outlines of other bodies cross it, with 0 and 1. Between two of them the wall lies entirely
+// within the same bodies.
 std::vector<double> crossings_on(const World& world, std::size_t index) {
   const Curve& curve = world.curves[index];
   const auto body = static_cast<std::size_t>(curve.body);
@@ -74,7 +75,7 @@ std::vector<double> crossings_on(const World& world, std::size_t index) {
   return shares;
 }
 
-constexpr double kOffWall = 1e-6;  // of 1024 to 2048 units a side: far enough to ask which body a wall's point lies in
+constexpr double kOffWall = 1e-6;  // in a picture of 1024 to 2048 units a side: far enough to decide which body a wall's point lies in
 
 }  // namespace
 
@@ -120,7 +121,7 @@ Elements::Elements(const World& world, double size, double most_albedo) {
         whole.albedo = *albedo;
         whole.from = cuts[k];
         whole.to = cuts[k + 1];
-        // What lies within another body sends nothing that is seen from outside.
+        // A part within another body sends nothing that is visible from outside.
         if (!is_open(world, place_on(world, whole, 0.5))) continue;
         const double parts = share * std::max(length_of(curve) / size, arc ? curve.tau_span / kMostTurn : 1.0);
         const int count = std::max(1, static_cast<int>(std::ceil(parts - 1e-9)));
@@ -147,7 +148,7 @@ void Elements::halve(const World& world, const std::vector<char>& marked) {
     for (int half = 0; half < 2; ++half) {
       Element e = all_[i];
       (half == 0 ? e.to : e.from) = middle;
-      // Of a straight one, the same radiance.
+      // A straight element keeps the same radiance.
       e.constant += e.slope * (half == 0 ? -0.5 : 0.5);
       e.slope = e.slope * 0.5;
       lay(world, e);

@@ -1,4 +1,4 @@
-// Elements: parts of outlines, on each of which what the wall sends on is linear.
+// Elements: parts of outlines, on each of which the reflected radiance is linear.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@ namespace steradian::plane {
 
 struct Element {
   std::size_t curve = 0;        // in World::curves
-  bool back = false;            // of a line of no thickness: the other side
-  double from = 0, to = 1;      // shares of the curve
-  Vec2d middle, along, normal;  // of its chord; along and normal are units, the normal points to the lit side
-  double half = 0;              // of the chord's length
+  bool back = false;            // is it the other side of a line without thickness?
+  double from = 0, to = 1;      // fractions of the curve
+  Vec2d middle, along, normal;  // middle of its chord; along and normal are unit vectors, the normal points to the lit side
+  double half = 0;              // half of the chord's length
   Vec3d albedo;
-  // Radiance constant + slope u at the place u = dot(p - middle, along) / half, and what it is off by, as far as is known.
+  // Radiance constant + slope u at the place u = dot(p - middle, along) / half, and its estimated error.
   Vec3d constant, slope, error;
 };
 
@@ -26,22 +26,22 @@ struct ElementPlace {
   Vec2d at, normal;
   double u;
 };
-// Its first and its last point: the same numbers as its neighbours'.
+// Its first and its last point: identical to its neighbours' numbers.
 std::pair<Vec2d, Vec2d> ends_of(const World& world, const Element& element);
 ElementPlace place_on(const World& world, const Element& element, double share);
 
-// Does it lie in no other body?
+// Is the place outside of all other bodies?
 bool is_open(const World& world, const ElementPlace& place);
 
-// What a body reflects; none where that is nothing.
+// Albedo of a body; empty if it reflects nothing.
 std::optional<Vec3d> albedo_of(const PlaneBody& body, double most);
 
-// Where an element lies on its curve: what rows ask for, without the rest of it.
+// Position of an element on its curve: the data that rows need, without the rest.
 struct ElementSpan {
   double from, to, per_share;  // 1 / (to - from)
 };
 
-// All of the elements, by curve and side and by rising place, no longer than `size`; cut where other outlines cross.
+// All elements, by curve and side and by rising place, no longer than `size`; cut where other outlines cross.
 class Elements {
  public:
   Elements() = default;
@@ -50,15 +50,15 @@ class Elements {
   const std::vector<Element>& all() const { return all_; }
   const std::vector<ElementSpan>& spans() const { return spans_; }
   std::vector<Element>& all() { return all_; }
-  // Halves those that are marked.
+  // Halves the marked elements.
   void halve(const World& world, const std::vector<char>& marked);
 
-  // Those of a curve's side: [first, second).
+  // The elements of a curve's side: [first, second).
   std::pair<std::size_t, std::size_t> of(std::size_t curve, bool back) const {
     const std::size_t k = 2 * curve + (back ? 1 : 0);
     return {first_[k], first_[k + 1]};
   }
-  // Of a part of a curve, seen as a point or as a wall sees it.
+  // The elements of a part of a curve, from the view of a point or of a wall.
   template <class Part>
   std::pair<std::size_t, std::size_t> of(const Part& part, const World& world) const {
     return of(static_cast<std::size_t>(part.curve - world.curves.data()), part.back);

@@ -1,5 +1,5 @@
-// Anderson acceleration of a linear fixed-point iteration x <- g(x): the next x is where, of all that the last steps span, the step is
-// shortest. D. G. Anderson, Iterative procedures for nonlinear integral equations, J. ACM 12 (1965).
+// Anderson acceleration of a linear fixed-point iteration x <- g(x): in the span of the last steps, the next x is the place with the
+// shortest step. D. G. Anderson, Iterative procedures for nonlinear integral equations, J. ACM 12 (1965).
 #pragma once
 
 #include <cmath>
@@ -13,14 +13,14 @@ class FixedPoint {
  public:
   explicit FixedPoint(std::size_t size) : size_(size) {}
 
-  // x: where g was asked; g: its answer, which becomes the next x.
+  // x: the argument of g; g: its result, which becomes the next x.
   void improve(std::span<const double> x, std::span<double> g) {
     Pair now{std::vector<double>(size_), std::vector<double>(g.begin(), g.end())};
     for (std::size_t i = 0; i < size_; ++i) now.step[i] = g[i] - x[i];
     if (!last_.step.empty()) {
       Pair change = now;
       add(change, last_, -1);
-      // Differences of steps are kept orthonormal, those of answers with them.
+      // The differences of steps are kept orthonormal; those of results follow them.
       for (const Pair& other : changes_) add(change, other, -product(change.step, other.step));
       const double norm = std::sqrt(product(change.step, change.step));
       if (norm > 0) {

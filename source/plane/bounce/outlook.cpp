@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kFarSlope = 1e12;   // a slope: beyond it lie 5e-25 of what the cosine leaves of a half plane
-constexpr double kOnOwnLine = 1e-9;  // of the place's own line, of 1024 to 2048 units a side
+constexpr double kFarSlope = 1e12;   // a slope: beyond it lie 5e-25 of a half plane, weighted by the cosine
+constexpr double kOnOwnLine = 1e-9;  // from the place's own line; the picture has 1024 to 2048 units a side
 
 class Looker {
  public:
@@ -43,7 +43,7 @@ class Looker {
     return gap == gaps_.end() || gap->begin >= high;
   }
 
-  // What comes first is nearest: it takes what nothing has taken yet.
+  // Facets arrive nearest first: each covers the directions that are still free.
   void add(const Facet& facet) {
     Range range;
     if (facet.curve == own_ || !range_of(*facet.curve, facet.a, facet.b, range)) return;
@@ -55,13 +55,13 @@ class Looker {
     });
   }
 
-  // All that was added, by rising slope.
+  // Returns all parts that were added, by rising slope.
   void finish(std::vector<SeenPart>& parts) const {
     parts.clear();
     for (int k = first_; k >= 0; k = taken_[static_cast<std::size_t>(k)].next) append(taken_[static_cast<std::size_t>(k)].part, parts);
   }
 
-  // A curve whose order among the others is not known: cut where it crosses what is seen.
+  // A curve whose order among the others is unknown: it is cut where it crosses visible parts.
   void insert(const Curve& curve, std::vector<SeenPart>& parts) const {
     if (&curve == own_) return;
     if (curve.kind == Curve::Kind::segment) {
@@ -69,7 +69,7 @@ class Looker {
       if (range_of(curve, curve.a, curve.b, range)) insert({range.begin, range.end, &curve, range.back}, parts);
       return;
     }
-    // The part that faces the place, between the ellipse's two tangents; where the arc is cut off, perhaps in two.
+    // The part that faces the place, between the ellipse's two tangents; if the arc is cut off, there may be two parts.
     const Vec2d p = curve.ellipse.to_unit(from_);
     const double d = length(p);
     if (d <= 1) return;
@@ -97,7 +97,7 @@ class Looker {
     int next;
   };
 
-  // By rising angle from a to b, less than half a turn.
+  // The range by rising angle from a to b, less than half a turn.
   bool range_between(Vec2d a, Vec2d b, Range& range) const {
     const double ahead_a = dot(a, normal_), ahead_b = dot(b, normal_);
     if (ahead_a <= kOnOwnLine && ahead_b <= kOnOwnLine) return false;
@@ -175,7 +175,7 @@ class Looker {
     }
   }
 
-  // As the lower envelope has it of curves that coincide within rounding.
+  // The same rule as in the lower envelope for curves that coincide within rounding.
   bool is_nearer(const SeenPart& a, const SeenPart& b, Vec2d u) const {
     const double ra = distance_along(*a.curve, a.back, from_, u), rb = distance_along(*b.curve, b.back, from_, u);
     const double slack = 1e-10 * (ra + rb) + 1e-13 * (std::fabs(from_.x) + std::fabs(from_.y));

@@ -1,7 +1,7 @@
-// What a place on a wall sees in front of it: in every direction, the curve that is hit first.
+// View from a place on a wall: for every direction in front of it, the curve that is hit first.
 //
-// Directions are slopes, normal + slope x along, from left to right of the half plane in front of the wall: they need no trigonometry, and
-// what ends in a common corner ends in the same number.
+// Directions are slopes, normal + slope x along, from left to right of the half plane in front of the wall. They need no trigonometry, and
+// parts that end in a common corner end at the same number.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,16 @@ namespace steradian::plane {
 struct SeenPart {
   double begin, end;  // slopes, rising
   const Curve* curve;
-  bool back;  // seen on its inner face
+  bool back;  // is its inner face visible?
 };
 
-// The world as places on walls look at it.
+// The world for views from places on walls.
 class Outlook {
  public:
   explicit Outlook(const World& world);
 
-  // From a place on a curve, from outside of all bodies; the normal is a unit. By rising slope, gaps where nothing is.
+  // The view from a place on a curve, from outside of all bodies; the normal is a unit vector. The parts are sorted by rising slope, with
+  // gaps where nothing is visible.
   void look(const Curve* own, Vec2d from, Vec2d normal, std::vector<SeenPart>& parts) const;
 
   std::size_t count() const { return world_.curves.size(); }
@@ -30,7 +31,7 @@ class Outlook {
  private:
   const World& world_;
   DepthOrder order_;
-  std::vector<const Curve*> others_;  // what is not in the order
+  std::vector<const Curve*> others_;  // curves that are not in the order
 };
 
 // The unit direction of a slope.
@@ -39,7 +40,7 @@ inline Vec2d direction_of(double slope, Vec2d normal) {
   return u / length(u);
 }
 
-// The same part by angles: two where it goes across the angle pi.
+// The same part by angles: two if it crosses the angle pi.
 struct SeenAngles {
   Visible parts[2];
   int count;

@@ -1,4 +1,4 @@
-// What walls see by the tree of lines and slopes, against the lower envelope by angles; weights against quadrature.
+// Visible parts by the tree of lines and slopes, against the lower envelope by angles; weights against quadrature.
 #include "plane/bounce/outlook.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Boxes, lines and rounds that cut each other; in `kind` 1 some stand flush with others, in 2 there are more cuts than the tree takes.
+// Boxes, lines and rounds that cut each other. In `kind` 1 some are flush with others, in 2 there are more cuts than the tree accepts.
 PlaneScene scene_of(int kind, SceneRandom& random) {
   PlaneScene scene;
   scene.width = scene.height = 1000;
@@ -89,7 +89,7 @@ TEST(PlaneOutlook, SeesWhatTheLowerEnvelopeSees) {
         ++directions;
         ASSERT_EQ(part == nullptr, seen == nullptr) << "kind " << kind << ", place " << places << ", turn " << turn;
         if (part == nullptr || part->curve == seen->curve) continue;
-        // Another edge at the same place: of the same body, or as bright.
+        // Another edge at the same place is accepted: of the same body, or equally bright.
         const Vec2d u{std::cos(angle), std::sin(angle)};
         EXPECT_NEAR(distance_along(*part->curve, part->back, place.at, u), distance_along(*seen->curve, seen->back, place.at, u), 1e-6)
             << "kind " << kind << ", place " << places << ", turn " << turn;
@@ -101,7 +101,7 @@ TEST(PlaneOutlook, SeesWhatTheLowerEnvelopeSees) {
   }
 }
 
-// By ten thousand steps of the angle, for walls near and far, long and short.
+// Reference: ten thousand steps of the angle, for walls near and far, long and short.
 TEST(PlaneOutlook, WeighsPiecesAsQuadratureDoes) {
   SceneRandom random(3);
   double worst = 0;
@@ -137,7 +137,7 @@ TEST(PlaneOutlook, WeighsPiecesAsQuadratureDoes) {
             sum0 += weight;
             sum1 += weight * dot(at - e.middle, e.along) / e.half;
           }
-          // A piece that goes across the angle pi is two.
+          // A piece that crosses the angle pi is split in two.
           if (piece.begin > -pi && piece.end < pi) {
             worst = std::max({worst, std::fabs(w0 - sum0), std::fabs(w1 - sum1)});
             EXPECT_NEAR(w0, sum0, 2e-7 * std::fabs(width)) << "repeat " << repeat;

@@ -1,4 +1,4 @@
-// The sums that make up a solution, on packs of doubles: what weights are made of, and what they gather.
+// The sums that make up a solution, on packs of doubles: terms of the weights, and their sums.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace steradian::plane {
 
-// Of the tangent t of an angle: its sine and cosine, and asinh t.
+// Values of the tangent t of an angle: its sine and cosine, and asinh t.
 struct EndValues {
   double sine, cosine, area;
 };
 
-// The same for many, a column each, with room for a pack beyond the last.
+// The same for many, a column each, with capacity for a pack beyond the last.
 struct EndColumns {
   static constexpr std::size_t kRoom = 8;
   std::vector<double> t, sine, cosine, area;
@@ -28,18 +28,18 @@ struct EndColumns {
   EndValues operator[](std::size_t i) const { return {sine[i], cosine[i], area[i]}; }
 };
 
-// Of an element in a row.
+// Weight of an element in a row.
 struct ElementWeight {
   double constant, slope;
 };
 
-// An element's radiance: red, green, blue and nothing, its constant and its slope.
+// An element's radiance: red, green, blue and one unused channel, its constant and its slope.
 struct alignas(64) ElementLine {
   double constant[4]{}, slope[4]{};
 };
 
 struct RowsTable {
-  // Fills the columns of what belongs to t.
+  // Fills the columns with the values that belong to t.
   void (*evaluate)(EndColumns& ends);
   // The sum over a row, channel by channel.
   std::array<double, 4> (*gather)(std::span<const std::uint32_t> elements, const ElementWeight* weights, const ElementLine* lines);

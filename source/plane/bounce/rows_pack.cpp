@@ -10,13 +10,13 @@ void evaluate(EndColumns& ends) {
     const PackD t = PackD::load_unaligned(ends.t.data() + i), root = xsimd::sqrt(PackD(1.0) + t * t), cosine = PackD(1.0) / root;
     (t * cosine).store_unaligned(ends.sine.data() + i);
     cosine.store_unaligned(ends.cosine.data() + i);
-    // asinh is odd: no digits are lost where t is negative.
+    // asinh is odd: the absolute value loses no digits for negative t.
     const PackD area = xsimd::log(xsimd::abs(t) + root);
     xsimd::copysign(area, t).store_unaligned(ends.area.data() + i);
   }
 }
 
-// Two rows of four, or one pack of both.
+// Sums two rows of four, or one pack of both.
 std::array<double, 4> gather(std::span<const std::uint32_t> elements, const ElementWeight* weights, const ElementLine* lines) {
   std::array<double, 8> sum{};
   const std::size_t count = elements.size();

@@ -1,10 +1,11 @@
-// What a visible piece of a wall sends, element by element: the integrals of 1 and of the place u over its directions, times the cosine at
-// the wall that receives it, if it is one. Of segments, with t the tangent of the angle from their perpendicular and s = sqrt(1 + t^2),
+// Contribution of a visible piece of a wall, element by element: the integrals of 1 and of the place u over its directions. They are times
+// the cosine at the receiving wall, if there is one. For segments, with t the tangent of the angle from their perpendicular and s = sqrt(1
+// + t^2):
 //
 //   u = m t + c,  integral of u^k (nc + ns t) s^-3 dt from I0 = t/s, I1 = -1/s, I2 = asinh t - t/s,
-//                 integral of u^k s^-2 dt             from atan t, log s;
+//                 integral of u^k s^-2 dt             from atan t, log s.
 //
-// of arcs by Gauss-Legendre in the ellipse's own parameter.
+// Arcs use Gauss-Legendre in the ellipse's own parameter.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 
 namespace steradian::plane {
 
-// Abramowitz and Stegun, table 25.4, n = 6: on [-1, 1] to the polynomials of degree 11.
+// Abramowitz and Stegun, table 25.4, n = 6: exact on [-1, 1] for the polynomials of degree 11.
 inline constexpr std::array<std::pair<double, double>, 6> kGauss6 = {{{-0.93246951420315203, 0.17132449237917035},
                                                                       {-0.66120938646626451, 0.36076157304813861},
                                                                       {-0.23861918608319691, 0.46791393457269105},
@@ -41,7 +42,7 @@ class SeenPiece {
     begin_ = tangent(begin);
     end_ = tangent(end);
     if (begin_ > end_) std::swap(begin_, end_);
-    // With room for rounding.
+    // With a margin for rounding.
     const double low = (begin_ * distance_ + foot_) / size_ - 1e-9, high = (end_ * distance_ + foot_) / size_ + 1e-9;
     spans_ = elements.spans().data();
     first_ = last_ = static_cast<std::size_t>(
@@ -53,7 +54,7 @@ class SeenPiece {
   std::size_t first() const { return first_; }
   std::size_t last() const { return last_; }
 
-  // Calls f(t) for the ends of what is seen of each element: two of them, which neighbours share, but for gaps.
+  // Calls f(t) for the ends of the visible part of each element: two of them, which neighbours share, except at gaps.
   template <class F>
   void for_each_end(F f) const {
     const double scale = size_ / distance_, shift = foot_ / distance_;
@@ -64,8 +65,8 @@ class SeenPiece {
     }
   }
 
-  // Calls f(element, w0, w1) for every element, with a function of the ends' numbers, in their order, whose differences are the integrals
-  // of 1 and t. Off by a few ulp of 1; the second, of that times the distance in elements.
+  // Calls f(element, w0, w1) for every element. The primitive is a function of the ends' numbers, in their order, whose differences are the
+  // integrals of 1 and t. The error is a few ulp of 1; for the second, that times the distance in elements.
   template <class Primitive, class F>
   void for_each_weight(std::size_t end, Primitive primitive, F f) const {
     const double scale = 2 / size_;
@@ -94,8 +95,8 @@ class SeenPiece {
   std::size_t first_, last_;
 };
 
-// Of an arc's part between two places tau; halved until it is no longer than a tenth of its distance: Gauss' rule then is
-// good to 1e-14.
+// Adds an arc's part between two places tau. It is halved until it is no longer than a tenth of its distance: Gauss' rule is then accurate
+// to 1e-14.
 inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2d* normal, double low, double high, double& w0,
                     double& w1) {
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
@@ -115,7 +116,7 @@ inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2
   }
 }
 
-// Calls f(element, w0, w1) with the integrals over the piece's directions of 1 and u, times the cosine from `normal` where there is one.
+// Calls f(element, w0, w1) with the integrals over the piece's directions of 1 and u, times the cosine from `normal` if there is one.
 template <class F>
 void weigh(const World& world, const Elements& elements, const Visible& piece, Vec2d from, const Vec2d* normal, F f) {
   const Curve& curve = *piece.curve;
@@ -135,7 +136,7 @@ void weigh(const World& world, const Elements& elements, const Visible& piece, V
     seen.for_each_weight(0, primitive, f);
     return;
   }
-  // Where on the arc the piece's ends are; what is seen of it is less than half of the ellipse.
+  // Places of the piece's ends on the arc; the visible part is less than half of the ellipse.
   const double middle_angle = 0.5 * (piece.begin + piece.end);
   const auto tau_of = [&](double angle) {
     const Vec2d u{std::cos(angle), std::sin(angle)};
@@ -148,7 +149,7 @@ void weigh(const World& world, const Elements& elements, const Visible& piece, V
   if (tau0 > tau1) std::swap(tau0, tau1);
   for (std::size_t k = first; k < last; ++k) {
     const Element& e = elements.all()[k];
-    for (int turn = -1; turn <= 1; ++turn) {  // an outline that is whole has no first place
+    for (int turn = -1; turn <= 1; ++turn) {  // a whole outline has no first place
       const double shift = 2 * std::numbers::pi * turn;
       const double low = std::max(tau0, curve.tau0 + curve.tau_span * e.from + shift),
                    high = std::min(tau1, curve.tau0 + curve.tau_span * e.to + shift);

@@ -6,9 +6,9 @@
 namespace steradian::plane {
 namespace {
 
-constexpr double kTouchingEnds = 1e-9;  // of an edge's length
+constexpr double kTouchingEnds = 1e-9;  // fraction of an edge's length
 
-// What two edges share but for their ends: a crossing, or ends of one that lie on the other.
+// Points that two edges share except their ends: a crossing, or ends of one that lie on the other.
 void add_meetings(const Edge& e, const Edge& f, std::vector<Vec2d>& of_e, std::vector<Vec2d>& of_f) {
   const Vec2d d = e.b - e.a, g = f.b - f.a;
   const double c_side = cross(d, f.a - e.a), d_side = cross(d, f.b - e.a), a_side = cross(g, e.a - f.a), b_side = cross(g, e.b - f.a);
@@ -42,7 +42,7 @@ EdgeRows::EdgeRows(const std::vector<std::vector<Vec2d>>& contours) {
   if (edges_.empty()) return;
   low_ = low;
   high_ = high;
-  // As many rows as edges, or fewer, so that tall edges do not fill all of them: at most eight entries an edge.
+  // As many rows as edges, or fewer, so that tall edges do not fill all of them: at most eight entries for each edge.
   std::size_t rows = edges_.size(), entries = 0;
   for (;; rows = (rows + 1) / 2) {
     scale_ = high > low ? static_cast<double>(rows) / (high - low) : 0;
@@ -85,7 +85,7 @@ std::optional<EdgeRows::Meetings> EdgeRows::meetings() const {
       for (std::size_t k = i + 1; k < first_[r + 1]; ++k) {
         if (pairs_left-- == 0) return {};
         const Edge& f = edges_[edge_[k]];
-        // Of the rows that both are in, the first.
+        // A pair is tested only in the first of the rows that contain both.
         if (r != std::max(first_row, row(std::min(f.a.y, f.b.y)))) continue;
         if (std::max(e.a.x, e.b.x) < std::min(f.a.x, f.b.x) || std::max(f.a.x, f.b.x) < std::min(e.a.x, e.b.x)) continue;
         std::vector<Vec2d>&of_e = meetings[edge_[i]], &of_f = meetings[edge_[k]];

@@ -1,4 +1,4 @@
-// The edges of a filled outline by the rows that they cross: is a point within, and do edges cross each other?
+// The edges of a filled outline by the rows that they cross. They answer if a point is within, and if edges cross each other.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ class EdgeRows {
 
   bool contains(Vec2d p, bool even_odd) const;
 
-  // By edge, without those of no length: where others cross it or touch it, other than at its ends, in the order from a to b. Two edges
-  // that cross have the same point. Looks at no more than a few hundred pairs an edge, for one meeting an edge: nothing where that is not
-  // enough.
+  // By edge, without edges of zero length: the points at which others cross it or touch it, other than at its ends, in the order from a to
+  // b. Two edges that cross have the same point. The search tests no more than a few hundred pairs for each edge, for one meeting of each
+  // edge. It returns nothing if that is not enough.
   using Meetings = std::vector<std::vector<Vec2d>>;
   std::optional<Meetings> meetings() const;
 
@@ -30,12 +30,12 @@ class EdgeRows {
   std::size_t row(double y) const;
 
   std::vector<Edge> edges_;
-  std::vector<std::size_t> first_;   // by row, and one more: where its edges begin in
+  std::vector<std::size_t> first_;   // by row, and one more: start of its edges in
   std::vector<std::uint32_t> edge_;  // numbers of edges
   double low_ = 0, high_ = -1, scale_ = 0;
 };
 
-// What edges add to a point's winding number and to its crossings, one after the other.
+// Accumulates the contribution of edges, one after the other, to a point's winding number and to its crossings.
 class Winding {
  public:
   explicit Winding(Vec2d at) : at_(at) {}

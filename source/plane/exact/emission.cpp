@@ -41,10 +41,10 @@ double profile_at(const PlaneEmission& emission, const Curve& curve, Vec2d p, Ve
   return 1;
 }
 
-// Segments: everything is a polynomial in tan f times a power of cos f.
+// Segments: every integrand is a polynomial in tan f times a power of cos f.
 class SegmentIntegral {
  public:
-  // On the curve, radiance is linear.
+  // Along the curve, radiance is linear.
   SegmentIntegral(const Curve& curve, const PlaneEmission& emission, Vec2d from) : emission_(emission) {
     const Vec2d e = curve.b - curve.a;
     const double size = length(e);
@@ -64,7 +64,7 @@ class SegmentIntegral {
     double from = tangent(direction_at(begin)), to = tangent(direction_at(end));
     if (from > to) std::swap(from, to);
     if (emission_.gradient) {
-      // The piece may be of a longer curve.
+      // The piece may belong to a longer curve.
       from = std::clamp(from, low_, high_);
       to = std::clamp(to, low_, high_);
     }
@@ -107,8 +107,8 @@ class SegmentIntegral {
   Vec3d constant_, slope_;
 };
 
-// Arcs in the parameter tau, in which nothing is singular at the tangents: 8-point Gauss-Legendre on pieces that
-// turn and see little. Abramowitz and Stegun, table 25.4.
+// Arcs in the parameter tau, in which nothing is singular at the tangents: 8-point Gauss-Legendre on pieces with little turn and a small
+// angle. Abramowitz and Stegun, table 25.4.
 class ArcQuadrature {
  public:
   ArcQuadrature(const Curve& curve, const PlaneEmission& emission, Vec2d from) : curve_(curve), emission_(emission), from_(from) {}
@@ -133,7 +133,7 @@ class ArcQuadrature {
     return angle_of(curve_.ellipse.to_unit(from_ + u * distance_along(curve_, back, from_, u)));
   }
 
-  // Cut where the gradient has a stop: smooth in between.
+  // The integral is cut at the gradient's stops: the integrand is smooth in between.
   void add_between_stops(double t0, double t1, PlaneLight& sum) const {
     std::vector<double> cuts{t0};
     for (double cut : gradient_cuts(*emission_.gradient, curve_)) {
@@ -180,13 +180,13 @@ bool is_circular(const Ellipse& e) {
   return std::fabs(xx - yy) <= 1e-12 * xx && std::fabs(dot(e.x, e.y)) <= 1e-12 * xx;
 }
 
-// Range window on a circle of uniform radiance: the antiderivative between the two directions.
+// Range window on a circle of uniform radiance: the difference of the antiderivative between the two directions.
 double circle_window(const Curve& curve, double range, Vec2d from, double begin, double end) {
   Kernels<double> kernel;
   const Vec2d c = (curve.ellipse.center - from) / range;
   const double d2 = dot(c, c), d = std::sqrt(d2), rho2 = dot(curve.ellipse.x, curve.ellipse.x) / (range * range);
   if (d - std::sqrt(rho2) >= 1) return 0;
-  // Law of cosines: where the near side of the circle leaves the range, if it does before the tangent.
+  // Law of cosines: the angle at which the near side of the circle leaves the range, if it does before the tangent.
   const double farthest = d2 - rho2 <= 1 ? pi / 2 : std::acos(std::min((d2 + 1 - rho2) / (2 * d), 1.0));
   const auto antiderivative = [&](double angle) {
     const Vec2d u = direction_at(angle);
@@ -238,7 +238,7 @@ void add_emission(const Visible& piece, const PlaneEmission& emission, Vec2d fro
     add_clipped(piece, emission, from, parts, sum);
     return;
   }
-  // The spot's directions, seen from the point, about the reversed axis; once and a turn to either side.
+  // The spot's directions from the point, around the reversed axis; once, and one turn to either side.
   const double middle = angle_of(-emission.spot_axis), half = emission.spot_half_angle;
   for (double turn : {-2 * pi, 0.0, 2 * pi}) {
     Visible clipped = piece;

@@ -32,7 +32,7 @@ class Builder {
   }
 
  private:
-  // One for each thread, kept: an envelope a pixel allocates nothing but its result.
+  // One buffer for each thread, reused: an envelope for each pixel allocates only its result.
   static std::vector<Visible>& empty_buffer() {
     thread_local std::vector<Visible> buffer;
     buffer.clear();
@@ -42,7 +42,7 @@ class Builder {
   bool seen_inside(const Curve& c) const { return c.two_sided || c.body == rules_.inside; }
 
   void add_range(double begin, double end, const Curve& curve, bool back) {
-    // Into [-pi, pi], cut where it wraps.
+    // Moves the range into [-pi, pi], and cuts it where it wraps.
     while (begin < -pi) begin += 2 * pi, end += 2 * pi;
     while (begin >= pi) begin -= 2 * pi, end -= 2 * pi;
     if (end - begin <= kNarrowest) return;
@@ -60,17 +60,17 @@ class Builder {
     add_range(angle_of(back ? a : b), angle_of(back ? a : b) + width, c, back);
   }
 
-  // The part of the arc on which tau runs from t0 over `span`, all on one face.
+  // Adds the part of the arc on which tau runs from t0 over `span`, all on one face.
   void add_arc_part(const Curve& c, double t0, double span, bool back) {
     if (span <= 0) return;
-    // Cut so that no part sees more than half a turn: its width is then the angle between its ends.
+    // The part is cut so that no piece spans more than half a turn: its width is then the angle between its ends.
     const int parts = back ? 4 : 1;
     for (int i = 0; i < parts; ++i) {
       const Vec2d p = c.ellipse.at(t0 + span * i / parts) - from_;
       const Vec2d q = c.ellipse.at(t0 + span * (i + 1) / parts) - from_;
       const double width = std::atan2(cross(p, q), dot(p, q));  // negative: tau runs against the angle
       if (back) {
-        // A quarter near the point may see more than half a turn; one that rounding turns back sees nothing.
+        // A quarter near the point may span more than half a turn; one that rounding reverses is empty.
         const double turn = width < -1e-9 ? width + 2 * pi : width;
         add_range(angle_of(p), angle_of(p) + turn, c, true);
       } else if (width < 0) {
@@ -79,7 +79,7 @@ class Builder {
     }
   }
 
-  // The part of [t0, t0 + span] within the arc's own range.
+  // Adds the part of [t0, t0 + span] within the arc's own range.
   void add_clipped(const Curve& c, double t0, double span, bool back) {
     if (c.tau_span >= 2 * pi - 1e-12) {
       add_arc_part(c, t0, span, back);
@@ -105,10 +105,10 @@ class Builder {
     if (seen_inside(c)) add_clipped(c, middle + half, 2 * pi - 2 * half, true);
   }
 
-  // Pieces merged two by two, then the results: two buffers take turns.
+  // Pieces are merged two by two, then the results: two buffers alternate.
   std::vector<Visible> build() {
     thread_local std::vector<Visible> from, to;
-    thread_local std::vector<std::size_t> first;  // of each envelope in `from`, and one more
+    thread_local std::vector<std::size_t> first;  // start of each envelope in `from`, and one more
     from.swap(pieces_);
     first.resize(from.size() + 1);
     for (std::size_t i = 0; i < first.size(); ++i) first[i] = i;
@@ -157,7 +157,7 @@ class Builder {
       out.push_back({begin, end, v.curve, v.back});
   }
 
-  // Two candidates over one interval: cut at their crossings; in each part the nearer at the middle wins.
+  // Two candidates over one interval: they are cut at their crossings, and in each part the nearer at the middle wins.
   void append_nearer(const Visible& a, const Visible& b, double begin, double end, std::size_t first, std::vector<Visible>& out) const {
     if (const Visible* hit = nearer_everywhere(a, b)) return append(*hit, begin, end, first, out);
     std::array<double, 6> cuts;
@@ -180,14 +180,14 @@ class Builder {
     }
   }
 
-  // Of two segments of which one lies clearly to one side of the other's line, the one that every ray hits first; else null.
+  // Returns the one of two segments that every ray hits first, if one lies clearly to one side of the other's line; else null.
   const Visible* nearer_everywhere(const Visible& a, const Visible& b) const {
     if (a.curve->kind != Curve::Kind::segment || b.curve->kind != Curve::Kind::segment) return nullptr;
     const Vec2d p = a.curve->a - from_, q = a.curve->b - from_, r = b.curve->a - from_, s = b.curve->b - from_;
     const auto size = [](Vec2d v) { return std::fabs(v.x) + std::fabs(v.y); };
-    // More than `nearer` takes for coincident.
+    // More than the distance that `nearer` treats as coincident.
     const double clear = 4e-10 * (size(p) + size(q) + size(r) + size(s)) + 1e-13 * size(from_);
-    // Is v, w on the point's side of the line through l, m: 1; on the other: -1; neither: 0.
+    // Position of v, w relative to the line through l, m. On the point's side: 1; on the other: -1; neither: 0.
     const auto side_of = [&](Vec2d v, Vec2d w, Vec2d l, Vec2d m) {
       const Vec2d along = m - l;
       const double here = -cross(along, l), sign = here < 0 ? -1.0 : 1.0, least = clear * size(along);
@@ -203,8 +203,8 @@ class Builder {
   const Visible& nearer(const Visible& a, const Visible& b, double angle) const {
     const Vec2d u{std::cos(angle), std::sin(angle)};
     const double ra = distance_along(*a.curve, a.back, from_, u), rb = distance_along(*b.curve, b.back, from_, u);
-    // Coincident within rounding: the emitter wins, the later one of two. The size of coordinates enters, since
-    // edges that were meant to coincide do so only up to their rounding.
+    // Coincident within rounding: the emitter wins, or the later one of two. The tolerance depends on the size of coordinates, since edges
+    // that were meant to coincide do so only up to their rounding.
     const double slack = 1e-10 * (ra + rb) + 1e-13 * (std::fabs(from_.x) + std::fabs(from_.y));
     if (std::fabs(ra - rb) <= slack) {
       const bool a_shines = shines(a), b_shines = shines(b);
@@ -229,7 +229,7 @@ double distance_along(const Curve& curve, bool back, Vec2d from, Vec2d u) {
     const Vec2d e = curve.b - curve.a;
     return cross(curve.a - from, e) / cross(u, e);
   }
-  // |p + r v| = 1 in the circle's space, with the root that does not cancel.
+  // p + r v| = 1 in the circle's space, with the root that does not cancel.
   const Vec2d p = curve.ellipse.to_unit(from), v = curve.ellipse.to_unit(curve.ellipse.center + u);
   const double a = dot(v, v), b = dot(p, v), c = dot(p, p) - 1;
   const double root = std::sqrt(std::max(b * b - a * c, 0.0));

@@ -1,4 +1,4 @@
-// The lower envelope of curves seen from a point: in every direction, the curve that is hit first.
+// The lower envelope of curves from a point: in every direction, the curve that is hit first.
 #pragma once
 
 #include <vector>
@@ -11,21 +11,20 @@ namespace steradian::plane {
 struct Visible {
   double begin, end;
   const Curve* curve;
-  bool back;  // seen on its inner face
+  bool back;  // is its inner face visible?
 };
 
 struct EnvelopeRules {
-  // Inner faces of this body are seen (the point is inside it); -1 for none.
+  // Inner faces of this body are visible (the point is inside it); -1 for none.
   int inside = -1;
 };
 
-// All of the envelope, by rising angle; gaps where no curve is. `shines` says by body index who wins coincident edges.
-// O(n log n) by divide and conquer; crossings are found geometrically, so that curves may overlap in any way.
+// The whole envelope, by rising angle; gaps where there is no curve. `bodies` tells by index who wins coincident edges. O(n log n) by
+// divide and conquer; crossings are found geometrically, so that curves may overlap in any way.
 std::vector<Visible> lower_envelope(const std::vector<const Curve*>& curves, Vec2d from, const std::vector<PlaneBody>& bodies,
                                     const EnvelopeRules& rules);
 
-// Distance to the curve in direction u (unit), on the near or the far branch of an arc. For a direction in which the
-// curve is seen.
+// Distance to the curve in direction u (unit), on the near or the far branch of an arc. The curve must be visible in that direction.
 double distance_along(const Curve& curve, bool back, Vec2d from, Vec2d u);
 
 }  // namespace steradian::plane

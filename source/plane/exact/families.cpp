@@ -16,7 +16,7 @@ using std::numbers::pi;
 constexpr double kSmall = 0.05, kLarge = 0.06;  // radius of a convex body
 
 std::vector<Vec2d> convex(SceneRandom& random, Vec2d center, int vertices, double radius) {
-  // Sorted random angles around the circle: convex whatever they are.
+  // Sorted random angles around the circle always give a convex polygon.
   std::vector<double> angles;
   for (int i = 0; i < vertices; ++i) angles.push_back(2 * pi * (i + 0.8 * random.uniform()) / vertices);
   std::vector<Vec2d> result;

@@ -1,4 +1,4 @@
-// The ten families of random scenes on which methods of the plane are judged, and how far a method is off on each.
+// The ten families of random scenes on which methods of the plane are compared, and the error of a method on each.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ PlaneScene make_plane_family(int family, std::uint64_t seed);
 std::vector<Vec2d> points_outside(const PlaneWorld& world, int count, std::uint64_t seed);
 
 struct FamilyError {
-  double mean_percent = 0;  // mean absolute error, percent of the mean radiance; of the largest radiance, where the truth is 0
-  double off_percent = 0;   // share of points more than 1 % off
+  double mean_percent = 0;  // mean absolute error, percent of the mean radiance; of the largest radiance, if the truth is 0
+  double off_percent = 0;   // percent of points with an error above 1 %
   int points = 0;
 };
 
-// `method` against `exact`.
+// The error of `method` relative to `exact`.
 FamilyError measure_family(int family, PlaneMethod method, int scenes, int points_per_scene, const PlaneSampling& sampling = {});
 
 // The table of docs/plane.md, as Markdown.

@@ -1,4 +1,4 @@
-// Ranges of slopes that nothing has taken yet, apart from each other and rising.
+// Ranges of slopes that are still free, disjoint and rising.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@ typename std::vector<Gap>::iterator gap_after(std::vector<Gap>& gaps, double slo
   return std::partition_point(gaps.begin(), gaps.end(), [slope](const Gap& gap) { return gap.end <= slope; });
 }
 
-// Takes what is left between two slopes.
+// Takes the free parts between two slopes.
 //
 //   Gap                     has begin and end
-//   taken(gap, begin, end)  is asked for each piece of a range; the range that may be left above it, from +end+ to the range's end
+//   taken(gap, begin, end)  is called for each piece; returns the range that may remain above it, from +end+ to the range's end
 template <class Gap, class Taken>
 void take_between(std::vector<Gap>& gaps, double begin, double end, Taken taken) {
   auto gap = gap_after(gaps, begin);

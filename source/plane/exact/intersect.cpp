@@ -63,8 +63,8 @@ Crossings circle_circle(const Ellipse& a, const Ellipse& b) {
   return result;
 }
 
-// The first ellipse as the unit circle of t = tan(tau / 2): the second one's equation is a quartic. Each of two charts
-// covers half the circle, so that t stays within [-1, 1].
+// With the first ellipse as the unit circle of t = tan(tau / 2), the second one's equation is a quartic. Each of two charts covers half the
+// circle, so that t stays within [-1, 1].
 Crossings arc_arc(const Curve& first, const Curve& second) {
   const Ellipse& e = first.ellipse;
   const Vec2d m = second.ellipse.to_unit(e.center), x = second.ellipse.to_unit(e.center + e.x) - m,
@@ -86,7 +86,7 @@ Crossings arc_arc(const Curve& first, const Curve& second) {
 
 }  // namespace
 
-// Between neighbouring extrema a polynomial is monotone: the extrema are the roots of the derivative.
+// Between neighbouring extrema a polynomial is monotone; the extrema are the roots of the derivative.
 Roots real_roots(const double* c, int degree, double low, double high) {
   Roots result;
   if (degree == 0) return result;

@@ -1,4 +1,4 @@
-// Where two curves cross.
+// Crossings of two curves.
 #pragma once
 
 #include "plane/exact/outline.h"

@@ -12,15 +12,15 @@ namespace {
 
 using std::numbers::pi;
 
-// Where the gradient stands at p: 0 at `from`, 1 at `to`.
+// Position of p along the gradient: 0 at `from`, 1 at `to`.
 double gradient_offset(const PlaneGradient& g, Vec2d p) {
   const Vec2d axis = g.to - g.from;
   const double length2 = dot(axis, axis);
   return length2 > 0 ? dot(p - g.from, axis) / length2 : 0;
 }
 
-// Turns every edge so that the body lies to its left. Edges that meet others are taken apart there, and what lies within the body goes;
-// where there are too many of them, they are taken as seen from both sides instead, which costs time and changes no value.
+// Turns every edge so that the body lies to its left. Edges that meet others are split there, and parts within the body are removed. If
+// there are too many meetings, edges become two-sided instead, which costs time and changes no value.
 void orient(const PlaneBody& body, const EdgeRows& rows, std::vector<Curve>& edges) {
   const std::optional<EdgeRows::Meetings> meetings = rows.meetings();
   if (!meetings) {

@@ -1,4 +1,4 @@
-// Outlines: bodies taken apart into the segments and arcs that rays can hit.
+// Outlines: the segments and arcs of bodies, which rays can hit.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace steradian::plane {
 // An ellipse as the image of the unit circle: center + x cos(tau) + y sin(tau).
 struct Ellipse {
   Vec2d center, x, y;
-  // Into the space where it is the unit circle about the origin.
+  // Maps to the space where it is the unit circle around the origin.
   Vec2d to_unit(Vec2d p) const {
     const double det = cross(x, y);
     const Vec2d v = p - center;
@@ -22,14 +22,14 @@ struct Ellipse {
 struct Curve {
   enum class Kind { segment, arc };
   Kind kind = Kind::segment;
-  bool two_sided = false;  // both faces block and shine; else only the outer one is seen from outside
+  bool two_sided = false;  // both faces block and emit; else only the outer one is visible from outside
   int body = 0;
   Vec2d a, b;       // segment, the body to the left of a -> b; arc: its ends
   Ellipse ellipse;  // arc: counter-clockwise (cross(x, y) > 0) from tau0 over tau_span
   double tau0 = 0, tau_span = 0;
 };
 
-// Curves of a body. Throws Error for what is not finite or empty.
+// Curves of a body. Throws Error if values are not finite, or the body is empty.
 std::vector<Curve> outline_of(const PlaneBody& body, int index);
 
 // Is p in the body or on its edge? Always false for polylines.
@@ -38,7 +38,7 @@ bool contains(const PlaneBody& body, Vec2d p);
 // The gradient's radiance at a point.
 Vec3d radiance_at(const PlaneEmission& emission, Vec2d p);
 
-// Where on a curve, from 0 at its start to 1 at its end, the gradient has a stop: rising, 0 and 1 among them.
+// Places on a curve, from 0 at its start to 1 at its end, at which the gradient has a stop: rising, including 0 and 1.
 std::vector<double> gradient_cuts(const PlaneGradient& gradient, const Curve& curve);
 
 // The part of a curve between two such places.

@@ -1,8 +1,8 @@
 // Qiu, "Probabilistic Angular Radiance": the published heuristic, as written.
 //
-// Every body is the convex hull of its outline and stands for the chord between its two tangent vertices. Which of two
-// overlapping intervals is nearer is asked of two key rays. Other lights do not block. The paper leaves open whether a
-// key ray is endless and how merged intervals merge again: segments (endless rays err by 22 %), and repeated union.
+// Every body is the convex hull of its outline, represented by the chord between its two tangent vertices. Two key rays decide which of two
+// overlapping intervals is nearer. Other lights do not block. The paper leaves two points open: if a key ray is endless, and how merged
+// intervals merge again. Here key rays are segments (endless rays err by 22 %), and intervals are united repeatedly.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ struct Tangents {
 
 double wrapped(double angle) { return angle - 2 * pi * std::floor((angle + pi) / (2 * pi)); }
 
-// The vertices that stand for a body: of arcs, the tangent points and the ends.
+// The vertices that represent a body: for arcs, the tangent points and the ends.
 void add_vertices(const Curve& c, Vec2d from, std::vector<Vec2d>& out) {
   out.push_back(c.a - from);
   out.push_back(c.b - from);
@@ -41,7 +41,7 @@ bool tangents_of(const World& world, std::size_t body, Vec2d from, std::vector<V
   vertices.clear();
   for (std::size_t c = world.first_curve[body]; c < world.first_curve[body + 1]; ++c) {
     const Curve& curve = world.curves[c];
-    // A whole circle has no ends: its tangent points say all.
+    // A whole circle has no ends: its tangent points are enough.
     const std::size_t before = vertices.size();
     add_vertices(curve, from, vertices);
     if (curve.kind == Curve::Kind::arc && curve.tau_span > 2 * pi - 1e-9 && vertices.size() > before + 2)
@@ -62,8 +62,8 @@ bool tangents_of(const World& world, std::size_t body, Vec2d from, std::vector<V
     out.end = axis + high;
     return true;
   }
-  // From within the hull every direction is taken. The extreme two are then those with the largest angle between them,
-  // which is at most pi: in the paper it is the acos of a dot product.
+  // From within the hull every direction is covered. The extreme two are then those with the largest angle between them, which is at most
+  // pi: in the paper it is the acos of a dot product.
   double widest = -1;
   for (std::size_t i = 0; i < vertices.size(); ++i)
     for (std::size_t k = 0; k < vertices.size(); ++k) {
@@ -117,7 +117,7 @@ PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps) {
         if (blocks(seen, body, whole, begin, end)) blocked.push_back({std::max(begin, whole.begin), std::min(end, whole.end)});
       }
     }
-    // Repeated union of pairs is, on a line, a sweep.
+    // On a line, the repeated union of pairs is a sweep.
     std::sort(blocked.begin(), blocked.end(), [](Interval a, Interval b) { return a.begin < b.begin; });
     double dark = 0, reach = whole.begin;
     for (const Interval& b : blocked) {

@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine, for scenes made by a seed.
+// Random numbers that are the same on every machine, for scenes from a seed.
 #pragma once
 
 #include <cstdint>

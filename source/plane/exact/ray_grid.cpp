@@ -76,11 +76,12 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
   const Vec2d size = high_ - low_;
   const double larger = std::max(std::max(size.x, size.y), 1e-6);
   const double wanted = 2.0 * static_cast<double>(curves.size()) + 1;
-  // A cell is never so small that a thin scene would need millions.
+  // A lower bound of the cell size: a thin scene must not need millions of cells.
   cell_ = std::max(std::sqrt(std::max(size.x, larger * 1e-3) * std::max(size.y, larger * 1e-3) / wanted), larger / 2000);
   std::vector<Box> body_boxes;
   for (const PlaneBody& body : bodies) body_boxes.push_back(bounds_of(body));
-  // Things that reach over many cells are entered in all of them: coarser, until that is no more than a few entries each.
+  // Curves and bodies that span many cells are entered in all of them. Cells become coarser until there are no more than a few entries
+  // each.
   const auto lay_out = [&] {
     columns_ = static_cast<int>(size.x / cell_) + 1;
     rows_ = static_cast<int>(size.y / cell_) + 1;
@@ -104,7 +105,7 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
     cells_of(boxes[i], [&](std::size_t cell, int x, int y) {
       const Curve& c = curves[i];
       if (c.kind == Curve::Kind::segment) {
-        // Leave out cells that the segment passes by.
+        // Skip cells that the segment does not touch.
         const Vec2d middle{low_.x + (x + 0.5) * cell_, low_.y + (y + 0.5) * cell_}, e = c.b - c.a;
         const double reach = 0.5 * cell_ * (std::fabs(e.x) + std::fabs(e.y)) * (1 + 1e-9) + 1e-9 * larger * length(e);
         if (std::fabs(cross(e, middle - c.a)) > reach) return;

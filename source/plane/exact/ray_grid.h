@@ -9,7 +9,7 @@
 namespace steradian::plane {
 
 struct RayHit {
-  const Curve* curve = nullptr;  // null: nothing hit
+  const Curve* curve = nullptr;  // null: no hit
   double distance = 0;
   bool back = false;
 };
@@ -17,7 +17,7 @@ struct RayHit {
 class RayGrid {
  public:
   RayGrid() = default;
-  // Keeps pointers into `curves`; about two cells per curve.
+  // Stores pointers into `curves`; about two cells per curve.
   RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>& bodies);
 
   // The first curve in direction u (unit); inner faces count for two-sided curves and those of body `inside`.
@@ -37,7 +37,7 @@ class RayGrid {
   const std::vector<PlaneBody>* bodies_ = nullptr;
 };
 
-// Where a ray meets one curve: the nearest hit on a face that counts.
+// Hit of a ray on one curve: the nearest one on a face that counts.
 RayHit hit_curve(const Curve& curve, Vec2d from, Vec2d u, int inside);
 
 }  // namespace steradian::plane

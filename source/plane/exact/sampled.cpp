@@ -11,7 +11,7 @@ namespace {
 
 const PlaneBody& body_of(const World& world, const Curve& c) { return world.scene.bodies[static_cast<std::size_t>(c.body)]; }
 
-// Never more than the distance: exact for segments and circles, for ellipses scaled by the smaller half axis.
+// Never more than the distance: exact for segments and circles; ellipses are scaled by the smaller half axis.
 double distance_bound(const Curve& c, Vec2d p) {
   if (c.kind == Curve::Kind::segment) return distance_to_segment(p, c.a, c.b);
   const double xx = dot(c.ellipse.x, c.ellipse.x), yy = dot(c.ellipse.y, c.ellipse.y), xy = dot(c.ellipse.x, c.ellipse.y);

@@ -84,7 +84,7 @@ PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& c
   return envelope_sum(world, curves, from, inside_light, parts, [](int) { return true; });
 }
 
-// Directions and distances in which a light can be seen: the wedge about its bounding circle.
+// Directions and distances in which a light can be visible: the wedge around its bounding circle.
 class Wedge {
  public:
   Wedge(const Box& light, Vec2d from) : from_(from) {
@@ -149,7 +149,7 @@ double farthest_in(const Box& box, Vec2d p) {
   return length({std::max(p.x - box.low.x, box.high.x - p.x), std::max(p.y - box.low.y, box.high.y - p.y)});
 }
 
-// On an edge of the light that holds it a point would not see that edge: it is taken a hair's breadth within.
+// A point on an edge of the light that holds it would not see that edge: it is moved a hair's breadth inside.
 Vec2d off_outline(const World& world, Vec2d p, std::size_t light) {
   constexpr double kOn = 1e-9;
   for (std::size_t c = world.first_curve[light]; c < world.first_curve[light + 1]; ++c) {
@@ -162,7 +162,7 @@ Vec2d off_outline(const World& world, Vec2d p, std::size_t light) {
   return p;
 }
 
-// Only what is nearer than the farthest light that reaches the point can matter. From within a light it is seen at any distance.
+// Only curves nearer than the farthest light that reaches the point can matter. From within a light, that light counts at any distance.
 std::vector<const Curve*> curves_that_matter(const World& world, Vec2d p, int inside_light) {
   double reach = inside_light >= 0 ? farthest_in(world.boxes[static_cast<std::size_t>(inside_light)], p) : 0;
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
@@ -226,12 +226,12 @@ std::size_t edges_of(const PlaneBody& body) {
   return edges;
 }
 
-// From this many edges on, rows find those at a point's height faster than a look at all of them.
+// From this many edges on, rows find the edges at a point's height faster than a loop over all of them.
 constexpr std::size_t kManyEdges = 24;
 
 }  // namespace
 
-// The same radiance from every place of it to every side, as far as one looks.
+// Is the radiance the same from every place of the body, in all directions and at all distances?
 static bool shines_alike(const PlaneBody& body) {
   return !body.light || (!body.light->gradient && body.light->profile == PlaneProfile::uniform && std::isinf(body.light->range) &&
                          body.light->spot_half_angle == 0);

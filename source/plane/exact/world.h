@@ -1,4 +1,4 @@
-// The inside of a PlaneWorld: bodies, their curves, and where they are.
+// The inside of a PlaneWorld: bodies, their curves, and the structures that find them.
 #pragma once
 
 #include <memory>
@@ -17,44 +17,44 @@ struct Extras;  // plane/extras/extras.h
 namespace steradian {
 
 struct PlaneWorld::Impl {
-  enum class Use { all, frames };  // frames: without what queries ask, and with room for more
+  enum class Use { all, frames };  // frames: without the structures for queries, and with capacity for more
   Impl(PlaneScene scene, const Limits& limits, Use use = Use::all);
   ~Impl();
 
-  // Changes of a world for frames, from bodies in the user's units. False, and nothing has changed, where a body has another number of
-  // curves than before, or no room. Throws Error as the constructor does.
+  // Changes of a world for frames, from bodies in the user's units. Returns false, with nothing changed, if a body has another number of
+  // curves than before, or the capacity is not enough. Throws Error as the constructor does.
   bool set_body(std::size_t i, PlaneBody body);
   bool append(PlaneBody body);
   void drop(std::size_t i);  // leaves an empty place
 
-  // Bodies to curves, and what finds them; the number of curves at most.
+  // Converts bodies to curves, and builds the structures that find them; `edges` is the largest number of curves.
   void take_apart(std::size_t edges, Use use);
   void add_rows(std::size_t i);
 
   // Is p in body i or on its edge?
   bool contains(std::size_t i, Vec2d p) const;
 
-  // In units of which the picture's larger side has 1024 to 2048, so that no threshold depends on the user's units; the
-  // scale is a power of two, and nothing is rounded.
+  // In units in which the picture's larger side has 1024 to 2048, so that no threshold depends on the user's units. The scale is a power of
+  // two, so that nothing is rounded.
   PlaneScene scene;
   double scale = 1;                      // from the user's units
-  std::optional<PlaneScene> given;       // as the user gave it, where the scale is not 1
-  std::vector<plane::Curve> curves;      // of all bodies, in the scene's order
+  std::optional<PlaneScene> given;       // as the user gave it, if the scale is not 1
+  std::vector<plane::Curve> curves;      // all bodies, in the scene's order
   std::vector<std::size_t> first_curve;  // by body, and the number of curves at the end
   std::vector<plane::Box> boxes;         // by body
   plane::RayGrid grid;
-  std::vector<plane::EdgeRows> rows;            // of outlines with many edges
-  std::vector<int> rows_of;                     // by body: which of them, or -1
-  std::unique_ptr<const plane::Extras> extras;  // suns, fog and what else this file knows nothing of; null: none
-  const PlaneBody* beyond_par = nullptr;        // a light whose radiance depends on place or direction: `par` has none such
+  std::vector<plane::EdgeRows> rows;            // for outlines with many edges
+  std::vector<int> rows_of;                     // by body: index of its rows, or -1
+  std::unique_ptr<const plane::Extras> extras;  // suns, fog and other features that this file does not handle; null: none
+  const PlaneBody* beyond_par = nullptr;        // a light whose radiance depends on place or direction: `par` does not support it
 
-  // What fills the point: an occluder wins, then the last light. -1: nothing.
+  // The body that fills the point: an occluder wins, then the last light. -1: nothing.
   struct Inside {
     int body = -1;
     bool dark = false;
   };
   Inside inside(Vec2d p) const;
-  // The exact light at a place, in these units; what extras add is not in it.
+  // The exact light at a place, in these units, without the light of extras.
   PlaneLight light_at(Vec2d p) const;
   // The last occluder that holds the point, or -1.
   int occluder_at(Vec2d p) const;
@@ -71,10 +71,10 @@ PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& c
                           EmissionParts parts = EmissionParts::radiance_and_moments);
 // The same for one light; the others block.
 PlaneLight envelope_light_of(const World& world, const std::vector<const Curve*>& curves, Vec2d from, int only, EmissionParts parts);
-// Radiance within a light, where all that can be seen are these parts of other outlines, and the light between them.
+// Radiance within a light, if only these parts of other outlines are visible, and the light between them.
 Vec3d light_between(const World& world, const std::vector<Curve>& parts, Vec2d from, int inside_light);
-// What becomes of directions that several occluders take: the paper merges their intervals; added, they count as often as they are
-// taken. For measurements of what merging is worth.
+// Treatment of directions that several occluders cover. The paper merges their intervals; with `added` they count as often as they are
+// covered. It measures the benefit of merging.
 enum class ParOverlaps { merged, added };
 PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps = ParOverlaps::merged);
 PlaneLight sampled_light(const World& world, Vec2d from, const PlaneSampling& sampling);

@@ -16,8 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Evenly spaced rays. The integrand has a finite number of jumps, each of at most `largest` radiance: every jump
-// adds at most one step of angle, 2 pi / count, to the sum of 2 pi.
+// Evenly spaced rays. The integrand has a finite number of jumps, each of at most `largest` radiance. Every jump adds at most one step of
+// angle, 2 pi / count, to the sum of 2 pi.
 Vec3d mean_of_rays(const PlaneWorld& world, Vec2d p, int count) {
   const auto& impl = world.impl();
   p = p * impl.scale;
@@ -74,8 +74,8 @@ PlaneBody ellipse(Vec2d c, Vec2d x, Vec2d y) {
 
 }  // namespace
 
-// 1e5 evenly spaced rays: a jump costs at most 1e-5 of the emission, and jumps of opposite sign cancel in part; three of
-// them, the specification's bound of 3e-5, is not exceeded here.
+// 1e5 evenly spaced rays: a jump costs at most 1e-5 of the emission, and jumps of opposite sign cancel in part. Three of them, the
+// specification's bound of 3e-5, are not exceeded here.
 TEST(PlaneExact, AgreesWithHundredThousandRaysOnAllFamilies) {
   for (int family = 1; family <= kPlaneFamilies; ++family) {
     double worst = 0, squares = 0;
@@ -106,17 +106,17 @@ TEST(PlaneExact, InsideALightItsEmissionComesFromEverywhereNothingInsideBlocks) 
   e.radiance = {2, 3, 4};
   const PlaneWorld alone = world_of({lit(box(10, 10, 80, 80), e)});
   EXPECT_NEAR(alone.query({50, 30}).radiance.y, 3, 1e-14);
-  // An outside occluder does not matter; one inside takes its angle.
+  // An outside occluder does not matter; one inside occludes its angle.
   const PlaneWorld with = world_of({lit(box(10, 10, 80, 80), e), box(95, 0, 5, 100), plane_circle({50, 50}, 10)});
   EXPECT_NEAR(with.query({50, 30}).radiance.x, 2 * (1 - 2 * std::asin(0.5) / (2 * pi)), 1e-14);
 }
 
-// The range is that of the light outside: within, a box further away than it blocks as much.
+// The range applies to the light outside. Within it, a box further away than the range blocks the same.
 TEST(PlaneExact, InsideALightWithARangeWhatIsBeyondItBlocks) {
   PlaneBody light = lit(plane_circle({50, 50}, 40));
   light.light->range = 20;
   const PlaneWorld world = world_of({light, box(80, 49, 2, 2)});
-  // Its near side, seen from 30 and 60 away.
+  // Its near side, from distances of 30 and 60.
   EXPECT_NEAR(world.query({50, 50}).radiance.x, 1 - std::atan2(1, 30) / M_PI, 1e-12);
   EXPECT_NEAR(world.query({20, 50}).radiance.x, 1 - std::atan2(1, 60) / M_PI, 1e-12);
 }
@@ -126,7 +126,7 @@ TEST(PlaneExact, OnALightsEdgeAPointIsInside) {
   for (Vec2d p : {Vec2d{22, 186}, {26, 190}, {18, 190}}) EXPECT_NEAR(world.query(p).radiance.x, 1, 1e-12) << p.x << ", " << p.y;
 }
 
-// Up to rounding on its edge, and by it within: a box outside of the light takes nothing.
+// Points on its edge up to rounding; rounding puts some within. A box outside of the light occludes nothing.
 TEST(PlaneExact, OnALightsEdgeWhatIsOutsideDoesNotBlock) {
   const PlaneWorld world = world_of({lit(plane_polygon({{20, 20}, {60, 28}, {58, 60}, {18, 60}})), box(30, 5, 20, 10)});
   int within = 0;
@@ -158,14 +158,14 @@ TEST(PlaneExact, InsideAnOccluderIsDarkEvenWithinALight) {
 }
 
 TEST(PlaneExact, OfCoincidentEdgesTheLightIsSeen) {
-  // A lamp in the wall, its face flush with the wall's: seen from above as if the wall were not there.
+  // A lamp in the wall, its face flush with the wall's: from above the light is the same as without the wall.
   const PlaneWorld flush = world_of({lit(box(40, 50, 20, 5)), box(0, 50, 100, 20)});
   for (Vec2d p : {Vec2d{50, 20}, {10, 40}, {99, 49}, {50, 49.99}}) {
     const Vec2d a = Vec2d{40, 50} - p, b = Vec2d{60, 50} - p;
     EXPECT_NEAR(flush.query(p).radiance.x, std::atan2(std::fabs(cross(a, b)), dot(a, b)) / (2 * pi), 1e-12) << p.x;
   }
   EXPECT_EQ(flush.query({50, 80}).radiance.x, 0) << "behind the wall";
-  // A lamp on the wall: from behind the wall nothing.
+  // A lamp on the wall: no light behind the wall.
   const PlaneWorld on = world_of({box(0, 50, 100, 20), lit(box(40, 45, 20, 5))});
   EXPECT_EQ(on.query({50, 80}).radiance.x, 0);
   EXPECT_NEAR(on.query({50, 44}).radiance.x, world_of({lit(box(40, 45, 20, 5))}).query({50, 44}).radiance.x, 1e-12);
@@ -209,7 +209,7 @@ TEST(PlaneExact, OverlappingShapesOfEveryKindAgreeWithRays) {
   }
 }
 
-// Against rays for every emission: jumps and a smooth integrand; 2e5 rays leave at most 6 jumps of 5e-6.
+// Every emission against rays: jumps and a smooth integrand; with 2e5 rays the error is at most 6 jumps of 5e-6.
 TEST(PlaneEmissionKinds, AgreeWithRays) {
   const auto check = [](const char* what, const PlaneEmission& e) {
     const std::vector<PlaneBody> shapes = {box(40, 40, 20, 12), plane_circle({50, 50}, 12), ellipse({50, 50}, {15, 5}, {-4, 9}),
@@ -256,7 +256,7 @@ TEST(PlaneEmissionKinds, MomentsAgreeWithRays) {
     for (const PlaneBody& shape : {box(40, 40, 20, 12), plane_circle({50, 50}, 12)}) {
       const PlaneWorld world = world_of({lit(shape, e), box(30, 30, 12, 3)});
       for (Vec2d p : {Vec2d{50, 20}, {20, 25}, {80, 50}}) {
-        // Stratified and random: a jump errs by at most one of 20000 sectors, two jumps a body.
+        // Stratified and random: a jump errs by at most one of 20000 sectors; there are two jumps for each body.
         const PlaneLight exact = world.query(p), rays = world.query(p, PlaneMethod::sampled, {20'000, 3});
         EXPECT_NEAR(exact.moment_x.x, rays.moment_x.x, 2e-4) << kind;
         EXPECT_NEAR(exact.moment_y.x, rays.moment_y.x, 2e-4) << kind;
@@ -274,7 +274,7 @@ TEST(PlanePar, IsExactForDisjointConvexBodies) {
   }
 }
 
-// What the published heuristic errs by, measured here before on other random scenes of the same kind: the same size, not the same digits.
+// The error of the published heuristic. It was measured on other random scenes of the same kind: the size is the same, not the digits.
 TEST(PlanePar, ErrsWhereItsAssumptionsFail) {
   std::printf("%s", plane_error_table(12, 120).c_str());
   const struct {
@@ -289,8 +289,8 @@ TEST(PlanePar, ErrsWhereItsAssumptionsFail) {
   EXPECT_GT(measure_family(5, PlaneMethod::par, 12, 120).off_percent, 3) << "light leaks out of the box";
 }
 
-// From inside, the two extreme vertices span what they like: the ratio is the mean of that angle over the turn, on polygons of
-// the families' kind. Measured before on others: 47.5 %.
+// From inside, the two extreme vertices span an arbitrary angle. The ratio is the mean of that angle over the turn, on polygons of the
+// families' kind. An earlier measurement on others gave 47.5 %.
 TEST(PlanePar, SeesHalfOfALightFromInside) {
   SceneRandom random(3);
   double sum = 0;
@@ -311,7 +311,7 @@ TEST(PlanePar, SeesHalfOfALightFromInside) {
     }
   }
   std::printf("inside a light: `par` gives %.1f %% of the true value, mean of %d points\n", 100 * sum / count, count);
-  // A mean over 60 polygons moves by a few percent.
+  // A mean over 60 polygons varies by a few percent.
   EXPECT_NEAR(sum / count, 0.475, 0.02);
 }
 
@@ -343,7 +343,7 @@ TEST(PlanePar, RefusesLightsThatDoNotShineAlike) {
   }
 }
 
-// A bow tie is two triangles, and of two squares that overlap the outline is the union's, or what lies in one of them alone.
+// A bow tie is two triangles. The outline of two overlapping squares is the union's, or the region in one of them alone.
 TEST(PlaneOutline, IsTakenApartWhereItCrossesItself) {
   const auto outline = [](std::vector<std::vector<Vec2d>> contours, bool even_odd) {
     PlaneBody body = plane_polygon(contours.front());

@@ -1,4 +1,4 @@
-// Extras against rays that know no envelope, against closed forms where there are some, and frames against the query.
+// Extras against rays that use no envelope, against closed forms if they exist, and frames against the query.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,8 +56,8 @@ PlaneScene scene_of(std::vector<PlaneBody> bodies) {
   return scene;
 }
 
-// Three lights, one of each kind of outline, and boxes and circles that may overlap them and each other. matter: 1 some are clear, 2 some
-// are mirrors, 4 some take light in, 8 fog, 16 suns.
+// Three lights, one of each kind of outline, and boxes and circles that may overlap them and each other. matter: 1 adds clear bodies, 2
+// mirrors, 4 absorbing bodies, 8 fog, 16 suns.
 PlaneScene random_scene(int matter, std::uint64_t seed) {
   SceneRandom random(seed);
   PlaneScene scene = scene_of({});
@@ -91,7 +91,7 @@ PlaneScene random_scene(int matter, std::uint64_t seed) {
   return scene;
 }
 
-// Evenly spaced rays; suns without width apart.
+// Evenly spaced rays; suns without width are added separately.
 PlaneLight traced(const PlaneWorld& world, Vec2d p, int rays) {
   const World& impl = world.impl();
   std::vector<const Curve*> curves;
@@ -124,8 +124,9 @@ struct Worst {
   }
 };
 
-// Every jump of radiance, at most 2 (lights) and 2 x (3 lights, 12 bodies, two outlines' ends and a crossing each) of them in sight of a
-// point and of the few mirrors it sees, is off by at most one ray's share: half a ray on the mean. Ten jumps of one sign are more than met.
+// Every jump of radiance is off by at most the weight of one ray, and by half a ray on average. There are at most 2 (lights) and 2 x (3
+// lights, 12 bodies, two outlines' ends and a crossing each) jumps for a point and the few mirrors that it sees. Ten jumps of one sign are
+// more than occur.
 Worst expect_rays(int matter, int scenes, int rays) {
   Worst worst;
   for (int s = 0; s < scenes; ++s) {
@@ -151,13 +152,13 @@ TEST(PlaneExtras, AgreeWithRaysOneByOneAndTogether) {
   for (int matter : {1, 2, 4, 8, 16, 21, 31}) expect_rays(matter, 6, 10'000);
 }
 
-// Of a hard edge, what rises over it of the sun: E / 2 pi, all or nothing; of a sun with a width, its part above the edge.
+// The part of the sun above a hard edge: E / 2 pi, all or nothing, for a sun without width; the part above the edge for a sun with a width.
 TEST(PlaneExtras, SunsShineOverAnEdge) {
   PlaneScene scene = scene_of({box(40, 50, 20, 50)});
   scene.suns = {{{2, 1, 0.5}, -pi / 4, 0.1}};
   const PlaneWorld soft(scene);
   EXPECT_NEAR(soft.query({30, 20}).radiance.x, 2 * 0.2 / (2 * pi), 1e-15);
-  // The corner (40, 50) stands at atan2(-h, 20) = -pi/4 - 0.04: what is above it (towards -pi/2) is seen.
+  // The corner (40, 50) is at atan2(-h, 20) = -pi/4 - 0.04: the part above it (towards -pi/2) is visible.
   const double h = 20 * std::tan(pi / 4 + 0.04);
   EXPECT_NEAR(soft.query({20, 50 + h}).radiance.y, (0.1 - 0.04) / (2 * pi), 1e-14);
   EXPECT_NEAR(soft.query({20, 50 + h}).moment_x.y, (std::sin(-pi / 4 - 0.04) - std::sin(-pi / 4 - 0.1)) / (2 * pi), 1e-14);
@@ -167,12 +168,12 @@ TEST(PlaneExtras, SunsShineOverAnEdge) {
   EXPECT_NEAR(hard.query({30, 40}).radiance.x, 2 / (2 * pi), 1e-15);
   EXPECT_NEAR(hard.query({20, 69.9}).radiance.x, 2 / (2 * pi), 1e-15);
   EXPECT_EQ(hard.query({20, 70.1}).radiance.x, 0);
-  // A narrow sun of the same strength is nearly it.
+  // A narrow sun of the same strength gives nearly the same light.
   scene.suns[0] = {{1e4, 1e4, 1e4}, -pi / 4, 1e-4};
   EXPECT_NEAR(PlaneWorld(scene).query({20, 69.9}).radiance.x, 2 / (2 * pi), 1e-12);
 }
 
-// plane2.md's own formula, term by term and without sorting, with circles that stand before a circle of light: the sum over all ends s of
+// The formula of plane2.md, term by term and without sorting, for circles in front of a circular light. It is the sum over all ends s of
 // (1 - tau_i) times the others' transmittance there times the light's angle up to s, + at a begin, - at an end.
 TEST(PlaneExtras, ClearBodiesAreASumOverTheirEnds) {
   SceneRandom random(5);
@@ -183,7 +184,7 @@ TEST(PlaneExtras, ClearBodiesAreASumOverTheirEnds) {
       double begin, end, tau;
     };
     std::vector<Shadow> shadows;
-    const double half = std::asin(10.0 / 70);  // the light's, from (10, 50)
+    const double half = std::asin(10.0 / 70);  // half angle of the light from (10, 50)
     for (int i = 0; i < 5; ++i) {
       const Vec2d c{random.uniform(25, 60), random.uniform(46, 54)};
       const double r = random.uniform(0.5, 3), tau = random.uniform(0, 1);
@@ -199,13 +200,13 @@ TEST(PlaneExtras, ClearBodiesAreASumOverTheirEnds) {
         double others = 1;
         for (const Shadow& j : shadows)
           if (&j != &i && j.begin < s && s <= j.end) others *= j.tau;
-        // Those that reach past the light's begin are in force there already.
+        // Shadows that reach past the light's begin are already in force there.
         sum += (begin ? 1 : -1) * (1 - i.tau) * others * (s + half);
       }
     for (const Shadow& i : shadows)
       if (i.end >= half) all *= i.tau;
     sum += 2 * half * all;
-    // Where two shadows are cut off at the same end of the light, the order of their ends matters not: F is 0 or they cancel with `all`.
+    // If two shadows are cut off at the same end of the light, the order of their ends does not matter: F is 0, or they cancel with `all`.
     const PlaneLight light = PlaneWorld(scene).query({10, 50});
     bool tied = false;
     for (const Shadow& i : shadows) tied |= i.end >= half;
@@ -234,7 +235,7 @@ TEST(PlaneExtras, ABodyThatLetsAllThroughIsNotThere) {
   }
 }
 
-// Without anything between, what a mirror shows is the light at its mirrored place.
+// With nothing in between, a mirror shows the light at its mirrored place.
 TEST(PlaneExtras, AMirrorShowsTheMirroredScene) {
   PlaneBody lamp = lit(plane_circle({30, 60}, 5), {1, 2, 3});
   lamp.light->range = 150;
@@ -250,19 +251,19 @@ TEST(PlaneExtras, AMirrorShowsTheMirroredScene) {
   EXPECT_EQ(with.query({50, 10}).radiance.x, 0) << "behind it";
 }
 
-// A face as wide as the sky, lit from all of it: 2 Ki1(h / l), Bickley's function, to the depth h.
+// A face as wide as the sky, lit from all of it: 2 Ki1(h / l), Bickley's function, at the depth h.
 TEST(PlaneExtras, LightEntersBodiesAsBickleySays) {
   PlaneScene scene = scene_of({deep(box(-1e5, 0, 2e5, 1e5), 10)});
   scene.suns = {{{1, 1, 1}, -pi / 2, pi / 2}};
   const PlaneWorld world(scene);
-  const double ki1 = 0.3282864782;  // of 1
+  const double ki1 = 0.3282864782;  // Ki1(1)
   EXPECT_NEAR(world.query({50, 10}).radiance.x, 2 * ki1 / (2 * pi), 1e-9);
   EXPECT_NEAR(world.query({50, -10}).radiance.x, 0.5, 1e-9);
   std::printf("2 Ki1(1): off by %.1e; exp(-h/l) times the light without the body is off by %.1e\n",
               std::fabs(world.query({50, 10}).radiance.x - 2 * ki1 / (2 * pi)), std::fabs(0.5 * std::exp(-1) - 2 * ki1 / (2 * pi)));
 }
 
-// At the middle of a round light of emission 1 nothing fades; outside of it, a small lamp is dimmed by its distance.
+// In the middle of a round light of emission 1 nothing fades; outside of it, a small lamp is dimmed by its distance.
 TEST(PlaneExtras, FogDimsByDistance) {
   PlaneScene scene = scene_of({lit(plane_circle({50, 50}, 0.01))});
   scene.fog_density = 0.03;
@@ -272,7 +273,7 @@ TEST(PlaneExtras, FogDimsByDistance) {
   EXPECT_NEAR(world.query({90, 50}).radiance.x, alone * std::exp(-0.03 * 40), alone * 0.03 * 0.01);
 }
 
-// Elongated strips, each of one texel's width, converge to the line as the square of their number.
+// Short segments of constant colour converge to the textured line with the square of their number.
 TEST(PlaneExtras, TexturedLinesAreLinearBetweenTexels) {
   const std::vector<Vec3d> texels{{0, 1, 0}, {1, 0, 2}, {0.5, 0.5, 0}, {0, 3, 1}};
   const std::vector<Vec2d> points{{20, 30}, {60, 30}, {60, 50}};
@@ -301,8 +302,8 @@ TEST(PlaneExtras, TexturedLinesAreLinearBetweenTexels) {
   EXPECT_THROW(plane_textured_line(points, {}), Error);
 }
 
-// Against the cosine with lamps at an angle over the plane, direction by direction: exact up to the tilt at which part of what is seen goes
-// below the surface.
+// The test compares with the cosine, direction by direction, for lamps at an angle above the plane. The result is exact up to the tilt at
+// which part of the light arrives from below the surface.
 TEST(PlaneExtras, NormalsAreLitByMoments) {
   const double b = 0.7, half = std::asin(0.25), middle = 0.6;  // the light's directions
   const Vec2d lamp = Vec2d{10, 50} + Vec2d{std::cos(middle), std::sin(middle)} * 40;
@@ -384,15 +385,15 @@ TEST(PlaneExtras, FramesEqualTheQuery) {
   std::printf("frames with extras: largest difference from the query %.1e\n", worst);
 }
 
-// After any sequence of changes, of every kind of body, the stage's picture is the cold frame's, byte for byte, and tiles that a change
-// does not reach are left alone.
+// After any sequence of changes, to every kind of body, the stage's picture equals the cold frame's, byte for byte. Tiles that a change
+// does not reach are not drawn again.
 TEST(PlaneExtras, StagesDrawWhatAChangeReaches) {
   for (int matter : {0, 1, 2, 4, 8, 16, 22, 31}) {
     SceneRandom random(static_cast<std::uint64_t>(matter + 50));
     PlaneScene scene = random_scene(matter, static_cast<std::uint64_t>(matter + 12));
     for (PlaneBody& body : scene.bodies)
       if (body.light) body.light->range = 30;
-    if (matter == 22) scene.suns.pop_back();  // no hard one, which mirrors show anywhere
+    if (matter == 22) scene.suns.pop_back();  // no sun without width, which mirrors may show anywhere
     PlaneFrameOptions options;
     options.width = options.height = 80;
     PlaneStage stage(scene, options);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = 16;
 
-// Every tile looks by every mirror at every body.
+// Every tile tests every body against every mirror.
 void take_work(const World& world, const PixelGrid& grid, Budget& budget) {
   std::uint64_t edges = 0;
   for (std::size_t i : world.extras->mirrors) edges += world.first_curve[i + 1] - world.first_curve[i];

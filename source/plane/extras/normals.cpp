@@ -10,7 +10,7 @@
 namespace steradian {
 namespace {
 
-// IEC 61966-2-1. The plane stands below the layer of image files, which has another.
+// IEC 61966-2-1. The plane is below the layer of image files, which has its own version.
 double srgb(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
 
 std::string size_of(const Picture& p) { return std::to_string(p.width) + "x" + std::to_string(p.height); }

@@ -9,7 +9,7 @@
 namespace steradian::plane {
 namespace {
 
-// Of the way, the part within a body whose curves are given.
+// Length of the part of a path within a body whose curves are given.
 double length_within(const World& world, std::span<const Curve* const> curves, Vec2d from, Vec2d u, double way) {
   Curve ray;
   ray.a = from;
@@ -29,7 +29,7 @@ double length_within(const World& world, std::span<const Curve* const> curves, V
   return sum;
 }
 
-// Does a way meet a body? A little after its start: what it starts on and leaves does not count.
+// Does a path meet a body? The test begins a little after the start: a body that the path starts on and leaves does not count.
 bool meets(const World& world, std::span<const Curve* const> curves, Vec2d from, Vec2d u, double way) {
   const auto body = static_cast<std::size_t>(curves[0]->body);
   if (world.contains(body, from + u * 1e-7)) return true;

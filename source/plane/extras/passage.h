@@ -1,4 +1,4 @@
-// What is left of light after a straight way through bodies that let it through or take it in.
+// Fraction of light that remains after a straight path through bodies that transmit or absorb it.
 #pragma once
 
 #include <span>
@@ -8,19 +8,19 @@
 
 namespace steradian::plane {
 
-// What holds a point.
+// Bodies that hold a point.
 struct Start {
-  bool dark = false;      // an occluder that lets no light in
-  int light = -1;         // the last light
-  std::vector<int> deep;  // bodies that take light in
+  bool dark = false;      // within an occluder that lets no light in
+  int light = -1;         // index of the last light
+  std::vector<int> deep;  // bodies that absorb light
 };
 Start start_at(const World& world, Vec2d p);
 
-// Does light from or to that point go on through the body? Others end it.
+// Does light from or to that point go on through the body? Other bodies end it.
 bool passes(const World& world, const Start& start, int body);
 
-// The share that is left after a way (it may be infinite) in direction u. filters: curves of which those that light passes count, body by
-// body.
+// The fraction that remains after a path of length `way` (may be infinite) in direction u. filters: curves, grouped by body, of which those
+// that light passes count.
 Vec3d passage(const World& world, const Start& start, std::span<const Curve* const> filters, Vec2d from, Vec2d u, double way);
 
 }  // namespace steradian::plane

@@ -1,4 +1,4 @@
-// Integrals over directions of what fades on its way, for which there are no closed forms.
+// Integrals over directions of light that fades along its path, for which there are no closed forms.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace steradian::plane {
 
-// Adds the integral of radiance(direction), and of radiance times direction, by Gauss-Kronrod's 15 nodes, halved until the two rules agree
-// to the tolerance, in shares of the brightest that was met. The angle is begin + (end - begin) (3 s^2 - 2 s^3), s from 0 to 1: a curve
-// that is touched at an end has a distance like the root of the angle, which is smooth in s.
+// Adds the integral of radiance(direction), and of radiance times direction, by Gauss-Kronrod's 15 nodes. Intervals are halved until the
+// two rules agree to the tolerance, as a fraction of the brightest value met. The angle is begin + (end - begin) (3 s^2 - 2 s^3), s from 0
+// to 1: at the tangent to a curve the distance changes like the root of the angle, which is smooth in s.
 template <class Radiance>
 void add_integral(const Radiance& radiance, double begin, double end, double tolerance, PlaneLight& sum) {
   struct Piece {

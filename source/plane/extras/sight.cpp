@@ -34,7 +34,7 @@ class Seen {
     const bool lights = rules_.all || !start_.deep.empty();
     if (start_.light < 0)
       for (const SunView& sun : view_.suns) add_open_sun(sun, from_, sum_);
-    // Where only mirrors are looked at, what stands before those that may show something.
+    // If only mirrors are needed, collect the curves in front of the mirrors that may show something.
     const bool mirrors_only = !lights && view_.suns.size() == world_.scene.suns.size();
     std::vector<Fan> fans;
     if (mirrors_only)
@@ -78,11 +78,11 @@ class Seen {
     return {sum_.radiance * scale, sum_.moment_x * scale, sum_.moment_y * scale};
   }
 
-  // How things are seen: at once, or by a mirror, as if from behind it.
+  // How light arrives: directly, or by a mirror, as if from behind it.
   struct Path {
     Vec2d eye;
     const MirrorView* mirror;
-    Curves before, beyond;  // what light passes, before the mirror and beyond it
+    Curves before, beyond;  // curves that light passes, before the mirror and beyond it
   };
 
   const PlaneBody& body_of(const Visible& v) const { return world_.scene.bodies[static_cast<std::size_t>(v.curve->body)]; }
@@ -100,7 +100,7 @@ class Seen {
         return from_ + direction_at(angle) * distance_along(*v.curve, v.back, from_, direction_at(angle));
       };
       const Path path{mirror.reflected(from_), &mirror, with_deep(view_.clear), with_deep(mirror.clear)};
-      // A mirror turns directions around.
+      // A mirror reverses the order of directions.
       const Vec2d first = on_edge(v.end) - path.eye, last = on_edge(v.begin) - path.eye;
       const double begin = angle_of(first);
       double end = angle_of(last);
@@ -151,7 +151,7 @@ class Seen {
         });
   }
 
-  // In the gaps between `begin` and `end`.
+  // Adds suns in the gaps between `begin` and `end`.
   void add_suns(const std::vector<Visible>& envelope, double begin, double end, const Path& path) {
     if (start_.light >= 0) return;
     for (const PlaneSun& sun : world_.scene.suns)
@@ -182,7 +182,7 @@ class Seen {
         [&](Vec2d, double) { return sun.radiance; });
   }
 
-  // blocking: all that ends light in the view.
+  // blocking: all curves that end light in the view.
   void add_hard_suns(Curves blocking) {
     const auto& all = world_.scene.suns;
     if (std::all_of(all.begin(), all.end(), [&](const PlaneSun& sun) { return sun.half_width > 0 || is_open(view_, sun); })) return;
@@ -198,7 +198,7 @@ class Seen {
     sum_.moment_y += suns.moment_y;
   }
 
-  // A path with what may be met between two directions alone.
+  // The path with only the curves that lie between two directions.
   Path between(const Path& path, double begin, double end) const {
     if (end - begin >= 0.5 * pi || (path.before.empty() && path.beyond.empty())) return path;
     const Fan fan(path.eye, direction_at(begin), direction_at(end));
@@ -226,8 +226,8 @@ class Seen {
       if (at > cuts[0] && at < cuts[1]) cuts.push_back(at);
   }
 
-  // Directions between which what is passed is always the same: where curves end, are touched, and cross what is seen. The first two are
-  // the ends.
+  // Directions between which light passes the same bodies: where curves end, are touched, or cross the visible curve. The first two are the
+  // ends.
   std::vector<double> cuts_of(double begin, double end, const Curve* seen, const Path& path) const {
     std::vector<double> cuts{begin, end};
     const auto cut = [&](Vec2d at) { add_cut(angle_of(at - path.eye), cuts); };
@@ -256,7 +256,7 @@ class Seen {
     return cuts;
   }
 
-  // What is left of light from direction u of the path after a way.
+  // Fraction of light that remains in direction u of the path after a length `way`.
   Vec3d share(const Path& path, Vec2d u, double way) const {
     if (path.mirror == nullptr) return passage(world_, start_, path.before, from_, u, way);
     const double to_mirror = distance_along(*path.mirror->edge, false, path.eye, u);
@@ -265,14 +265,14 @@ class Seen {
     return before * beyond * *world_.scene.bodies[static_cast<std::size_t>(path.mirror->edge->body)].mirror;
   }
 
-  // Adds the integral over all cells between the cuts: `closed` between two angles, times what is left in the middle; or, where that is
-  // not the same all over, `radiance` of direction and way.
+  // Adds the integral over all cells between the cuts. It is `closed` between two angles, times the fraction in the middle; or, if that
+  // fraction varies within a cell, `radiance` of direction and way.
   template <class Way, class Closed, class Radiance>
   void add_cells(std::vector<double> cuts, const Path& path, Way way, bool fades, Closed closed, Radiance radiance) {
     fades = fades || !deep_.empty();
     std::sort(cuts.begin(), cuts.end());
     PlaneLight sum;
-    double first = cuts[0];  // of cells with the same share
+    double first = cuts[0];  // start of the cells with the same fraction
     Vec3d shared;
     const auto finish = [&](double last) {
       PlaneLight part;
@@ -322,7 +322,7 @@ class Seen {
   const SightRules& rules_;
   Vec2d from_;
   Start start_;
-  Curves deep_;  // of what holds the point
+  Curves deep_;  // curves of the absorbing bodies that hold the point
   PlaneLight sum_;
 };
 

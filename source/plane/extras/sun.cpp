@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Slopes, along / ahead, of a sun's own frame: beyond the steepest lie 1e-15 of a half turn.
+// Slopes, along / ahead, in a sun's own frame: 1e-15 of a half turn lies beyond the steepest.
 constexpr double kSteepest = 1e15;
 
 class Opening {
@@ -37,7 +37,7 @@ class Opening {
     const Vec2d p = c.ellipse.to_unit(from_);
     const double d2 = dot(p, p);
     if (d2 <= 1) return;
-    // The contacts of the tangents in the circle's space; tau runs against the angle.
+    // Contact points of the tangents in the circle's space; tau runs against the angle.
     const double root = std::sqrt(d2 - 1);
     const Vec2d across{-p.y * root, p.x * root}, first = (p - across) / d2, last = (p + across) / d2;
     const auto place = [&](Vec2d unit) { return c.ellipse.center + c.ellipse.x * unit.x + c.ellipse.y * unit.y - from_; };
@@ -75,7 +75,7 @@ class Opening {
     return u / length(u);
   }
 
-  // By rising angle from a to b, less than half a turn.
+  // Closes the directions of rising angle from a to b, less than half a turn.
   void close_between(Vec2d a, Vec2d b) {
     const double ahead_a = dot(a, ahead_), ahead_b = dot(b, ahead_);
     if (ahead_a <= 0 && ahead_b <= 0) return;

@@ -1,4 +1,4 @@
-// Suns that nothing but opaque bodies stands before: how much of them is seen needs no order of what blocks.
+// Suns with only opaque bodies in front of them: their visible part does not depend on the order of the blockers.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,17 @@
 
 namespace steradian::plane {
 
-// A sun, and the curves that may stand between it and the points of a disk.
+// A sun, and the curves that may lie between it and the points of a disk.
 struct SunView {
   const PlaneSun* sun;
   std::vector<const Curve*> blocking;
 };
 
-// As wide as half of the sky, or less.
+// Is the sun at most as wide as half of the sky?
 bool is_plain(const PlaneSun& sun);
 
-// Adds the integral over the directions in which a plain sun is seen from outside of all bodies; of a sun without width, all of it or
-// nothing.
+// Adds the integral over the directions in which a plain sun is visible, for points outside of all bodies. A sun without width counts fully
+// or not at all.
 void add_open_sun(const SunView& view, Vec2d from, PlaneLight& sum);
 
 }  // namespace steradian::plane

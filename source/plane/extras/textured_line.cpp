@@ -1,4 +1,4 @@
-// Textured lines: edges with a gradient that has a stop at every texel, which queries and frames integrate in closed form.
+// Textured lines: edges with a gradient that has a stop at every texel. Queries and frames integrate them in closed form.
 #include <cmath>
 
 #include "steradian/error.h"

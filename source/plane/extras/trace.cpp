@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-// A direction as an edge mirrors it.
+// A direction after reflection at an edge.
 Vec2d mirrored(const Curve& edge, Vec2d u) {
   const Vec2d along = (edge.b - edge.a) / length(edge.b - edge.a);
   return along * (2 * dot(along, u)) - u;
@@ -22,7 +22,7 @@ Vec2d mirrored(const Curve& edge, Vec2d u) {
 
 }  // namespace
 
-// The first that ends a ray or turns it. Of coincident edges a light's, else the last in the file.
+// The first curve that ends or reflects a ray. Among coincident edges it is a light's, else the last one in the file.
 RayHit Tracer::first_hit(Vec2d from, Vec2d u, const Curve* but) const {
   RayHit best;
   best.distance = std::numeric_limits<double>::infinity();
@@ -37,17 +37,17 @@ RayHit Tracer::first_hit(Vec2d from, Vec2d u, const Curve* but) const {
   return best;
 }
 
-// way: from the eye to the hit, past a mirror if there is one. Within a light there is no way to it.
+// way: length from the eye to the hit, by a mirror if there is one. Within a light it does not count.
 Vec3d Tracer::arriving(const RayHit& hit, Vec2d at, Vec2d u, double way) const {
   const PlaneEmission& light = *body_of(hit).light;
   if (hit.curve->body == start_.light) return radiance_at(light, from_);
   return radiance_along(*hit.curve, light, at - u * way, u, way) * std::exp(-world_.scene.fog_density * way);
 }
 
-// Where nothing is hit.
+// Radiance of a ray that hits nothing.
 Vec3d Tracer::sky(Vec2d u, const PlaneSun* hard) const {
   if (start_.light >= 0) return {};
-  // By a mirror it is another direction that shows a sun without width.
+  // A mirror shows a sun without width in a different direction.
   if (hard != nullptr) return std::fabs(std::remainder(angle_of(u) - hard->direction, 2 * pi)) < 1e-9 ? hard->radiance : Vec3d{};
   Vec3d sum;
   for (const PlaneSun& sun : world_.scene.suns)
@@ -82,7 +82,7 @@ PlaneLight Tracer::hard_suns() const {
     for (const Curve* c : curves_)
       if (world_.extras->matter[static_cast<std::size_t>(c->body)] == Matter::mirror) {
         const Vec2d u = mirrored(*c, to);
-        // Parallel edges show it in one direction.
+        // Parallel edges show it in the same direction.
         if (std::none_of(directions.begin(), directions.end(), [&](Vec2d d) { return length(d - u) < 1e-9; })) directions.push_back(u);
       }
     for (Vec2d u : directions) {

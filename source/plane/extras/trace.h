@@ -1,4 +1,4 @@
-// Rays through scenes with extras: the method `sampled`, and what the exact one is held to. No envelope, no closed form.
+// Rays through scenes with extras: the method `sampled`, and the reference for the exact one. It uses no envelope and no closed form.
 #pragma once
 
 #include "plane/extras/passage.h"
@@ -7,13 +7,13 @@ namespace steradian::plane {
 
 class Tracer {
  public:
-  // Of the curves, those of bodies that let light through must stand together.
+  // Among the curves, those of one body that transmits light must be contiguous.
   Tracer(const World& world, std::span<const Curve* const> curves, Vec2d from)
       : world_(world), curves_(curves), from_(from), start_(start_at(world, from)) {}
 
-  // What is seen in direction u (of length 1), but for suns without width.
+  // Radiance from direction u (of length 1), except suns without width.
   Vec3d radiance(Vec2d u) const { return start_.dark ? Vec3d{} : look(u, nullptr); }
-  // What suns without width send, at once and by mirrors: sums over directions.
+  // Light of suns without width, direct and by mirrors: sums over directions.
   PlaneLight hard_suns() const;
 
  private:

@@ -16,7 +16,7 @@ Disk disk_of(const Box& box) {
   return {(box.low + box.high) * 0.5, 0.5 * length(box.high - box.low)};
 }
 
-// What an eye looks at. Larger than needed by little: a hull is taken as a capsule, and rounding is left room.
+// Targets that an eye looks at. It errs on the large side by a little: a hull counts as a capsule, with a margin for rounding.
 class Targets {
  public:
   explicit Targets(Disk eye) : eye_(eye) {}
@@ -25,7 +25,7 @@ class Targets {
   void add(const PlaneSun& sun) { suns_.push_back(&sun); }
   bool empty() const { return lights_.empty() && suns_.empty(); }
 
-  // May it stand between the eye and something that it looks at?
+  // Can the body be between the eye and one of its targets?
   bool touched_by(Disk body) const {
     return std::any_of(lights_.begin(), lights_.end(), [&](Disk light) { return between(light, body); }) ||
            std::any_of(suns_.begin(), suns_.end(), [&](const PlaneSun* sun) { return towards(*sun, body); });
@@ -79,7 +79,7 @@ class Viewer {
     return std::move(view_);
   }
 
-  // By the tests of `view`, or wider ones.
+  // Uses the tests of `view`, or wider ones.
   bool depends_on(const std::vector<std::size_t>& bodies, bool lights) const {
     if (bodies.empty()) return false;
     if (world_.extras->hard_suns > 0 && !world_.extras->mirrors.empty()) return true;
@@ -87,7 +87,7 @@ class Viewer {
     const auto any_disk = [&](auto&& test) {
       return std::any_of(bodies.begin(), bodies.end(), [&](std::size_t i) { return test(disk_of(world_.boxes[i])); });
     };
-    // What holds points of the eye.
+    // Bodies that hold points of the eye.
     if (any_disk([&](Disk d) { return length(d.center - eye_.center) <= (d.radius + eye_.radius) * (1 + 1e-9) + 1e-6; })) return true;
     Targets direct(eye_);
     for (const Light& light : lights_) {
@@ -120,7 +120,7 @@ class Viewer {
     return length(light.disk.center - eye.center) - light.disk.radius - eye.radius < light.range;
   }
 
-  // May a point of the eye be in a body that takes light in?
+  // Can a point of the eye be in a body that absorbs light?
   bool is_within_deep() const {
     if (!world_.extras->deep) return false;
     for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
@@ -131,7 +131,7 @@ class Viewer {
     return false;
   }
 
-  // False: something clear may stand before it.
+  // Returns false if something clear may be in front of the sun.
   bool add_open(const PlaneSun& sun) {
     Targets targets(eye_);
     targets.add(sun);
@@ -145,7 +145,7 @@ class Viewer {
     return open;
   }
 
-  // Its inner face to all of the eye, from outside of its body.
+  // Does its inner face look at all of the eye, from outside of its body?
   bool turned_away(const Curve& c) const {
     if (c.kind != Curve::Kind::segment || c.two_sided) return false;
     return cross(c.a - eye_.center, c.b - eye_.center) > (eye_.radius * (1 + 1e-9) + 1e-6) * length(c.b - c.a);
@@ -164,7 +164,7 @@ class Viewer {
     }
   }
 
-  // Calls f(edge, normal): both sides, where the eye may be on both and the edge has two.
+  // Calls f(edge, normal): for both sides, if the eye may be on both and the edge has two.
   template <class F>
   void for_each_mirror(F f) const {
     for (std::size_t i : world_.extras->mirrors)
@@ -178,7 +178,7 @@ class Viewer {
       }
   }
 
-  // What may be seen by a mirror, from behind it.
+  // Targets that may be visible by a mirror, seen from behind it.
   struct MirrorTargets {
     Targets targets;
     std::vector<const Light*> lights;
@@ -197,7 +197,7 @@ class Viewer {
     return result;
   }
 
-  // False: nothing is seen by it.
+  // Returns false if nothing is visible by it.
   bool add_mirror(const Curve& edge, Vec2d normal) {
     const MirrorTargets shown = targets_of(edge, normal);
     if (shown.targets.empty()) return false;
@@ -217,7 +217,7 @@ class Viewer {
 
   const World& world_;
   Disk eye_;
-  std::vector<Light> lights_;  // that reach the eye; by a mirror the way is longer
+  std::vector<Light> lights_;  // lights that reach the eye; by a mirror the path is longer
   View view_;
 };
 
@@ -235,7 +235,7 @@ bool may_matter(const World& world, Disk eye, bool lights, const std::vector<std
 }
 
 void cut_at_line(const Curve& c, Vec2d at, Vec2d normal, std::vector<Curve>& out) {
-  // On the line counts as behind it.
+  // A point on the line counts as behind it.
   constexpr double kOn = 1e-9;
   std::vector<double> cuts{0, 1};
   if (c.kind == Curve::Kind::segment) {

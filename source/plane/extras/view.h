@@ -1,4 +1,4 @@
-// What may matter to the points of a disk: curves between it and lights, at once or by a mirror, and towards suns.
+// Bodies that may matter to the points of a disk: curves between it and lights, direct or by a mirror, and towards suns.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@ struct Disk {
 };
 Disk disk_of(const Curve& curve);
 
-// Directions between two, less than half a turn apart, and what may be seen in them: rounding is left room.
+// A range of directions, less than half a turn wide, and tests of what may be visible in it. The tests have a margin for rounding.
 class Fan {
  public:
   Fan(Vec2d from, Vec2d low, Vec2d high) : from_(from), low_(low), high_(high) {}
-  // Of an edge.
+  // The fan of an edge.
   Fan(Vec2d from, const Curve& edge) : from_(from), low_(edge.a - from), high_(edge.b - from) {
     if (cross(low_, high_) < 0) std::swap(low_, high_);
     low_ = low_ / length(low_);
@@ -33,41 +33,41 @@ class Fan {
   }
 
  private:
-  Vec2d from_, low_, high_;  // units
+  Vec2d from_, low_, high_;  // unit vectors
 };
 
-// One edge of a mirror, seen from one side. Seen by it, things are where they are, and the eye is behind it.
+// One edge of a mirror, from one side. Points beyond it keep their places, and the eye is mirrored to the place behind it.
 struct MirrorView {
   const Curve* edge;
   Vec2d normal;                     // unit, to the eye's side
-  std::vector<Curve> beyond;        // what ends light, of it the parts on the eye's side
-  std::vector<Disk> disks;          // around each of these
-  std::vector<Disk> lights;         // around what it may show
-  std::vector<const Curve*> clear;  // what light passes
+  std::vector<Curve> beyond;        // curves that end light, clipped to the eye's side
+  std::vector<Disk> disks;          // around each of these curves
+  std::vector<Disk> lights;         // around each body that it may show
+  std::vector<const Curve*> clear;  // curves that light passes
   Vec2d reflected(Vec2d p) const { return p - normal * (2 * dot(normal, p - edge->a)); }
   Vec2d reflected_direction(Vec2d u) const { return u - normal * (2 * dot(normal, u)); }
 };
 
 struct View {
-  std::vector<SunView> suns;           // plain ones that nothing clear stands before; all else is for what is seen otherwise
-  std::vector<const Curve*> blocking;  // what ends light: lights, occluders, mirrors, bodies that take light in
-  std::vector<Disk> disks;             // around each of these
-  std::vector<const Curve*> clear;     // what light passes
+  std::vector<SunView> suns;           // plain suns with nothing clear in front of them; every other sun is handled elsewhere
+  std::vector<const Curve*> blocking;  // curves that end light: lights, occluders, mirrors, absorbing bodies
+  std::vector<Disk> disks;             // around each of these curves
+  std::vector<const Curve*> clear;     // curves that light passes
   std::vector<MirrorView> mirrors;
-  std::vector<const Curve*> all;  // of the world, where mirrors may show suns without width
+  std::vector<const Curve*> all;  // all curves of the world, if mirrors may show suns without width
 };
 
 inline bool is_open(const View& view, const PlaneSun& sun) {
   return std::any_of(view.suns.begin(), view.suns.end(), [&](const SunView& s) { return s.sun == &sun; });
 }
 
-// lights: are they looked at, too, or only suns and mirrors?
+// lights: does the view include lights, or only suns and mirrors?
 View view_of(const World& world, Disk eye, bool lights);
 
-// May one of these bodies matter to what the eye sees? If not, its view is that of a world without them.
+// Can one of these bodies matter to what the eye sees? If not, its view is that of a world without them.
 bool may_matter(const World& world, Disk eye, bool lights, const std::vector<std::size_t>& bodies);
 
-// The parts of a curve in front of a line, appended.
+// Appends the parts of a curve in front of a line.
 void cut_at_line(const Curve& curve, Vec2d at, Vec2d normal, std::vector<Curve>& out);
 
 }  // namespace steradian::plane

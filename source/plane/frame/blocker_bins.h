@@ -1,5 +1,5 @@
-// Blockers by where they are: a grid of 33 x 33 bins over a window, those at its border open to the outside. What is found comes in an
-// order that does not depend on other blockers. Chains stand for their edges.
+// Blockers by place: a grid of 33 x 33 bins over a window; bins at its border are open to the outside. A search finds them in an order that
+// does not depend on other blockers. Chains represent their edges.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ class BlockerBins {
   double cell_ = 1, largest_ = 0;
 };
 
-// How many blockers for_each_within would look at, at most: sums over rectangles of bins.
+// Upper bounds of the number of blockers that for_each_within visits: sums over rectangles of bins.
 class BinCounts {
  public:
   explicit BinCounts(const BlockerBins& bins) : bins_(bins), sum_(34 * 34, 0) {

@@ -13,7 +13,7 @@ std::vector<Chain> convex_chains(const Curve* curves, std::size_t count) {
       ++i;
       continue;
     }
-    // Edges may have been turned round, so that the body lies to their left: go on from the end that the next one shares.
+    // Edges may have been reversed, so that the body lies to their left: continue from the end that the next edge shares.
     std::vector<Vec2d> walk{curves[i].a, curves[i].b};
     if (walk[1] != curves[i + 1].a && walk[1] != curves[i + 1].b) std::swap(walk[0], walk[1]);
     const Vec2d first = walk[1] - walk[0];

@@ -1,4 +1,4 @@
-// What becomes of a prepared scene when one of its bodies moves, changes, comes or goes.
+// Updates of a prepared scene when one of its bodies moves, changes, is added or is removed.
 #include <algorithm>
 
 #include "plane/frame/emitters.h"
@@ -7,11 +7,11 @@
 
 namespace steradian::plane {
 
-// Marks the emitters whose lists the body is in, and the lights that it may reach into.
+// Marks the emitters whose lists contain the body, and the lights that it may reach into.
 void Preparation::touch(std::size_t body) {
   for (std::size_t k = first_blocker_[body]; k < first_blocker_[body] + blocker_count_[body]; ++k) {
     const Blocker& b = frame_.blockers[k];
-    if (b.in_chain) continue;  // its chain stands for it
+    if (b.in_chain) continue;  // its chain represents it
     for (std::size_t i = 0; i < frame_.emitters.size(); ++i) {
       const Emitter& e = frame_.emitters[i];
       const Vec2d away = b.center - e.center;
@@ -57,7 +57,7 @@ bool Preparation::take(std::size_t body) {
   return true;
 }
 
-// In the places that it had.
+// Writes the blockers to the same places as before.
 bool Preparation::take_blockers(std::size_t body) {
   const std::size_t at = frame_.blockers.size(), vertices = frame_.vertices.size(), outlines = frame_.outlines.size();
   const std::size_t first = first_blocker_[body], count = blocker_count_[body];
@@ -116,7 +116,7 @@ bool Preparation::finish() {
   const bool outgrown = frame_.blockers.size() > 2 * made_blockers_ + 4096 || frame_.nearby.size > 3 * made_pairs_ + 65536 ||
                         first_blocker_.size() > made_bodies_ + made_bodies_ / 4 + 64 || gone_ > made_bodies_ / 2 + 64;
   if (outgrown || find_slack() != frame_.slack) return false;
-  const Budget before = budget_;  // every change is judged by itself
+  const Budget before = budget_;  // each change has the whole budget
   for (std::size_t i = 0; i < dirty_interior_.size(); ++i)
     if (dirty_interior_[i] != 0) find_interior(frame_, i, bins_, budget_, [this](std::uint64_t steps) { spend(steps); });
   for (std::size_t e = 0; e < dirty_.size(); ++e)

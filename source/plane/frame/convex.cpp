@@ -18,7 +18,7 @@ double least_along(Vec2d normal, ConvexRegion region) {
 
 Gap gap_between(ConvexRegion first, ConvexRegion second, double enough) {
   Gap widest{-1e300, {}, {}};
-  // The outer side of every edge of one region, both sides of a segment.
+  // Tests the outer side of every edge of one region, and both sides of a segment.
   const auto look = [&](ConvexRegion own, ConvexRegion other, double sign) {
     for (std::size_t k = 0; k < own.count; ++k) {
       const Vec2d p = own.vertices[k], q = own.vertices[k + 1 < own.count ? k + 1 : 0];

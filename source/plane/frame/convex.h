@@ -12,7 +12,7 @@ struct ConvexRegion {
   std::size_t count;
 };
 
-// A line along an edge of one of two regions: `width` is left between them across it, less than 0 where they overlap.
+// A line along an edge of one of two regions. `width` is the gap between them across it, less than 0 if they overlap.
 struct Gap {
   double width;
   Vec2d normal, point;  // unit, towards the second region
@@ -22,7 +22,7 @@ struct Gap {
 Gap gap_between(ConvexRegion first, ConvexRegion second, double enough = 1e300);
 
 bool holds(ConvexRegion region, Vec2d p);  // or its outline does
-// On its outline.
+// The nearest point on its outline.
 Vec2d nearest_of(ConvexRegion region, Vec2d p);
 
 }  // namespace steradian::plane

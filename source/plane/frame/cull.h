@@ -1,4 +1,4 @@
-// Which blockers touch the hull of a tile and a light: most of a frame's list work, done on packs.
+// Finds the blockers that touch the hull of a tile and a light, on packs: most of a frame's list work.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,19 @@
 
 namespace steradian::plane {
 
-// Bounding circles of blockers, column by column, one entry's after another's. Packs read and write up to kRoom floats
+// Bounding circles of blockers, one array for each column, and one entry's circles after another's. Packs read and write up to kRoom floats
 // past an entry's end.
 class BlockerList {
  public:
   static constexpr std::size_t kRoom = 16;
 
   std::vector<float> x, y, radius;
-  std::vector<float> core;  // the radius of what may hide a light on its own; -1: never
-  std::vector<int> index;   // into FrameScene::blockers; of a disk's, into FrameScene::pairs
+  std::vector<float> core;  // the radius of a circle that may occlude a light alone; -1: never
+  std::vector<int> index;   // into FrameScene::blockers; for a disk, into FrameScene::pairs
   std::size_t size = 0;
 
   void clear() { size = 0; }
-  // Makes room for `count` more.
+  // Reserves capacity for `count` more.
   void reserve_more(std::size_t count) {
     const std::size_t needed = size + count + kRoom;
     if (needed <= index.size()) return;
@@ -36,18 +36,18 @@ class BlockerList {
   }
 };
 
-// The hull of two circles, about a tile and about a light. At the share t of the way from one to the other a circle of
-// radius r touches it if it is within (base + t growth + r) widen of the axis.
+// The hull of two circles, around a tile and around a light. At the fraction t of the way from one to the other a circle of radius r
+// touches it if it is within (base + t growth + r) widen of the axis.
 struct HullOfCircles {
   float x, y;             // the tile's centre
-  float axis_x, axis_y;   // from there to the light's
-  float inverse_length2;  // of the axis
+  float axis_x, axis_y;   // from there to the light's centre
+  float inverse_length2;  // 1 / squared length of the axis
   float base, growth, widen;
 };
 
 struct CullTable {
-  // Appends to `to` those of from[begin, end) that touch the hull, and to `hiders` (room for all) those of them whose
-  // core is wide enough to be worth a look. Returns the number of hiders. `to` has room for end - begin more.
+  // Appends to `to` the blockers of from[begin, end) that touch the hull, and to `hiders` those of them whose core is wide enough to test.
+  // Returns the number of hiders. `to` has capacity for end - begin more, and `hiders` for all.
   std::size_t (*cull)(const HullOfCircles& hull, const BlockerList& from, std::size_t begin, std::size_t end, BlockerList& to, int* hiders);
 };
 

@@ -45,13 +45,13 @@ __attribute__((flatten)) std::size_t cull(const HullOfCircles& hull, const Block
     const PackReal off_x = x - ax * t, off_y = y - ay * t;
     const PackReal half = broadcast(hull.base) + t * broadcast(hull.growth);
     const PackReal limit = (half + radius) * broadcast(hull.widen);
-    // What leaves the range of float is kept.
+    // Blockers beyond the range of float are included.
     const PackReal off2 = off_x * off_x + off_y * off_y;
     const PackMask touches = !(off2 > limit * limit);
     const std::uint64_t valid = end - i >= kLanes ? ~std::uint64_t{0} : (std::uint64_t{1} << (end - i)) - 1;
     const std::uint64_t bits = bits_of(touches) & valid;
     if (bits == 0) continue;
-    // To hide the light a blocker reaches across the hull.
+    // To occlude the light a blocker must reach across the hull.
     const PackReal across = load(from.core.data() + i) - PackReal(0.7) * half;
     const PackMask wide = across > PackReal(0.0) && off2 < across * across;
     for (std::uint64_t h = bits & bits_of(wide); h != 0; h &= h - 1)

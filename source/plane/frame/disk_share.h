@@ -1,6 +1,6 @@
-// What a part of a round light sends to a pixel: the angle, weighed with the range window, between two rays. For *_pack.cpp only.
+// Contribution of a part of a round light to a pixel: the angle between two rays, weighted by the range window. For *_pack.cpp only.
 //
-// Rays are given by the signed distance x at which they pass the centre. Shares are not yet divided by 2 pi.
+// A ray is given by the signed distance x at which it passes the centre. Shares are not yet divided by 2 pi.
 #pragma once
 
 #include "core/pack.h"
@@ -12,7 +12,7 @@ namespace {
 
 using PackMask = Mask<Pack>;
 
-// A light without a range: the angle itself.
+// A light without a range: the share is the angle itself.
 struct DiskAngle {
   const EventLight& light;
   explicit DiskAngle(const EventLight& l) : light(l) {}
@@ -33,7 +33,7 @@ struct DiskAngle {
   }
 };
 
-// Where rays reach, R = 1: the light's near side leaves the range before the tangent does (law of cosines).
+// Largest x of rays that reach the light within the range, R = 1: the near side leaves the range before the tangent does (law of cosines).
 STERADIAN_INLINE PackReal reach_within_range(PackReal d2, PackReal radius) {
   const PackReal rho2 = radius * radius;
   const PackMask leaves = d2 - rho2 > PackReal(1.0);
@@ -42,14 +42,14 @@ STERADIAN_INLINE PackReal reach_within_range(PackReal d2, PackReal radius) {
   return select(leaves, min(sqrt(max(d2 - along * along, PackReal(0.0))), radius), radius);
 }
 
-// By the kernels' closed form.
+// A light with a range, by the kernels' closed form.
 struct DiskWindow {
   const EventLight& light;
   PackReal range;
   explicit DiskWindow(const EventLight& l) : light(l), range(broadcast(1 / l.inverse_range)) {}
 
   struct Seen {
-    PackReal reach;              // in the scene's units, as all x are
+    PackReal reach;              // in the scene's units, like all x
     PackReal d2, radius, scale;  // R = 1
     STERADIAN_INLINE PackReal share(PackReal x) const {
       x *= scale;
@@ -71,14 +71,14 @@ struct DiskWindow {
   }
 };
 
-// Far from the light: with w the squared distance and y = x / radius, R = 1, the share is
+// Far from the light the share has a closed form in w, the squared distance, and y = x / radius, with R = 1:
 //
-//   x (s0 + x^2 s1 + x^4 s2 + x^6 s3) + radius^2 y (e h1(y^2) - 2 radius^2 h2(y^2)),   e = 2 - 2 w - radius^2,
+//   x (s0 + x^2 s1 + x^4 s2 + x^6 s3) + radius^2 y (e h1(y^2) - 2 radius^2 h2(y^2)),   e = 2 - 2 w - radius^2.
 //
-// by expanding the window's integral in x / d; s0 and s1 are quadratics in w about a block's centre, the others constants of it.
-// y h1(y^2) fits asin y + y sqrt(1 - y^2) to 5.1e-4, y h2(y^2) fits y (1 - y^2)^(3/2). From 6 radii and 16 blocks on it is within 5e-6.
+// It expands the window's integral in x / d. s0 and s1 are quadratics in w about a block's centre, the others constants of it.
+// y h1(y^2) fits asin y + y sqrt(1 - y^2) to 5.1e-4, y h2(y^2) fits y (1 - y^2)^(3/2). Beyond 6 radii and 16 blocks it is within 5e-6.
 struct DiskQuadratics {
-  std::uint32_t blocks = 0;  // that lie far enough
+  std::uint32_t blocks = 0;  // blocks that lie far enough
 
   explicit STERADIAN_INLINE DiskQuadratics(const EventLight& l, const PackReal* block_x, const PackReal* block_y)
       : light_(l), range_(broadcast(1 / l.inverse_range)), inverse_rho_(broadcast(1 / (l.radius * l.inverse_range))) {

@@ -11,7 +11,7 @@ struct Part {
   const char *name, *svg;
 };
 
-// Two of each, with {} for what they emit.
+// Two shapes of each kind; {} is the place of their emission.
 constexpr Part kShapes[] = {
     {"circle", R"(<circle cx="150" cy="120" r="24" {0}/><circle cx="470" cy="250" r="30" {0}/>)"},
     {"ellipse", R"(<ellipse cx="150" cy="120" rx="40" ry="14" {0}/><ellipse cx="470" cy="250" rx="18" ry="44" {0}/>)"},

@@ -1,4 +1,4 @@
-// Drawings of fifteen shapes, two of them lights of one kind: for tests and benches of every kind of light.
+// Drawings of fifteen shapes, of which two are lights of one kind: for tests and benches of every kind of light.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 namespace steradian::plane {
 
 struct Drawing {
-  std::string shape;     // of its lights: circle, ellipse, polygon, capsule, stroke or curve
+  std::string shape;     // shape of its lights: circle, ellipse, polygon, capsule, stroke or curve
   std::string emission;  // uniform, range, lambert, inverse, spot or gradient
 };
 
 std::vector<Drawing> all_drawings();
 
-// 640 x 360 units; circles, ellipses, rectangles and round strokes as occluders; the same on every machine.
+// A scene of 640 x 360 units with circles, ellipses, rectangles and round strokes as occluders. It is the same on every machine.
 PlaneScene make_drawing(const Drawing& drawing);
 
 }  // namespace steradian::plane

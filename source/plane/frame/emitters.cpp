@@ -11,10 +11,10 @@ namespace {
 
 using std::numbers::pi;
 
-// In the space where an ellipse is round, floats lose as much as its half axes differ: 1e-7 times this in a direction.
+// In the space where an ellipse is round, floats lose precision with the ratio of its half axes: 1e-7 times this in a direction.
 constexpr double kThinnestEmitter = 60;
 
-// A gradient between two of its stops: radiance c + slope dot(axis, p - origin), for all p whose colour lies there.
+// A gradient between two of its stops: radiance c + slope dot(axis, p - origin), for all p whose colour lies between them.
 struct Ramp {
   Vec3d at_origin, slope;
   Vec2d axis;
@@ -63,7 +63,7 @@ class Taking {
     return light_.gradient ? gradient_cuts(*light_.gradient, curve) : std::vector<double>{0, 1};
   }
 
-  // Cut where the gradient has a stop, so that radiance is linear on each.
+  // Adds the edge, cut at the gradient's stops, so that radiance is linear on each part.
   void add_edges(std::size_t index, bool other_side) {
     const Curve& curve = world_.curves[index];
     const std::vector<double> cuts = cuts_of(curve);
@@ -86,7 +86,7 @@ class Taking {
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       Curve part = part_of(curve, cuts[k], cuts[k + 1]);
       const bool whole = part.tau_span > 2 * pi - 1e-9;
-      // What a point sees of less than half the outline is one piece.
+      // If less than half the outline is visible from a point, that part is one piece.
       const int pieces = whole ? 1 : static_cast<int>(std::ceil(part.tau_span / pi - 1e-9));
       for (int i = 0; i < pieces; ++i) {
         Emitter e;

@@ -1,6 +1,6 @@
-// What blockers leave of a round light, block by block of 4 x 4 pixels, and what that sends. For *_pack.cpp only.
+// The part of a round light that blockers leave visible, for each block of 4 x 4 pixels, and its light. For *_pack.cpp only.
 //
-// Rays are told apart by the signed distance at which they pass the light's centre (place_on_light): from -radius to radius.
+// A ray is identified by the signed distance at which it passes the light's centre (place_on_light): from -radius to radius.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace steradian::plane::STERADIAN_ISA {
 namespace {
 
-// The same to the last bit whether the share has just been worked out or was kept.
+// The result is the same to the last bit, whether the share has just been computed or was cached.
 STERADIAN_INLINE void add_share(int i, PackReal share, float red, float green, float blue, TileBuffer& tile) {
   const auto add = [&](float* p, float radiance) { store(p + i, PackReal::of(xsimd::fma(share.v, broadcast(radiance).v, load(p + i).v))); };
   add(tile.red, red);
@@ -24,7 +24,7 @@ STERADIAN_INLINE void add_share(int i, PackReal share, float red, float green, f
 
 class EventEnds {
  public:
-  bool shared = false;  // has anything gone into `shares`?
+  bool shared = false;  // has anything been written to `shares`?
   EventEnds(const EventLight& light, TileBuffer& tile, float* shares) : light_(light), tile_(tile), shares_(shares) {
     const PackReal radius = broadcast(light.radius);
     for (int i = 0; i < kTilePixels; i += static_cast<int>(kLanes)) {
@@ -57,8 +57,8 @@ class EventEnds {
     }
   }
 
-  // Adds the light on the blocks; `within` are those in which one of the items may stand within the light. An item is a set of blocks
-  // in its upper 16 bits and a pair in its lower 32. Blocks' centres are relative to the light's.
+  // Adds the light on the blocks; `within` are those in which one of the items may lie within the light. An item is a set of blocks in its
+  // upper 16 bits and a pair in its lower 32. The blocks' centres are relative to the light's.
   STERADIAN_INLINE void add_to(std::uint32_t blocks, std::uint32_t within, const std::uint64_t* items, const std::uint64_t* last,
                                float* kept, const PackReal* block_x, const PackReal* block_y) {
     if (light_.inverse_range > 0.0f) {
@@ -72,7 +72,7 @@ class EventEnds {
 
  private:
   struct Vertex {
-    PackReal x, y, from_x, from_y;  // relative to the tile's centre, and to the light's
+    PackReal x, y, from_x, from_y;  // relative to the tile's centre, and to the light's centre
     STERADIAN_INLINE Vertex(const EventLight& light, const EventPair& pair, int k) {
       if (k >= pair.count) k -= pair.count;
       const Vec2d v = light.vertices[pair.first + k];
@@ -94,7 +94,7 @@ class EventEnds {
       const PackReal ax = broadcast(light.x) - px, ay = broadcast(light.y) - py;
       const PackReal kx = center.x - px, ky = center.y - py, s = broadcast(pair.radius);
       const PackReal k2 = kx * kx + ky * ky, t = PackKernels().plane_root(max(k2 - s * s, PackReal(0.0)));
-      // cross(a, k) = cross(a, k - a): nothing cancels where the blocker is far behind the light.
+      // cross(a, k) = cross(a, k - a): no cancellation if the blocker is far behind the light.
       const PackReal cross = ax * center.from_y - ay * center.from_x, ahead = ax * kx + ay * ky;
       const PackReal inverse = PackReal(1.0) / max(k2, PackReal(1e-30));
       begin = (t * cross - s * ahead) * inverse;
@@ -122,7 +122,7 @@ class EventEnds {
     if (!any_lane(nearer)) return;
     if (pair.kind == EventPair::Kind::round) {
       const RoundEnds round(pair, light_, px, py);
-      // What is behind is on the other's far side; all of it may be, where the separator is short of the blocker.
+      // An end behind the pixel is on the other's far side. All of the blocker may be behind, if the separator is short of it.
       const PackReal from = select(round.begins_ahead, round.begin, PackReal(-1e6)),
                      to = select(round.ends_ahead, round.end, PackReal(1e6));
       cut.take(from, to, nearer && (round.begins_ahead || round.ends_ahead) && from < to);

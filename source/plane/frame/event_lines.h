@@ -1,20 +1,22 @@
-// The shadow of a convex blocker before a round light is six half-planes: event lines, at which what a point sees of the two changes.
+// The shadow of a convex blocker in front of a round light is six half-planes. Their borders are event lines, at which the view of the two
+// changes.
 //
-// Places are relative to the light's centre; K is the blocker, D the light, r its radius; "low" is the clockwise side, as a point in the
+// Places are relative to the light's centre; K is the blocker, D the light, r its radius. "low" is the clockwise side, as a point in the
 // shadow sees it. E(P) = x P.x + y P.y - c, and E > 0 means
 //
 //   inner_low     K's end is above the light's low tangent         outer_low     K begins below the low tangent
 //   inner_high    K's begin is below the high tangent              outer_high    K ends above the high tangent
 //   separator     P is on K's side of a line between the two       chord         P is beyond the chord between K's outer contacts
 //
-// What follows, every one by a separating or a supporting line:
-//   one of the inner two or the separator < 0     K takes nothing of the light
-//   both outer ones and the chord > 0             K hides the light: the way to it crosses the chord, which lies in K
-//   separator, outer_low and chord > 0            K takes all from the low tangent up to its end, a vertex of the chain end_first ..
+// Conclusions, each by a separating or a supporting line:
+//   one of the inner two or the separator < 0     K occludes nothing of the light
+//   both outer ones and the chord > 0             K occludes the light: the way to it crosses the chord, which lies in K
+//   separator, outer_low and chord > 0            K occludes all from the low tangent up to its end, a vertex of the chain end_first ..
 //                                                 end_last, counter-clockwise; with outer_high: down to its begin, of begin_first ..
+//                                                 begin_last
 //
-// For numbers of the kernels, Real<double> and packs. Lines are divided by |x| + |y|: over a square of half the side h, E lies within h of
-// its value at the centre.
+// The functions take numbers of the kernels, Real<double> and packs. Lines are divided by |x| + |y|: over a square of half the side h, E
+// lies within h of its value at the centre.
 #pragma once
 
 #include "steradian/real.h"
@@ -63,8 +65,8 @@ struct Extreme {
 
 }  // namespace events
 
-// Of a convex polygon or a segment that does not overlap the light: count vertices, counter-clockwise, and the first one again; lanes
-// with fewer repeat it.
+// Event lines of a convex polygon or a segment that does not overlap the light: count vertices, counter-clockwise, and the first one again.
+// Lanes with fewer vertices repeat it.
 template <class R>
 STERADIAN_INLINE EventLines<R> convex_event_lines(const R* x, const R* y, int count, R r) {
   R near_x = x[0], near_y = y[0], near2 = x[0] * x[0] + y[0] * y[0];
@@ -78,7 +80,7 @@ STERADIAN_INLINE EventLines<R> convex_event_lines(const R* x, const R* y, int co
     near2 = min(d2, near2);
   }
   const R to_near = inversesqrt(max(near2, R(1e-30))), nx = near_x * to_near, ny = near_y * to_near;
-  // Of both tangents through a vertex: which lies lowest, which highest.
+  // The lowest and the highest of the two tangents through a vertex.
   struct Tangents {
     events::Extreme<R> low, high;
   };
@@ -103,7 +105,7 @@ STERADIAN_INLINE EventLines<R> convex_event_lines(const R* x, const R* y, int co
   lines.separator = event_line(nx, ny, near2 * to_near);
   lines.outer_low = reversed(event_line(outer_low.mx, outer_low.my, r));
   lines.outer_high = reversed(event_line(outer_high.mx, outer_high.my, r));
-  // The chord's line does not meet the light: outside of the chord it has left one of the outer half-planes.
+  // The chord's line does not meet the light: a point outside of the chord has left one of the outer half-planes.
   R cx = outer_high.y - outer_low.y, cy = outer_low.x - outer_high.x;
   const auto one_vertex = cx * cx + cy * cy <= R(0.0);
   cx = select(one_vertex, outer_low.x, cx);
@@ -117,7 +119,7 @@ STERADIAN_INLINE EventLines<R> convex_event_lines(const R* x, const R* y, int co
   return lines;
 }
 
-// Of a disk of radius s at (x, y), apart from the light. It has no vertices.
+// Event lines of a disk of radius s at (x, y), apart from the light. It has no vertices.
 template <class R>
 STERADIAN_INLINE EventLines<R> round_event_lines(R x, R y, R s, R r) {
   const R inverse = inversesqrt(x * x + y * y), ux = x * inverse, uy = y * inverse, d = (x * x + y * y) * inverse;
@@ -134,8 +136,8 @@ STERADIAN_INLINE EventLines<R> round_event_lines(R x, R y, R s, R r) {
   return lines;
 }
 
-// The signed distance at which the ray from P through a point v passes the light's centre: from -r at the low tangent to r at the high
-// one. v relative to the centre, w = v - P; beyond all of the light where v is not ahead of P.
+// The signed distance at which the ray from P through a point v passes the light's centre: from -r at the low tangent to r at the high one.
+// v is relative to the centre, w = v - P. The value is beyond all of the light if v is not ahead of P.
 template <class R>
 STERADIAN_INLINE R place_on_light(R vx, R vy, R wx, R wy) {
   const R across = vy * wx - vx * wy, ahead = (wx - vx) * wx + (wy - vy) * wy;

@@ -1,4 +1,4 @@
-// Every claim of the six lines on random blockers, against the exact query.
+// Every claim about the six lines, on random blockers, against the exact query.
 #include "plane/frame/event_lines.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ struct Pair {
     scene.bodies.push_back(body);
     return scene;
   }
-  // Where P sees vertices first .. last, and a round blocker's end or begin.
+  // The places at which P sees vertices first .. last, and a round blocker's end or begin.
   double place(Vec2d p, int k) const {
     const Vec2d v = vertices[static_cast<std::size_t>(k)];
     return place_on_light<D>(v.x, v.y, v.x - p.x, v.y - p.y).v;
@@ -89,7 +89,7 @@ Pair random_pair(SceneRandom& random) {
       if (length(pair.center) > pair.radius + 1) return pair;
       continue;
     }
-    // Vertices on an ellipse are convex.
+    // Vertices on an ellipse form a convex polygon.
     const int count = 2 + static_cast<int>(random.uniform() * 6.99);
     const double turn = random.uniform(0, 2 * std::numbers::pi), flat = random.uniform(0.05, 1);
     const Vec2d x = Vec2d{std::cos(turn), std::sin(turn)} * size, y = Vec2d{-std::sin(turn), std::cos(turn)} * (size * flat);
@@ -145,7 +145,7 @@ TEST(EventLines, DecideWhatABlockerTakesFromARoundLight) {
         expected = share_between(p, -1, pair.begin(p, lines));
         ++high;
       } else {
-        // The lines say that something is taken.
+        // The lines say that a part is occluded.
         EXPECT_LT(value, open + 1e-12);
         ++within;
         continue;
@@ -158,7 +158,7 @@ TEST(EventLines, DecideWhatABlockerTakesFromARoundLight) {
   EXPECT_GT(std::min({hidden, low, high, within}), 300);
 }
 
-// Of a square before a disk; values by hand and by the closed form.
+// The shadow of a square in front of a disk; values by hand and by the closed form.
 TEST(EventLines, KnowTheShadowOfASquare) {
   Pair square;
   square.vertices = {{9, -1}, {11, -1}, {11, 1}, {9, 1}};

@@ -1,4 +1,4 @@
-// Event lines on packs: made sixteen blockers at once, and asked about sixteen squares at once.
+// Event lines on packs: computed for sixteen blockers at once, and evaluated for sixteen squares at once.
 #include "plane/frame/event_lines.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kGroups = 16 / static_cast<int>(kLanes);
 
-// Lane by lane into the pairs.
+// Writes the lines lane by lane into the pairs.
 STERADIAN_INLINE void write_lines(const EventLines<PackReal>& lines, const EventOutlines& from, int first) {
   alignas(64) float lane[6][3][kLanes], chain[4][kLanes];
   const EventLine<PackReal>* all[6] = {&lines.inner_low, &lines.inner_high, &lines.separator,
@@ -53,7 +53,7 @@ void make_round(const EventOutlines& from, float radius) {
                 first);
 }
 
-// Where lines stand to sixteen squares.
+// Positions of sixteen squares relative to lines.
 class Squares {
  public:
   explicit STERADIAN_INLINE Squares(const EventSquares& s) : reach_(broadcast(std::max(s.half_x, s.half_y) + s.slack)) {
@@ -71,7 +71,7 @@ class Squares {
   }
   const PackReal* x() const { return x_; }
   const PackReal* y() const { return y_; }
-  // The squares that the pair may matter to: where it may take anything of the light.
+  // The squares in which the pair may occlude some of the light.
   STERADIAN_INLINE std::uint32_t touched(const EventPair& pair) const {
     std::uint32_t untouched = 0;
     for (int g = 0; g < kGroups; ++g) {
@@ -83,7 +83,7 @@ class Squares {
   STERADIAN_INLINE std::uint32_t hidden(const EventPair& pair) const {
     return each([&](int g) { return above(pair.lines[3], g) && above(pair.lines[4], g) && above(pair.lines[5], g); });
   }
-  // Where the blocker takes all from the low tangent, and all up to the high one.
+  // The squares in which the blocker occludes all from the low tangent, and all up to the high one.
   struct Sides {
     std::uint32_t low, high;
   };
@@ -112,7 +112,7 @@ class Squares {
   PackReal x_[kGroups], y_[kGroups], reach_;
 };
 
-constexpr int kAhead = 2;  // pairs that are fetched before they are needed
+constexpr int kAhead = 2;  // number of pairs that are fetched ahead
 
 STERADIAN_INLINE void fetch(const EventPair* pairs, const int* list, int i, int count) {
   if (i + kAhead >= count) return;
@@ -152,7 +152,7 @@ __attribute__((flatten)) void add_light(const EventLight& light, const int* list
   if (rest.items.size() < static_cast<std::size_t>(count)) rest.items.resize(static_cast<std::size_t>(2 * count));
   std::uint64_t* items = rest.items.data();
   std::uint64_t* last = items;
-  // What takes from one end is taken at once, from blocks that may turn out to be hidden.
+  // A blocker that occludes one end of the light is applied at once, also to blocks that may turn out to be occluded.
   for (int i = 0; i < count && lit != 0; ++i) {
     fetch(light.pairs, list, i, count);
     const EventPair& pair = light.pairs[list[i]];
@@ -170,7 +170,7 @@ __attribute__((flatten)) void add_light(const EventLight& light, const int* list
     if (low != 0) ends.raise_low(pair, low);
     if (high != 0) ends.lower_high(pair, high);
     within |= rest_of;
-    // The general rule, if it comes to that, wants all that touch a block.
+    // The general rule, if a block needs it, takes all blockers that touch the block.
     if (open != 0)
       *last++ = static_cast<std::uint64_t>(rest_of) << 48 | static_cast<std::uint64_t>(open) << 32 | static_cast<std::uint32_t>(list[i]);
   }
@@ -183,12 +183,12 @@ __attribute__((flatten)) void add_light(const EventLight& light, const int* list
         rest.blockers.push_back(light.pairs[static_cast<std::uint32_t>(*item)].blocker);
   lit &= ~general;
   if (lit == 0) return;
-  // Only what stands within the light somewhere is looked at once more.
+  // Only blockers that lie within the light in some block are visited again.
   std::uint64_t* kept = items;
   if ((within & lit) != 0)
     for (const std::uint64_t* item = items; item < last; ++item)
       if ((static_cast<std::uint32_t>(*item >> 48) & lit) != 0) *kept++ = *item;
-  const std::size_t room = static_cast<std::size_t>(kept - items) * 2 * kLanes * 2;  // a lens-free body takes one interval
+  const std::size_t room = static_cast<std::size_t>(kept - items) * 2 * kLanes * 2;  // a lens-free body occludes one interval
   if (rest.kept.size() < room) rest.kept.resize(2 * room);
   ends.add_to(lit, within & lit, items, kept, rest.kept.data(), squares.x(), squares.y());
   rest.shared = ends.shared;

@@ -33,12 +33,12 @@ void set_line(EventPair& pair, int line, double x, double y, double c) {
   pair.lines[line][2] = static_cast<float>(c * scale);
 }
 
-// Touches all, takes no side.
+// Lines of a pair that touches every square and occludes no end of the light.
 void set_general(EventPair& pair) {
   for (int line = 0; line < 6; ++line) set_line(pair, line, 0, 0, line < 3 ? -kNever : kNever);
 }
 
-// Nothing is taken on the light's side of the common chord, between the light's tangents where the two outlines cross.
+// Nothing is occluded on the light's side of the common chord, between the light's tangents at the crossings of the two outlines.
 void set_lens(EventPair& pair, const Lens& lens, Vec2d light, double radius, Vec2d blocker) {
   set_general(pair);
   if (lens.count != 2) return;
@@ -72,7 +72,7 @@ void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<
       const int k = convex.add(pair);
       EventOutlines& o = convex.outlines();
       o.most_vertices = std::max(o.most_vertices, static_cast<int>(b.count));
-      // Fewer vertices than others have: the first one again.
+      // A blocker with fewer vertices repeats the first one.
       for (int v = 0; v <= EventOutlines::kMostVertices; ++v) {
         const Vec2d at = frame.vertices[b.first + (static_cast<std::size_t>(v) < b.count ? static_cast<std::size_t>(v) : 0)] - disk.center;
         o.x[v][k] = static_cast<float>(at.x);
@@ -94,7 +94,7 @@ void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<
   convex.flush();
   round.flush();
   for (std::size_t i = first; i < first + blockers.size(); ++i) {
-    // The inner lines of what is not a disk are its bounding circle's; the outer ones say nothing.
+    // A general blocker has the inner lines of its bounding circle; its outer lines decide nothing.
     EventPair& pair = frame.pairs[i];
     if (pair.kind == EventPair::Kind::general)
       for (int line = 3; line < 6; ++line) set_line(pair, line, 0, 0, kNever);

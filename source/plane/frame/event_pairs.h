@@ -1,4 +1,4 @@
-// Pairs of a round light and what may block it, with their event lines.
+// Pairs of a round light and its possible blockers, with their event lines.
 #pragma once
 
 #include "plane/frame/events.h"
@@ -6,7 +6,7 @@
 
 namespace steradian::plane {
 
-// Makes a pair for each of the blockers, in their order, from `first` on, where FrameScene::pairs has room for them.
+// Writes a pair for each of the blockers, in their order, from `first` on. FrameScene::pairs must have capacity for them.
 void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<int>& blockers, std::size_t first);
 
 }  // namespace steradian::plane

@@ -11,11 +11,11 @@ namespace steradian::plane {
 
 namespace {
 
-// Sixteen squares of so many pixels from (x, y) on: what does not depend on the light, and those in the picture.
+// Sixteen squares of `side` pixels from (x, y) on: the data that does not depend on the light, and the set of those in the picture.
 class Squares {
  public:
   Squares(const PixelGrid& grid, int x, int y, int side, float slack) {
-    // Of a square, only the centres of its pixels count.
+    // Only the centres of a square's pixels count.
     const Vec2d half = grid.step * (0.5 * (side - 1));
     first_ = grid.at(x, y) + half;
     for (int k = 0; k < 16; ++k) {
@@ -201,7 +201,7 @@ void EventWalk::add_lights(int x, int y, const TileArea& tile, std::uint32_t ope
     for (std::size_t i = 0; i < keep->emitters.size(); ++i)
       if (has_changed(keep->emitters[i])) keep->free_slots.push_back(keep->slots[i]);
   std::size_t held = 0;
-  // Lights that have not changed, up to one that has.
+  // Adds the cached lights that have not changed, up to the given one.
   const auto add_held = [&](int before) {
     for (; kept && held < keep->emitters.size() && keep->emitters[held] < before; ++held) {
       const int emitter = keep->emitters[held], slot = keep->slots[held];

@@ -1,4 +1,4 @@
-// The way of round lights down a frame: from squares of 256 pixels to 64 and to tiles of 16, with the pairs that matter to each.
+// Traversal of a frame by round lights: from squares of 256 pixels to 64 and to tiles of 16, with the pairs that matter to each.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace steradian::plane {
 
-// How far a line has to be from what it decides about.
+// Least distance between a line and a place that it decides about.
 float slack_of(const FrameScene& frame);
 
 class EventWalk {
  public:
-  // Of what `store` keeps, only what has changed is worked out; null: everything is.
+  // With a `store`, only changed lights are computed; null: all are.
   EventWalk(const FrameScene& frame, const PixelGrid& grid, const TileSet* only, ShareStore* store);
 
-  // By emitter: lights that are added up elsewhere.
+  // Removes lights that are computed elsewhere; `elsewhere` is by emitter.
   void leave_out(const std::vector<char>& elsewhere);
 
-  // What follows is about the 256 pixels from (x, y) on, then about 64 of them, then about a tile.
+  // Selects the 256 pixels from (x, y) on, then 64 of them, for the calls that follow.
   void enter_256(int x, int y, const TileArea& tile);
   void enter_64(int x, int y);
-  // Adds the light on the tile's blocks in `open`; `general` takes what has no rule of its own here.
+  // Adds the light on the tile's blocks in `open`; `general` handles the cases for which there is no rule here.
   void add_lights(int x, int y, const TileArea& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general);
 
-  // The same into lists.
+  // Writes the same lights into lists.
   void list_lights(int x, int y, const TileArea& tile, TileLists& lists, LeafBuilder& general);
 
   std::uint64_t tile_lights = 0, tile_blockers = 0;
@@ -41,7 +41,7 @@ class EventWalk {
     std::size_t begin;
     int count;
   };
-  // By child: lights, and their pairs one after another.
+  // Lights by child, and their pairs one after another.
   struct Children {
     std::vector<Entry> lights[16];
     std::vector<int> pairs[16];
@@ -49,7 +49,7 @@ class EventWalk {
   };
 
   int child_of_64(int x, int y) const { return (y - y_64_) / kTileSide * 4 + (x - x_64_) / kTileSide; }
-  // Of sixteen squares those that want a light: all that it changes in, and where everything is worked out.
+  // The squares among sixteen that need a light: those in which it changes, and those in which everything is computed.
   struct Wanted {
     std::uint32_t any = 0, everything = 0;
   };
@@ -72,12 +72,12 @@ class EventWalk {
   Children of_256_, of_64_;
   int x_256_ = 0, y_256_ = 0, x_64_ = 0, y_64_ = 0;
   EventRest rest_;
-  std::vector<char> changed_;  // by emitter: in the 256 pixels
-  TileShares next_;            // of the tile
+  std::vector<char> changed_;  // by emitter: has it changed in the 256 pixels?
+  TileShares next_;            // the tile's next shares
 };
 
-// Marks the tiles on whose light from a disk the pair may have had an effect: those that it reaches on the way down, by the same tests.
-// Calls mark(x, y, side).
+// Marks the tiles on which the pair may have affected the light of a disk. These are the tiles that it reaches on the way down, by the same
+// tests. Calls mark(x, y, side).
 void mark_touched(const FrameScene& frame, const PixelGrid& grid, const Emitter& disk, int pair,
                   const std::function<void(int, int, int)>& mark);
 

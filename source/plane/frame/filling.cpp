@@ -56,9 +56,9 @@ void Filling::find(const std::vector<int>& bodies, int x0, int y0, const TileAre
   for (int index : bodies) find_on_outlines(static_cast<std::size_t>(index));
 }
 
-// Of a segment, what lies within a hair's breadth; of an ellipse, by its unit space.
+// Finds pixels within a hair's breadth of a segment; an ellipse is tested in its unit space.
 void Filling::find_on_outlines(std::size_t body) {
-  constexpr double kHair = 1e-4;  // of the picture, whose larger side is 1024 to 2048
+  constexpr double kHair = 1e-4;  // fraction of the picture, whose larger side is 1024 to 2048
   const Vec2d first = grid_.at(x0_, y0_);
   for (std::size_t c = world_.first_curve[body]; c < world_.first_curve[body + 1]; ++c) {
     const Curve& curve = world_.curves[c];
@@ -71,7 +71,7 @@ void Filling::find_on_outlines(std::size_t body) {
       continue;
     }
     const Vec2d a = curve.a - first, b = curve.b - first, along = curve.b - curve.a;
-    // Along its steeper way, in steps of pixels: the pixel next to where it crosses.
+    // Steps along its steeper direction, pixel by pixel, and marks the pixel next to the crossing.
     const bool rows = std::fabs(along.y) * grid_.step.x > std::fabs(along.x) * grid_.step.y;
     const auto walk = [&](double from, double to, double step, int count, double across_from, double across_along, double across_step,
                           int across_count, auto mark) {
@@ -91,7 +91,7 @@ void Filling::find_on_outlines(std::size_t body) {
   }
 }
 
-// Narrows a row of a convex polygon to a pixel beyond where its edges cross it: the exact test decides what is left.
+// Narrows a row of a convex polygon to one pixel beyond the crossings with its edges: the exact test decides the rest.
 void Filling::guess_row(const PlaneBody& body, double y, double first, int& begin, int& end) const {
   if (body.shape != PlaneBody::Shape::polygon) return;
   const std::vector<Vec2d>& contour = body.contours[0];
@@ -156,7 +156,7 @@ Vec3d Filling::interior_of_polygon(const LightInterior& inside, std::size_t body
   if (seen_within_.curves.empty()) return own();
   keep_seen_from(seen_within_, p, seen_from_);
   if (seen_from_.curves.size() == seen_from_.own) return own();
-  // Dark and not hidden from the point: what they take needs no depth.
+  // Dark and not occluded from the point: the directions that they occlude need no depth.
   const auto is_dark = [&](const Curve* c) {
     return c->kind == Curve::Kind::segment && !world_.scene.bodies[static_cast<std::size_t>(c->body)].light;
   };

@@ -1,5 +1,5 @@
-// What fills the pixels of a tile: an occluder, and they are dark, or a light, and they see it from within. And pixels on outlines, of
-// which floats would not know the side: they are answered as points are.
+// Pixels of a tile within bodies: dark ones within an occluder, and pixels within a light, which see it from inside. Pixels on outlines,
+// whose side floats cannot decide, are answered like queries of points.
 #pragma once
 
 #include <bitset>
@@ -16,14 +16,14 @@ class Filling {
  public:
   Filling(const FrameScene& frame, const PixelGrid& grid);
 
-  // Of the tile from (x0, y0) on, by those of the bodies that come near it: in double, and by the same test as a query.
+  // Finds the filled pixels of the tile from (x0, y0) on, among the bodies that come near it. It uses double, and the same test as a query.
   void find(const std::vector<int>& bodies, int x0, int y0, const TileArea& tile);
-  // What light there is on what is filled.
+  // Writes the light of the filled pixels.
   void draw(Picture& picture);
 
   bool all() const { return marked_.size() == static_cast<std::size_t>(columns_ * rows_); }
   bool is_open(int x, int y) const { return inside_[y * kTileSide + x] == kOutside; }
-  std::uint32_t open_blocks() const;  // of which something is not filled
+  std::uint32_t open_blocks() const;  // blocks with pixels that are not filled
   std::bitset<kTilePixels> pixels() const;
 
  private:
@@ -42,11 +42,11 @@ class Filling {
   const PixelGrid& grid_;
   TileArea tile_;
   int x0_ = 0, y0_ = 0, columns_ = 0, rows_ = 0;
-  int inside_[kTilePixels];  // what fills each pixel, row by row
-  std::vector<int> marked_;  // those that something fills
-  int interior_body_ = -1;   // whose curves these are, of those that matter to the tile
+  int inside_[kTilePixels];  // the body that fills each pixel, row by row
+  std::vector<int> marked_;  // pixels that are filled
+  int interior_body_ = -1;   // the body whose curves these are, of those that matter to the tile
   std::vector<const Curve*> interior_curves_;
-  SeenWithin seen_within_, seen_from_;  // of a polygon: the tile, a pixel
+  SeenWithin seen_within_, seen_from_;  // within a polygon: for the tile, for a pixel
 };
 
 }  // namespace steradian::plane

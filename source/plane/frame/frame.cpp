@@ -1,4 +1,4 @@
-// Frames of the plane: by tiles where that is possible, pixel by pixel otherwise.
+// Frames of the plane: by tiles if possible, pixel by pixel otherwise.
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -43,7 +43,7 @@ Picture averaged(const Picture& fine, int n) {
   return result;
 }
 
-// Every method but the exact one without moments: pixel by pixel.
+// Renders pixel by pixel: for every method except the exact one without moments.
 void by_query(const PlaneWorld& world, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture) {
   if (options.moments)
     for (const char* name : {"moment_x", "moment_y"}) picture.layers[name].resize(picture.pixels.size());

@@ -1,4 +1,4 @@
-// A frame of the plane but for who fills its tiles.
+// A frame of the plane, with a parameter that fills its tiles.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,11 @@
 
 namespace steradian::plane {
 
-// Adds the light of a prepared scene to the picture, which has the grid's size, and says in the statistics what it met.
+// Adds the light of a prepared scene to the picture, which has the grid's size, and fills in the statistics.
 using FillTiles = std::function<void(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
                                      PlaneFrameStats& stats)>;
 
-// As render_plane_into. The method is the exact one, without moments.
+// Like render_plane_into. The method is the exact one, without moments.
 void render_plane_with(const FillTiles& fill, Picture& result, const PlaneWorld& world, const PlaneFrameOptions& options,
                        PlaneFrameStats* stats);
 

@@ -1,4 +1,4 @@
-// What a frame is beside its light: its aspect, its occluders, its layers, the same by any number of threads.
+// Properties of a frame besides its light: its aspect, its occluders, its layers, and equal results with any number of threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ TEST(PlaneFrame, IsTheSameAtAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_EQ(one.pixels[i], all.pixels[i]) << i;
 }
 
-// A picture of another shape shows the scene whole, or cut off, but never stretched unless that is asked for.
+// A picture of another shape shows the scene whole, or cut off, but never stretched unless stretching is requested.
 TEST(PlaneFrame, KeepsTheAspectOfSvg) {
   const auto scene = [](const std::string& aspect) {
     return load_plane_scene_from_text("<svg viewBox='0 0 100 100' preserveAspectRatio='" + aspect +

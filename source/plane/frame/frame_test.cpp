@@ -26,8 +26,8 @@ double largest_radiance(const PlaneScene& scene) {
   return largest;
 }
 
-// Every `stride`-th pixel of the frame against the query. The bound is the interface's: 1e-5 of the emission, or of the
-// light that arrives, where a light divided by the distance sends more than its radiance.
+// Compares every `stride`-th pixel of the frame with the query. The bound is the interface's: 1e-5 of the emission. A light divided by the
+// distance sends more than its radiance; there the bound is relative to the light that arrives.
 void expect_query(
     const PlaneScene& scene, int width, int height, int stride, const std::string& what, double bound = 1e-5,
     const std::function<bool(Vec2d)>& counts = [](Vec2d) { return true; }) {
@@ -41,7 +41,7 @@ void expect_query(
   int count = 0, wrong = 0;
   for (int i = 0; i < width * height; i += stride) {
     const int x = i % width, y = i / width;
-    // To the last bit where the frame has it: it may lie on an outline.
+    // The point equals the frame's to the last bit: it may lie on an outline.
     const Vec2d step{scene.width / width, scene.height / height};
     const Vec2d p{scene.origin.x + step.x * (x + 0.5), scene.origin.y + step.y * (y + 0.5)};
     if (!counts(p)) continue;
@@ -79,7 +79,7 @@ TEST(PlaneFrame, EqualsTheQueryInEveryInstructionSet) {
   }
 }
 
-// Bowls and bulges with something in them, on them and across them, outlines that cross themselves, lines lit from both sides.
+// Bowls and bulges with bodies in them, on them and across them, outlines that cross themselves, lines lit from both sides.
 TEST(PlaneFrame, EqualsTheQueryAroundCurvedLights) {
   const std::string shapes[] = {
       R"~(<path d="M40 30C40 110 120 110 120 30L110 30C110 95 50 95 50 30Z" {}/><circle cx="80" cy="60" r="12"/><rect x="60" y="84" width="8" height="6"/>)~",
@@ -107,7 +107,7 @@ TEST(PlaneFrame, EqualsTheQueryAroundCurvedLights) {
     }
 }
 
-// Tiles at every distance from arcs, which take quadratures of four to sixteen nodes, or adaptive ones.
+// Tiles at every distance from arcs, which need quadratures of four to sixteen nodes, or adaptive ones.
 TEST(PlaneFrame, EqualsTheQueryAtEveryDistanceFromAnArc) {
   const std::string shapes[] = {"rx=\"40\" ry=\"40\"", "rx=\"40\" ry=\"22\"", "rx=\"30\" ry=\"11\"", "rx=\"30\" ry=\"7\""};
   const std::string emissions[] = {R"~(fill="#fff" data-range="100")~", R"~(fill="#fff" data-profile="lambert")~",
@@ -120,7 +120,7 @@ TEST(PlaneFrame, EqualsTheQueryAtEveryDistanceFromAnArc) {
                               R"~(<ellipse class="light" cx="60" cy="61" transform="rotate(25 60 61)" )~" +
                               shapes[s] + " " + emissions[e] + R"~(/><rect x="120" y="80" width="12" height="9"/></svg>)~";
       const PlaneScene scene = load_plane_scene_from_text(svg, "arcs").scene;
-      // Floats do not know on which side of an outline a point within a hair's breadth of it lies.
+      // Floats cannot decide on which side of an outline a point within a hair's breadth of it lies.
       const PlaneBody& light = scene.bodies.front();
       const Ellipse outline{light.center, light.x_axis, light.y_axis};
       expect_query(scene, 400, 300, 7, "arc " + std::to_string(s) + ", " + std::to_string(e), e == 2 ? 3e-5 : 1e-5,
@@ -128,7 +128,7 @@ TEST(PlaneFrame, EqualsTheQueryAtEveryDistanceFromAnArc) {
     }
 }
 
-// A light of hundreds of edges is looked at by its runs: half as many as it has edges would face a tile. (By edges it took 156.)
+// A light of hundreds of edges is tested by its runs: half of its edges would face a tile. (By edges the test took 156.)
 TEST(PlaneFrame, TakesCurvesByRuns) {
   const PlaneScene scene = make_drawing({"stroke", "uniform"});
   const PlaneWorld world(scene);
@@ -143,7 +143,7 @@ TEST(PlaneFrame, TakesCurvesByRuns) {
 
 TEST(PlaneFrame, EqualsTheQueryInLightFieldsOfTheBench) {
   for (LightField field : kLightFields) {
-    // The bench's scenes on a quarter of their area, as dense.
+    // The bench's scenes on a quarter of their area, with the same density.
     field.lights /= 16;
     field.boxes /= 16;
     field.lights = std::max(field.lights, 4);
@@ -193,14 +193,14 @@ TEST(PlaneFrame, EqualsTheQueryWithOverlappingShapesOfEveryKind) {
       }
       scene.bodies.push_back(body);
     }
-    // Places are rounded to 2^-25 of a tile of 16 pixels, on both sides of a difference: 1/r is known to 3e-5 at a thirtieth of
-    // a pixel, and to 1e-5 from a tenth on.
+    // Places are rounded to 2^-25 of a tile of 16 pixels, on both sides of a difference. 1/r is known to 3e-5 at a thirtieth of a pixel,
+    // and to 1e-5 from a tenth on.
     const double bound = s % 6 == 4 ? 3e-5 : 1e-5;
     expect_query(scene, 200, 150, 29, "shapes " + std::to_string(s), bound);
   }
 }
 
-// No light is left to the method that asks for every pixel on its own, tens of times slower.
+// No light needs the method that queries every pixel on its own, which is tens of times slower.
 TEST(PlaneFrame, TakesLightsOfEveryKindOnPacks) {
   PlaneScene scene;
   const auto add = [&](PlaneBody body) {
@@ -242,12 +242,12 @@ TEST(PlaneFrame, EqualsTheQueryInTheProjectsScenes) {
   for (const char* name : {"lamps", "room", "city", "logo"}) {
     PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/" + name + ".svg").scene;
     scene.fit = PlaneFit::stretch;
-    // A size that puts no pixel's centre on a line of no thickness, where either side may be meant.
+    // With this size no pixel's centre lies on a line without thickness, where either side is a valid answer.
     expect_query(scene, 97, 61, 7, name);
   }
 }
 
-// The same drawing in any unit: in powers of two the very same pixels, and in others each as near to the query as a frame is.
+// The same drawing in any unit: identical pixels for powers of two; for other factors each is as near to the query as a frame is.
 TEST(PlaneFrame, IsTheSameInAnyUnit) {
   const auto drawing = [](double unit) {
     PlaneScene scene;
@@ -275,7 +275,7 @@ TEST(PlaneFrame, IsTheSameInAnyUnit) {
   for (double unit : {1.0, 1e-6, 0.013, 4000.0}) expect_query(drawing(unit), 100, 75, 1, "in units of " + std::to_string(unit));
 }
 
-// Shapes with many edges on the way to a light, in numbers that take the merged spans and the bounded searches of shadows.
+// Shapes with many edges in front of a light, in numbers that reach the merged spans and the bounded searches of shadows.
 TEST(PlaneFrame, EqualsTheQueryBehindOutlinesOfManyEdges) {
   SceneRandom random(5);
   PlaneScene scene;
@@ -297,7 +297,7 @@ TEST(PlaneFrame, EqualsTheQueryBehindOutlinesOfManyEdges) {
   expect_query(scene, 160, 120, 7, "outlines of many edges");
 }
 
-// Curves that shine, and that others reach into: chains of edges, seen from outside their hulls and from within.
+// Curves that emit light, and that others reach into: chains of edges, from outside their hulls and from within.
 TEST(PlaneFrame, EqualsTheQueryAmongShiningCurves) {
   SceneRandom random(9);
   PlaneScene scene;
@@ -317,15 +317,15 @@ TEST(PlaneFrame, EqualsTheQueryAmongShiningCurves) {
     const Vec2d c{random.uniform(5, 155), random.uniform(5, 115)};
     scene.bodies.push_back(plane_polygon({c, c + Vec2d{4, random.uniform(-3, 3)}, c + Vec2d{random.uniform(-3, 3), 5}}));
   }
-  // A bowl: one chain whose hull holds pixels that are lit.
+  // A bowl: one chain whose hull contains lit pixels.
   std::vector<Vec2d> bowl{{150, 60}, {150, 118}, {108, 118}};
   for (double t : {0.3, 0.5, 0.7, 0.9, 1.1, 1.3}) bowl.push_back(Vec2d{108, 60} + Vec2d{std::sin(t), std::cos(t)} * 40.0);
   scene.bodies.push_back(plane_polygon(bowl));
   expect_query(scene, 160, 120, 7, "shining curves");
 }
 
-// Convex outlines, rings, islands within holes and beside them, spirals: closed runs, holes, bulges and bowls, with something in their way,
-// on them and within them.
+// Convex outlines, rings, islands within holes and beside them, spirals: closed runs, holes, bulges and bowls, with bodies in front of
+// them, on them and within them.
 TEST(PlaneFrame, EqualsTheQueryAroundOutlinesOfEveryTurn) {
   const auto round = [](Vec2d center, double radius, int count, double ripple = 0, double turn = 0) {
     std::vector<Vec2d> outline;
@@ -370,7 +370,7 @@ TEST(PlaneFrame, EqualsTheQueryAroundOutlinesOfEveryTurn) {
 }
 
 // A few corners in any order: outlines that cross themselves, so that loops meet at their tips, and concave ones whose runs begin before
-// the first corner and end behind it. Uniform lights take a run's chord; others take its edges, each over what is left of the chord.
+// the first corner and end behind it. Uniform lights use a run's chord. Others use its edges, each over the visible part of the chord.
 TEST(PlaneFrame, EqualsTheQueryAroundCornersInAnyOrder) {
   PlaneScene scene;
   scene.width = scene.height = 80;
@@ -387,7 +387,7 @@ TEST(PlaneFrame, EqualsTheQueryAroundCornersInAnyOrder) {
     expect({{25.4, 33.5}, {39.5, 19.2}, {30.7, 27.7}, {19.6, 20.0}}, kind, 80, "a spike over the first corner");
     expect({{53.5, 10}, {60.8, 9.5}, {58.1, -1.1}, {61.1, -0.6}, {66.8, 21.2}, {63.2, 7.8}, {77.9, -3.7}, {49.5, 3.7}, {61.7, 19.4}}, kind,
            80, "loops");
-    // From close to the chord of the pocket's first two edges, its far end is seen behind the second edge's own line.
+    // From close to the chord of the pocket's first two edges, its far end is visible behind the second edge's own line.
     expect({{75, 40}, {30, 25}, {30.2, 27}, {28, 75}, {20, 75}, {20, 15}, {75, 15}}, kind, 640, "a pocket");
   }
   SceneRandom random(3);
@@ -401,7 +401,7 @@ TEST(PlaneFrame, EqualsTheQueryAroundCornersInAnyOrder) {
   }
 }
 
-// What quadrature is off by is measured by the light that there is, in any unit of length: 6e-5 of it was lost in some tiles.
+// The error of quadrature is relative to the light present, in any unit of length: 6e-5 of it was lost in some tiles.
 TEST(PlaneFrame, EqualsTheQueryBesideAnEllipseDividedByTheDistance) {
   PlaneScene scene;
   scene.width = scene.height = 80;
@@ -420,7 +420,7 @@ TEST(PlaneFrame, EqualsTheQueryBesideAnEllipseDividedByTheDistance) {
   expect_query(scene, 640, 640, 5, "beside an ellipse", 1e-5, apart);
 }
 
-// A gradient cuts a line's edges, and a run may have some of the parts alone: seen from beyond its end, the rest of the edge hides it.
+// A gradient cuts a line's edges, and a run may have only some of the parts: from beyond its end, the rest of the edge occludes it.
 TEST(PlaneFrame, EqualsTheQueryBehindTheRestOfACutEdge) {
   PlaneScene scene;
   scene.width = scene.height = 80;
@@ -441,7 +441,7 @@ TEST(PlaneFrame, EqualsTheQueryBehindTheRestOfACutEdge) {
   }
 }
 
-// From outside, a convex outline of many edges is one light to every tile that nothing hides it from, whatever it emits.
+// From outside, a convex outline of many edges is one light to every tile from which nothing occludes it, with any emission.
 TEST(PlaneFrame, TakesAConvexOutlineAsOne) {
   PlaneScene scene;
   scene.width = scene.height = 160;
@@ -459,7 +459,7 @@ TEST(PlaneFrame, TakesAConvexOutlineAsOne) {
   }
 }
 
-// The square's far corner is in front of the light's edge, and past the tile from the light: beside the light it is not.
+// The square's far corner is in front of the light's edge, and past the tile from the light: it is not beside the light.
 TEST(PlaneFrame, EqualsTheQueryAboveACornerThatLooksAwayFromALight) {
   PlaneScene scene;
   scene.width = scene.height = 320;
@@ -468,7 +468,7 @@ TEST(PlaneFrame, EqualsTheQueryAboveACornerThatLooksAwayFromALight) {
   expect_query(scene, 320, 320, 3, "above a corner");
 }
 
-// Pixel centres on outlines, up to rounding: what is not within a light sees its edge as half of all directions.
+// Pixel centres on outlines, up to rounding: a pixel that is not within a light sees its edge as half of all directions.
 TEST(PlaneFrame, EqualsTheQueryOnOutlines) {
   for (double turn : {0.0, 0.2}) {
     PlaneScene scene;
@@ -486,7 +486,7 @@ TEST(PlaneFrame, EqualsTheQueryOnOutlines) {
   expect_query(make_drawing({"polygon", "gradient"}), 960, 540, 1, "the drawing of polygons");
 }
 
-// Of a scene much larger than the picture: far lights, and edges seen at a grazing angle.
+// A window of a scene much larger than the picture: far lights, and edges at a grazing angle.
 TEST(PlaneFrame, EqualsTheQueryInASmallWindow) {
   PlaneScene scene = load_plane_scene(test::kSourceDir + "/scenes/plane/logo.svg").scene;
   scene.fit = PlaneFit::stretch;

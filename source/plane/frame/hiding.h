@@ -1,4 +1,4 @@
-// Whether an emitter cannot be seen from all of a tile, by its own shape or by one blocker alone.
+// Tests that an emitter is invisible from all of a tile, by its own shape or by one blocker alone.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace steradian::plane {
 
-// Does the convex blocker hide the emitter from all of the tile? Its chord between the vertices furthest to either side
-// must separate the two, and its ends lie beyond every line from the tile to the light.
+// Does the convex blocker occlude the emitter from all of the tile? Its chord between the vertices furthest to either side must separate
+// the two, and its ends must lie beyond every line from the tile to the light.
 inline bool hides(const Vec2d* v, std::size_t count, const Emitter& e, const TileArea& tile) {
   const Vec2d axis = e.center - tile.center;
   Vec2d left = v[0], right = v[0];
@@ -21,7 +21,7 @@ inline bool hides(const Vec2d* v, std::size_t count, const Emitter& e, const Til
   const double size = length(chord);
   if (size == 0) return false;
   for (Vec2d end : {e.a, e.b})
-    // The light beyond the chord, not on it: of coincident edges the light's is seen.
+    // The light must be beyond the chord, not on it: of coincident edges the light's is visible.
     if (cross(chord, end - left) <= (e.radius + 1e-9) * size) return false;
   for (double sx : {-1.0, 1.0})
     for (double sy : {-1.0, 1.0}) {
@@ -37,8 +37,8 @@ inline bool hides(const Vec2d* v, std::size_t count, const Emitter& e, const Til
   return true;
 }
 
-// Is the arc on the far side of its ellipse for all of the tile? Seen are the places n of the unit circle with n . p > 1:
-// some of an arc if one of its ends, or, from its middle's side, others.
+// Is the arc on the far side of its ellipse for all of the tile? Visible are the places n of the unit circle with n . p > 1. Some of an arc
+// is visible if one of its ends is; or, from its middle's side, other parts may be.
 inline bool faces_away(const Emitter& arc, const TileArea& tile) {
   const double det = cross(arc.ellipse.x, arc.ellipse.y);
   const Vec2d center = arc.ellipse.to_unit(tile.center);

@@ -1,4 +1,4 @@
-// The hull of a tile and an emitter, by the circles about them.
+// The hull of a tile and an emitter, by the circles around them.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,9 @@
 
 namespace steradian::plane {
 
-// Relative to the origin, as a BlockerList is. The hull's slanted sides are (half + t growth) over the cosine of their slope away from the
-// axis, and a circle's distance to them shrinks by that cosine too. Where one circle nearly holds the other: the larger one's width.
+// The hull is relative to the origin, like a BlockerList. Its slanted sides are (half + t growth) over the cosine of their slope away from
+// the axis, and a circle's distance to them shrinks by that cosine too. If one circle nearly contains the other, it has the larger one's
+// width.
 inline HullOfCircles hull_of(const TileArea& tile, const Emitter& e, Vec2d origin) {
   const double half = tile.radius, bound = e.bound;
   const Vec2d axis = e.center - tile.center;

@@ -16,7 +16,7 @@ struct InnerDisk {
 InnerDisk around(const Curve& c) {
   if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
   if (c.tau_span < std::numbers::pi) {
-    // About the chord, in the space where the ellipse is round and from there in the plane.
+    // The disk around the chord, in the space where the ellipse is round, and from there in the plane.
     const Ellipse& e = c.ellipse;
     const double longest = e.x == Vec2d{e.y.y, -e.y.x} ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
     return {(e.at(c.tau0) + e.at(c.tau0 + c.tau_span)) * 0.5, longest * std::sin(0.5 * c.tau_span)};
@@ -31,7 +31,7 @@ std::vector<const Curve*> curves_that_matter_within(const std::vector<const Curv
   std::vector<InnerDisk> others;
   for (std::size_t i = own; i < curves.size(); ++i) others.push_back(around(*curves[i]));
   for (std::size_t i = 0; i < own; ++i) {
-    // Within the wider of the two radii of the line between the point and what it may hide.
+    // The curve matters within the wider of the two radii of the line between the point and the part that it may occlude.
     const InnerDisk mine = around(*curves[i]);
     const Vec2d at = mine.center - center;
     const bool matters = std::any_of(others.begin(), others.end(), [&](const InnerDisk& other) {
@@ -49,7 +49,7 @@ std::vector<const Curve*> curves_that_matter_within(const std::vector<const Curv
 
 namespace {
 
-// Do edges that follow each other run across all ways from one disk to the other? Between the two, all ways lie within the lines that
+// Does a sequence of edges run across all paths from one disk to the other? Between the two disks, all paths lie within the lines that
 // touch both from outside.
 bool divides(const std::vector<const Curve*>& edges, std::size_t count, const InnerDisk& from, const InnerDisk& to) {
   const Vec2d axis = to.center - from.center;
@@ -96,14 +96,14 @@ void keep_seen_from(const SeenWithin& all, Vec2d p, SeenWithin& seen) {
   const auto parts = all.curves.begin() + static_cast<std::ptrdiff_t>(all.own);
   const auto faces = [&](const Curve& c) {
     if (c.kind != Curve::Kind::segment) return true;
-    // As an envelope takes it; of a part, rounding has moved the ends off the line that it is seen edge on from.
+    // The same test as in an envelope. Rounding has moved the ends of a part off the line along which it is seen edge on.
     const double turn = cross(c.a - p, c.b - p);
     return std::fabs(turn) > 1e-10 * length(c.b - c.a) && (c.two_sided || turn < 0);
   };
   const auto within = [&](const Curve& edge, const Curve& part) {
     Vec2d a = part.a - p, b = part.b - p;
     if (part.kind != Curve::Kind::segment) {
-      // Where the tangents of the circle about it touch.
+      // Contact points of the tangents of the circle around it.
       const InnerDisk disk = around(part);
       const Vec2d to = disk.center - p, left{-to.y, to.x};
       const double d2 = dot(to, to), tangent2 = d2 - disk.radius * disk.radius;

@@ -9,7 +9,8 @@
 namespace steradian::plane::interior_test {
 namespace {
 
-// A snake that winds about itself and a comb: from most of their places a chain of their own edges hides what reaches into them.
+// A snake that winds around itself, and a comb: from most of their places a chain of their own edges occludes the shapes that reach into
+// them.
 PlaneScene winding_lights() {
   return load_plane_scene_from_text(
              R"svg(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 320 200">
@@ -61,7 +62,7 @@ TEST(PlaneInterior, EqualsTheQueryWithinWindingLights) {
   std::printf("%d pixels within lights, %d of them shaded: largest difference %.1e\n", inside, shaded, worst);
   EXPECT_GT(shaded, 200);
   EXPECT_GT(inside - shaded, 50);
-  // Both are in double; what is written is a float.
+  // Both are in double; the output is a float.
   EXPECT_LE(worst, 2e-7);
 }
 

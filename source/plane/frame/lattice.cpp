@@ -10,8 +10,8 @@ namespace steradian::plane {
 namespace {
 
 constexpr int kCell = 8;      // pixels from node to node: two blocks of a tile
-constexpr double kNear = 1;   // pixels: an outline this near to a cell is in it
-constexpr int kChords = 256;  // that an ellipse is looked at by
+constexpr double kNear = 1;   // pixels: an outline this near to a cell counts as in it
+constexpr int kChords = 256;  // largest number of chords for an ellipse
 
 // Cells of a picture, by rows.
 struct Cells {
@@ -27,13 +27,13 @@ struct Cells {
   char& at(int x, int y) { return drawn[index(x, y)]; }
 };
 
-// Marks the cells that a line comes near to; places in cells.
+// Marks the cells that a line comes near to; places are in cells.
 void mark_line(Vec2d a, Vec2d b, double margin, Cells& cells) {
   const auto cell = [](double at, int last) { return static_cast<int>(std::clamp(std::floor(at), -1.0, last + 1.0)); };
   if (a.y > b.y) std::swap(a, b);
   const int first = std::max(cell(a.y - margin, cells.rows), 0), last = std::min(cell(b.y + margin, cells.rows), cells.rows - 1);
   for (int y = first; y <= last; ++y) {
-    // Of the line, what lies in the row.
+    // Range of the line within the row.
     const auto x_at = [&](double row) {
       const double t = b.y > a.y ? std::clamp((row - a.y) / (b.y - a.y), 0.0, 1.0) : 0;
       return a.x + t * (b.x - a.x);
@@ -57,7 +57,7 @@ void mark_outlines(const World& world, const PixelGrid& grid, Cells& cells) {
       continue;
     }
     const int chords = std::max(static_cast<int>(kChords * c.tau_span / (2 * std::numbers::pi)), 1);
-    // A chord of this many leaves the arc by 8e-5 of the half axes.
+    // Chords of this number differ from the arc by 8e-5 of the half axes.
     const double size = std::sqrt(dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y)) / std::min(grid.step.x, grid.step.y);
     for (int i = 0; i < chords; ++i)
       mark_line(place(c.ellipse.at(c.tau0 + c.tau_span * i / chords)), place(c.ellipse.at(c.tau0 + c.tau_span * (i + 1) / chords)),
@@ -100,7 +100,8 @@ LatticeError add_by_lattice(const FrameScene& frame, const PlaneFrameOptions& op
       const double most = largest_of({std::fabs(off.x), std::fabs(off.y), std::fabs(off.z)});
       off_by[cells.index(x, y)] = most;
     }
-  // What ends near a cell's corner may spare its middle, but not its neighbour's. Outlines tell cells apart: beyond them is another light.
+  // A feature that ends near a cell's corner may miss its middle, but not its neighbour's. Outlines separate cells: beyond them is another
+  // light.
   Cells wrong(grid);
   for (int y = 0; y < cells.rows; ++y)
     for (int x = 0; x < cells.columns; ++x) {
@@ -123,7 +124,7 @@ LatticeError add_by_lattice(const FrameScene& frame, const PlaneFrameOptions& op
       if (cells.at(x, y) == 0) continue;
       const auto tile = static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(tiles.columns) + static_cast<std::size_t>(x / 2);
       tiles.marked[tile] = 1;
-      // Two by two of the tile's four by four.
+      // A cell has two by two of the tile's four by four blocks.
       tiles.blocks[tile] = static_cast<std::uint16_t>(tiles.blocks[tile] | 0x33u << (y % 2 * 8 + x % 2 * 2));
     }
   Picture exact(grid.width, grid.height);

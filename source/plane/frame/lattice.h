@@ -1,6 +1,6 @@
-// Light that changes slowly, as what walls send on does: worked out at every eighth pixel of every eighth row, and between them linear.
-// Not exact: a cell of 8 x 8 pixels is drawn pixel by pixel where its middle is off by more than a tolerance, or where an outline comes
-// near to it.
+// Light that changes slowly, like the light that walls reflect. It is computed at every eighth pixel of every eighth row, and is linear in
+// between. The result is not exact. A cell of 8 x 8 pixels is drawn pixel by pixel if its middle is off by more than a tolerance, or if an
+// outline comes near to it.
 #pragma once
 
 #include "plane/frame/tiles.h"
@@ -8,11 +8,11 @@
 namespace steradian::plane {
 
 struct LatticeError {
-  double largest = 0;  // that the middle of a cell is off by, of those between whose corners light is linear
-  double drawn = 1;    // share of the picture that was drawn pixel by pixel
+  double largest = 0;  // largest error of a cell's middle, among the cells that are interpolated linearly
+  double drawn = 1;    // fraction of the picture that was drawn pixel by pixel
 };
 
-// Adds the frame's light to the picture. tolerance: of the brightest place of the lattice.
+// Adds the frame's light to the picture. tolerance: a fraction of the brightest place of the lattice.
 LatticeError add_by_lattice(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, double tolerance,
                             Picture& picture, PlaneFrameStats& stats);
 

@@ -1,4 +1,4 @@
-// Bounced light by a lattice against the same at every pixel.
+// Bounced light by a lattice against the same light at every pixel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,15 +56,15 @@ TEST(PlaneLattice, IsOffByWhatItsToleranceSays) {
     const Off off = compare(whole, drawn);
     std::printf("tolerance %.0e: %.0f %% drawn, middles off by %.1e; rms %.1e, largest %.1e of the mean\n", tolerance,
                 100 * stats.lattice_drawn, stats.lattice_error, off.rms, off.worst);
-    // The brightest place of what walls send on is a few times the mean of all light at most; a linear cell errs by two thirds of what its
-    // middle does, root mean square, and most err by less than is allowed.
+    // The brightest place of the light that walls reflect is at most a few times the mean of all light. A linear cell errs by two thirds of
+    // the error of its middle, root mean square, and most err by less than the tolerance.
     EXPECT_LT(off.rms, tolerance);
     EXPECT_GT(off.rms, before);
     EXPECT_GT(stats.lattice_error, 0);
     EXPECT_LT(stats.lattice_drawn, 0.8);
     before = off.rms;
   }
-  // Nothing is let pass: every pixel is worked out, in two sums.
+  // Nothing passes the test: every pixel is computed, in two sums.
   options.bounce_lattice = 1e-12;
   EXPECT_LT(compare(whole, render_plane(world, options, &stats)).worst, 1e-5);
 }

@@ -12,19 +12,19 @@ namespace {
 
 float f(double x) { return static_cast<float>(x); }
 
-// How many nodes Gauss' rule takes in the angle of incidence, 0 for more than sixteen. An eye at d in the space where the ellipse is the
-// unit circle; `stretch` its longer half axis over the other, `span` the arc's part of the unit circle, `reach` the longer half axis over
-// the light's range.
+// Number of nodes of Gauss' rule in the angle of incidence, 0 for more than sixteen. `d` is the eye's distance in the space where the
+// ellipse is the unit circle. `stretch` is its longer half axis over the other, `span` the arc's part of the unit circle, `reach` the
+// longer half axis over the light's range.
 //
-// Off by at most 3e-6 of a light all around: largest differences from 100 nodes, over parts of the outline, with linear radiance, Lambert,
-// 1/r and a range. Where the range ends on the outline, 12 nodes: 1e-6.
+// The error is at most 3e-6 of a light all around: largest differences from 100 nodes, over parts of the outline, with linear radiance,
+// Lambert, 1/r and a range. If the range ends on the outline, 12 nodes are within 1e-6.
 int nodes_for(double d, double stretch, double span, bool lambert, bool within_range, double reach) {
   const bool round = stretch < 1 + 1e-9;
   if (!within_range && 5 * reach > 1) return 0;
   if (lambert && !round) return stretch > 3 || d < 3 ? 0 : stretch > 2 ? 16 : 12;
   const double x = d / stretch;
   if (x < (round ? 1.15 : 1.2)) return 0;
-  // The angle of incidence is the place on the unit circle and psi, of which it is d times as much, or more.
+  // The angle of incidence is the sum of the place on the unit circle and psi; it is at least d times psi.
   const double widest = span / (1 - 1 / d);
   if (!within_range) return 12;
   if (widest < 1.2 ? x > 1.6 : widest < 1.7 && x > 4) return 4;
@@ -48,8 +48,7 @@ void LeafBuilder::enter(const TileArea& tile) {
 
 double LeafBuilder::extent(Vec2d normal) const { return std::fabs(normal.x) * tile_.half.x + std::fabs(normal.y) * tile_.half.y; }
 
-// The hull of tile and emitter: lines that touch the circles about both, moved in to touch the rectangle and the
-// emitter themselves.
+// The hull of tile and emitter: lines that touch the circles around both, moved in to touch the rectangle and the emitter themselves.
 SeenLight LeafBuilder::see(const Emitter& e) const {
   SeenLight seen;
   seen.edge = e.kind == Emitter::Kind::edge;
@@ -57,7 +56,7 @@ SeenLight LeafBuilder::see(const Emitter& e) const {
   seen.at = light_.a;
   seen.margin = (seen.edge ? extent(seen.normal) : tile_.radius) + 1e-3;
   const Vec2d axis = light_.center;
-  // Where some pixel may lie within the bounding circle of an ellipse, slopes are not from its centre: see TileArc.
+  // If some pixel may lie within the bounding circle of an ellipse, slopes are not relative to its centre: see TileArc.
   if (e.kind == Emitter::Kind::arc && length(axis) <= e.bound + tile_.radius) seen.margin = 1e30;
   const double d = std::sqrt(std::max(dot(axis, axis), 1e-300));
   const double sine = std::clamp((tile_.radius - light_.bound) / d, -0.99, 0.99), cosine = std::sqrt(1 - sine * sine);
@@ -76,7 +75,7 @@ SeenLight LeafBuilder::see(const Emitter& e) const {
     h.offset = std::max(at_furthest, extent(normal)) + 1e-9 * d;
     h.limit = dot(forward, furthest);
     if (seen.edge) h.least = extent(forward);
-    if (extent(forward) > h.limit) h.limit = -1e300;  // the tile is not before the light: nothing is known
+    if (extent(forward) > h.limit) h.limit = -1e300;  // the tile is not in front of the light: nothing is known
   };
   side(seen.high, left * cosine + along * sine, along * cosine - left * sine);
   side(seen.low, along * sine - left * cosine, along * cosine + left * sine);
@@ -103,7 +102,7 @@ LeafBuilder::Depth LeafBuilder::depth_of_round(const Blocker& b, Vec2d center) c
   return {normal, -dot(normal, through)};
 }
 
-// False: the blocker is never in front.
+// Returns false if the blocker is never in front.
 bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
   const int count = s.count;
   const auto next = [&](int k) { return s.at(k + 1 < count ? k + 1 : 0); };
@@ -158,7 +157,7 @@ LeafBuilder::Side LeafBuilder::side_of(const Depth& depth) const {
   return depth.offset < -reach ? Side::behind : Side::mixed;
 }
 
-// By the line half way between the emitter's bounding circle and this one.
+// Decides by the line half way between the emitter's bounding circle and this one.
 LeafBuilder::Side LeafBuilder::side_of_circle(Vec2d center, double radius) const {
   const Vec2d to = center - light_.center;
   const double d = length(to);
@@ -168,7 +167,7 @@ LeafBuilder::Side LeafBuilder::side_of_circle(Vec2d center, double radius) const
   return at < -reach ? Side::behind : Side::mixed;
 }
 
-// Where in the pool; -1: all of the tile lies within the blocker.
+// Index in the pool; -1: all of the tile lies within the blocker.
 int LeafBuilder::silhouette(int blocker) {
   auto& [tile, slot] = slots_[static_cast<std::size_t>(blocker)];
   if (tile == tile_number_) return slot;
@@ -208,7 +207,7 @@ void LeafBuilder::add_convex(int blocker) {
   const Silhouette& s = pool_[static_cast<std::size_t>(slot)];
   const VertexMarks marks = table_.mark(s, seen_);
   const unsigned outer = s.begins | s.ends;
-  if ((outer & ~marks.past_low) == 0 || (outer & ~marks.past_high) == 0) return;  // passes by
+  if ((outer & ~marks.past_low) == 0 || (outer & ~marks.past_high) == 0) return;  // it does not touch the light
   Depth depth;
   if (side == Side::mixed) {
     if (!depth_of(s, depth)) return;
@@ -219,7 +218,7 @@ void LeafBuilder::add_convex(int blocker) {
     shadows_.take_deep(slot, marks.ahead, depth.line());
     return;
   }
-  // Any one vertex that is ahead and beside the light will do; vertices elsewhere only if they all are.
+  // One vertex that is ahead and beside the light is enough; vertices elsewhere count only if all of them are.
   const bool from_low = (s.begins & ~marks.beside_low) == 0 || (outer & marks.beside_low & marks.ahead) != 0;
   const bool to_high = (s.ends & ~marks.beside_high) == 0 || (outer & marks.beside_high & marks.ahead) != 0;
   shadows_.take_front(slot, marks.ahead, from_low, to_high);
@@ -263,7 +262,7 @@ void LeafBuilder::add_round(int blocker) {
   const Side side = side_of(depth);
   if (side == Side::behind) return;
   if (side == Side::front && b.round && ahead(center, b.bound)) {
-    // A point of it beside the light is enough.
+    // One point of it beside the light is enough.
     const auto beside = [&](const HullSide& h) {
       const double along = dot(h.forward, center);
       return dot(h.normal, center) - h.offset > -b.bound && along < h.limit && along > h.least;
@@ -278,7 +277,7 @@ void LeafBuilder::add_round(int blocker) {
   shadows_.take(r, b.bound);
 }
 
-// Is a disk in front of every pixel's axis? As for vertices.
+// Is a disk in front of every pixel's axis? The test is as for vertices.
 bool LeafBuilder::ahead(Vec2d v, double radius) const {
   const double clear = seen_.margin + radius;
   if (seen_.edge) return -dot(seen_.normal, v) > clear;
@@ -321,7 +320,7 @@ TileArc LeafBuilder::arc_of(const Emitter& e) const {
 
 namespace {
 
-// Seen from where the light arrives, the spot's axis turned round.
+// The spot as seen from where its light arrives, with the axis reversed.
 TileSpot spot_of(const PlaneEmission& emission) {
   TileSpot spot{};
   const Vec2d axis = -emission.spot_axis;
@@ -383,7 +382,8 @@ void LeafBuilder::look_at_edges(const Emitter& run) {
     if (!is_run(*e)) edges_.push_back({e, facing(*e, tile_)});
 }
 
-// Where a pixel of the tile may see the run begin and end: a bowl by its chord, others where edges that face it meet those that do not.
+// Places at which a pixel of the tile may see the run begin and end. For a bowl they are the chord's ends, for others the corners between
+// edges that face the pixel and edges that do not.
 void LeafBuilder::add_corners(const Emitter& run, TileLight& light) {
   low_corners_.clear();
   high_corners_.clear();
@@ -410,7 +410,7 @@ void LeafBuilder::add_corners(const Emitter& run, TileLight& light) {
   light.low_corner_count = static_cast<int>(low_corners_.size());
   light.high_corners = high_corners_.data();
   light.high_corner_count = static_cast<int>(high_corners_.size());
-  // Of a bulge or a closed run, what faces a pixel is seen whole.
+  // For a bulge or a closed run, all edges that face a pixel are entirely visible.
   light.all_parts_seen = run.shape != Emitter::RunShape::bowl ||
                          std::all_of(edges_.begin(), edges_.end(), [](const SeenEdge& e) { return e.facing == Facing::all; });
 }

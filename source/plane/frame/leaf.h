@@ -1,4 +1,4 @@
-// A tile at the bottom of the recursion: its blockers turned into what the packs take.
+// A tile at the bottom of the recursion: converts its blockers to the input of the packs.
 #pragma once
 
 #include <utility>
@@ -15,11 +15,11 @@ class LeafBuilder {
  public:
   explicit LeafBuilder(const FrameScene& frame) : frame_(frame), slots_(frame.blockers.size(), {0, 0}) {}
 
-  // What follows is about this tile.
+  // Selects the tile for the calls that follow.
   void enter(const TileArea& tile);
 
-  // The emitter and those of `blockers` that may be in front of it; points into this object until the next call.
-  // `visible` is false where one blocker, or several that follow each other, hide the light from the whole tile.
+  // The emitter and those of `blockers` that may be in front of it; points into this object until the next call. `visible` is false if one
+  // blocker, or several that follow each other, occlude the light from the whole tile.
   struct Result {
     TileLight light;
     bool visible;
@@ -63,9 +63,9 @@ class LeafBuilder {
   const FrameScene& frame_;
   const SilhouetteTable& table_ = silhouette_table_for(active_simd());
   TileArea tile_;
-  std::vector<Silhouette> pool_;  // of this tile: the first pool_count_
+  std::vector<Silhouette> pool_;  // for this tile: the first pool_count_
   std::size_t pool_count_ = 0;
-  std::vector<std::pair<int, int>> slots_;  // by blocker: a tile's number, and where in its pool
+  std::vector<std::pair<int, int>> slots_;  // by blocker: a tile's number, and the index in its pool
   int tile_number_ = 0;
   Light light_;
   SeenLight seen_;
@@ -74,7 +74,7 @@ class LeafBuilder {
     const Emitter* edge;
     Facing facing;
   };
-  std::vector<SeenEdge> edges_;  // of a run
+  std::vector<SeenEdge> edges_;  // edges of a run
   std::vector<TilePart> parts_;
   std::vector<TileVertex> low_corners_, high_corners_;
   std::vector<float> scratch_;

@@ -14,7 +14,7 @@ struct LightField {
 inline constexpr LightField kLightFields[] = {
     {16, 200, 500, 14, 16}, {64, 500, 400, 12, 14}, {256, 1000, 300, 8, 12}, {1000, 2000, 150, 6, 10}, {4096, 5000, 60, 4, 8}};
 
-// Uniform centres and rotations, overlaps allowed, lights' centres outside boxes; the same on every machine.
+// Uniform centres and rotations, with overlaps, and lights' centres outside boxes. It is the same on every machine.
 PlaneScene make_light_field(const LightField& field, std::uint64_t seed);
 
 }  // namespace steradian::plane

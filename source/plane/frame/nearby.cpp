@@ -1,4 +1,4 @@
-// What may stand between an emitter and the places that it lights, and what stands in for a blocker that overlaps it.
+// Blockers that may lie between an emitter and the places that it lights, and replacements of a blocker that overlaps it.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ bool has_no_chord(const Emitter& e) { return is_run(e) && e.shape == Emitter::Ru
 
 }  // namespace
 
-// The list of an emitter, where it has room or at the end.
+// Writes the list of an emitter to its place if the capacity is enough, or to the end.
 void Preparation::make_list(std::size_t index) {
   Emitter& e = frame_.emitters[index];
   if (index >= frame_.nearby_count.size()) {
@@ -27,7 +27,7 @@ void Preparation::make_list(std::size_t index) {
     first_pair_.push_back(0);
   }
   e.hidden = false;
-  // A hole is never seen as one: its entry is there to be dropped with what it stands for.
+  // A hole is never visible as one run: its entry exists to be dropped together with the emitters that it represents.
   const bool hole = is_run(e) && e.shape == Emitter::RunShape::hole;
   frame_.whole_run[index] = is_run(e) && (hole || is_clear(&e));
   std::vector<int> list;
@@ -41,7 +41,7 @@ void Preparation::write_list(std::size_t index, const std::vector<int>& list) {
   std::size_t& first = frame_.first_nearby[index];
   int pair = 0;
   if (list.size() > room_[index] || !made) {
-    // Lists that have been made again may grow a little.
+    // Lists that have been rebuilt may grow a little.
     room_[index] = made ? list.size() + list.size() / 4 + 8 : list.size();
     first = frame_.nearby.size;
     frame_.nearby.reserve_more(room_[index]);
@@ -67,7 +67,7 @@ void Preparation::write_list(std::size_t index, const std::vector<int>& list) {
 Preparation::ChainView Preparation::view_of_chain(const Emitter& e, const Blocker& chain) const {
   const Vec2d* v = &frame_.vertices[chain.first];
   if (has_no_chord(e)) {
-    // Where an outline crosses itself, a chain may go on from one closed run of the body to the next.
+    // If an outline crosses itself, a chain may continue from one closed run of the body to the next.
     bool behind = chain.body == e.body;
     for (int k = 0; k < chain.edges && behind; ++k) behind = is_behind_outline(e, chain.first_edge + k);
     if (behind) return ChainView::behind;
@@ -85,13 +85,13 @@ Preparation::ChainView Preparation::view_of_chain(const Emitter& e, const Blocke
   return near && comes_within(kApart, e, v, chain.count) ? ChainView::edge_by_edge : ChainView::whole;
 }
 
-// Of a closed run and an edge of the same body: is it of the run, or within its hull? Then it is not seen from outside.
+// Does an edge of the same body belong to a closed run, or lie within its hull? Then it is not visible from outside.
 bool Preparation::is_behind_outline(const Emitter& run, int edge) const {
   const Blocker& b = frame_.blockers[static_cast<std::size_t>(edge)];
   return holds(region_of(run), frame_.vertices[b.first]) && holds(region_of(run), frame_.vertices[b.first + 1]);
 }
 
-// Does nothing else come near a run, and none of its own outline between its edges and its chord?
+// Does nothing else come near a run, and none of its own outline come between its edges and its chord?
 bool Preparation::is_clear(const Emitter* run) {
   bool clear = true;
   const auto comes_near = [&](const Blocker& b) {
@@ -106,14 +106,14 @@ bool Preparation::is_clear(const Emitter* run) {
     if (!clear) return;
     spend(10);
     if (b.body != run->body) {
-      // Of a chain that comes near, its edges may not.
+      // A chain may come near although its edges do not.
       if (!comes_near(b)) return;
       if (b.edges == 0) clear = false;
       for (int edge = b.first_edge; edge < b.first_edge + b.edges; ++edge)
         clear = clear && !comes_near(frame_.blockers[static_cast<std::size_t>(edge)]);
       return;
     }
-    // What the outline of a closed run holds is not seen, and nothing of it crosses.
+    // The inside of a closed run's outline is not visible, and nothing of it crosses.
     if (has_no_chord(*run)) return;
     const auto own = [&](int edge) {
       const Blocker& e = frame_.blockers[static_cast<std::size_t>(edge)];
@@ -127,13 +127,13 @@ bool Preparation::is_clear(const Emitter* run) {
   return clear;
 }
 
-// In the world, of an edge of an emitter's own body.
+// Index in the world of an edge of an emitter's own body.
 std::size_t Preparation::curve_of(const Emitter& e, int blocker) const {
   const auto body = static_cast<std::size_t>(e.body);
   return world_.first_curve[body] + static_cast<std::size_t>(blocker) - first_blocker_[body];
 }
 
-// Is a blocker one of a run's own edges, or does it have some as its parts?
+// Is a blocker one of a run's own edges, or does it have some of them as parts?
 bool Preparation::is_of_run(const Emitter* run, int blocker) const {
   const std::size_t curve = curve_of(*run, blocker);
   for (std::size_t k = 1; k < run->group; ++k)
@@ -166,7 +166,7 @@ void Preparation::find_nearby(std::size_t index, std::vector<int>& list) {
     else
       list.push_back(k);
   };
-  // What is further from the light than its range stands behind the last lit point.
+  // A blocker further from the light than its range is behind the last lit point.
   bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
     const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
     switch (b.edges == 0 ? ChainView::edge_by_edge : view_of_chain(e, b)) {
@@ -175,7 +175,7 @@ void Preparation::find_nearby(std::size_t index, std::vector<int>& list) {
       case ChainView::edge_by_edge: break;
     }
     if (b.edges == 0) return consider(k);
-    // By value: parts of edges become blockers too, and move them all.
+    // By value: parts of edges become blockers too, and move the array.
     for (int edge = b.first_edge, end = edge + b.edges; edge < end; ++edge) consider(edge);
   });
   for (int k : overlapping) stand_in(e, k, list);
@@ -187,7 +187,7 @@ void Preparation::add_private(const std::vector<Vec2d>& vertices, int owner, std
   add_convex(vertices, owner);
 }
 
-// The part of p, q on the lit side of an edge.
+// Adds the part of p, q on the lit side of an edge.
 void Preparation::add_in_front(const Emitter& e, Vec2d p, Vec2d q, int owner, std::vector<int>& list) {
   const Vec2d n = e.normal;
   double hp = dot(p - e.a, n), hq = dot(q - e.a, n);
@@ -203,13 +203,13 @@ void Preparation::own_edge(const Emitter& e, int blocker, std::vector<int>& list
   const double hp = dot(p - e.a, e.normal), hq = dot(q - e.a, e.normal);
   if (std::max(hp, hq) <= kTouching) return;
   if (std::min(hp, hq) >= 0)
-    list.push_back(blocker);  // all of it in front: as it is
+    list.push_back(blocker);  // all of it is in front: unchanged
   else
     add_in_front(e, p, q, b.body, list);
 }
 
-// Of an edge that a gradient cuts, a run may have some parts alone; the others may stand before its further edges, as those of a line
-// that shines to both sides do.
+// A run may have only some parts of an edge that a gradient cuts. The other parts may occlude its further edges, like those of a line that
+// emits light to both sides.
 void Preparation::rest_of_edge(const Emitter& run, int blocker, std::vector<int>& list) {
   const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
   const Vec2d p = frame_.vertices[b.first], q = frame_.vertices[b.first + 1];
@@ -245,7 +245,7 @@ void Preparation::stand_in(Emitter& e, int blocker, std::vector<int>& list) {
   spend(2000);
   const Meeting meeting = meet(e, {b.center, b.x_axis, b.y_axis});
   switch (meeting.kind) {
-    case Meeting::Kind::within: return;  // seen from inside the light only
+    case Meeting::Kind::within: return;  // visible from inside the light only
     case Meeting::Kind::hides: e.hidden = true; return;
     case Meeting::Kind::apart:
       if (b.round && e.kind != Emitter::Kind::arc) return list.push_back(blocker);

@@ -47,7 +47,7 @@ void add_crossing(Vec2d at, Vec2d light_normal, Vec2d blocker_normal, Lens& lens
   lens.crossings[lens.count++] = {at, light_normal, blocker_normal, cross(light_normal, blocker_normal) > 0};
 }
 
-// The line half way between the unit circle of `space` and a point p outside it, there.
+// The line half way between the unit circle of `space` and a point p outside it, both in unit space.
 DividingLine line_to(const Ellipse& space, Vec2d p) {
   const double d = length(p);
   return {normal_from_unit(space, p / d), from_unit(space, p * (0.5 * (1 + d) / d))};
@@ -85,7 +85,7 @@ Meeting meet(const Emitter& e, const Ellipse& blocker) {
   light.ellipse = ellipse_of(e);
   other.ellipse = blocker;
   const Crossings crossings = intersect(light, other);
-  // One crossing alone is a touch.
+  // A single crossing is a touch.
   if (crossings.count >= 2) {
     result.kind = Meeting::Kind::cross;
     for (int i = 0; i < crossings.count; ++i)

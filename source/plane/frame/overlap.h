@@ -1,7 +1,7 @@
-// How a blocker and an emitter lie to each other: apart, or overlapping in a way that directions decide.
+// Relation of a blocker to an emitter: apart, or overlapping in a way that directions decide.
 //
-// Where two convex outlines overlap, which of them is nearer changes, from one direction to the next, only at a crossing
-// of the two that is seen on both.
+// If two convex outlines overlap, the nearer one changes, from one direction to the next, only at a crossing of the two that is visible on
+// both.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace steradian::plane {
 
-inline constexpr double kTouching = 1e-9;  // overlaps of less are none
+inline constexpr double kTouching = 1e-9;  // smaller overlaps count as none
 
 // Does a convex polygon, or a segment, come nearer to the emitter than a gap? A negative gap is an overlap.
 bool comes_within(double gap, const Emitter& e, const Vec2d* vertices, std::size_t count);
@@ -27,7 +27,7 @@ struct Meeting {
   DividingLine line;  // apart
   Lens lens;          // cross
 };
-// A round or elliptic blocker and an emitter.
+// The relation of a round or elliptic blocker to an emitter.
 Meeting meet(const Emitter& e, const Ellipse& blocker);
 
 // The parts of a segment outside an ellipse.

@@ -1,5 +1,5 @@
-// A scene made ready for frames, and kept so while its bodies change: the emitters, blockers and lists that a change touches are made
-// again, in the order in which a new preparation would make them.
+// A scene prepared for frames, and updated while its bodies change. The emitters, blockers and lists that a change affects are computed
+// again, in the order in which a new preparation would compute them.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace steradian::plane {
 
 class Preparation {
  public:
-  // Throws Error where the lights and what may block them are more than the budget allows. The world and the budget must outlive it.
+  // Throws Error if the lights and their possible blockers exceed the budget. The world and the budget must outlive it.
   Preparation(const World& world, Budget& budget, const FrameLights& lights);
 
   FrameScene& frame() { return frame_; }
   const FrameScene& frame() const { return frame_; }
 
-  // One body of the world after another changes: `forget` is called before, `take` after, then `finish`. What has no place in the lists as
-  // they are (another number of edges, say) makes them return false: the scene is then to be prepared anew.
-  void forget(std::size_t body);                                   // what it stands in front of
-  bool take(std::size_t body);                                     // as it is now; a new body is the last one
-  void drop(std::size_t body);                                     // that is gone
+  // The bodies of the world change one after another: call `forget` before, `take` after, then `finish`. They return false for a change
+  // that does not fit the lists (another number of edges, say): the scene must then be prepared anew.
+  void forget(std::size_t body);                                   // the emitters that it occludes
+  bool take(std::size_t body);                                     // the body as it is now; a new body is the last one
+  void drop(std::size_t body);                                     // a body that has been removed
   bool recolour(std::size_t body) { return take_emitters(body); }  // instead of all three
   bool finish();
 
@@ -46,7 +46,7 @@ class Preparation {
   bool take_emitters(std::size_t body);
   void touch(std::size_t body);
 
-  // What may stand before an emitter: nearby.cpp.
+  // Possible blockers of an emitter: nearby.cpp.
   enum class ChainView { behind, whole, edge_by_edge };
   ChainView view_of_chain(const Emitter& e, const Blocker& chain) const;
   bool is_clear(const Emitter* run);
@@ -67,14 +67,14 @@ class Preparation {
   FrameScene frame_;
   std::vector<std::size_t> first_blocker_, blocker_count_;  // by body
   std::vector<std::size_t> first_emitter_, emitter_count_;
-  std::vector<std::size_t> room_;  // by emitter: of its list
-  std::vector<int> first_pair_;    // of a disk: in FrameScene::pairs
+  std::vector<std::size_t> room_;  // by emitter: the capacity of its list
+  std::vector<int> first_pair_;    // by emitter, for disks: in FrameScene::pairs
   BlockerBins bins_;
   Budget& budget_;
   std::uint64_t steps_ = 0;
   std::size_t blockers_held_ = 0, made_bodies_ = 0, made_blockers_ = 0, made_pairs_ = 0, gone_ = 0;
-  // Of the changes under way.
-  std::vector<char> dirty_;           // by emitter: its list is to be made again
+  // State of the changes under way.
+  std::vector<char> dirty_;           // by emitter: its list must be computed again
   std::vector<char> dirty_interior_;  // by body
 };
 

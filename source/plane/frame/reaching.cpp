@@ -11,7 +11,7 @@
 namespace steradian::plane {
 namespace {
 
-// Where on a curve a point of it lies, from 0 at its start to 1 at its end; beyond 1 where it does not.
+// Position of a point along a curve, from 0 at its start to 1 at its end; beyond 1 if it is not on the curve.
 double place_on(const Curve& c, Vec2d p) {
   if (c.kind == Curve::Kind::segment) return dot(p - c.a, c.b - c.a) / dot(c.b - c.a, c.b - c.a);
   const Vec2d unit = c.ellipse.to_unit(p);
@@ -93,7 +93,7 @@ class Finding {
  private:
   const PlaneBody& body(std::size_t i) const { return world_.scene.bodies[i]; }
 
-  // Exact for round lights and among polygons; others go by their boxes.
+  // Exact for round lights and among polygons; others use their boxes.
   bool may_be_inside(std::size_t light, const Blocker& b) {
     if (b.body == static_cast<int>(light)) return true;
     const Curve& curve = world_.curves[world_.first_curve[light]];
@@ -117,7 +117,7 @@ class Finding {
     return reaches;
   }
 
-  // The parts of a curve within a polygon, between where it crosses the outline.
+  // Adds the parts of a curve within a polygon, between its crossings with the outline.
   void add_parts_within(std::size_t polygon, const Curve& c, std::vector<Curve>& parts) {
     std::vector<double> cuts{0, 1};
     spend_(10 * (world_.first_curve[polygon + 1] - world_.first_curve[polygon]));
@@ -151,7 +151,7 @@ class Finding {
       }
       if (b.count == 2) return world_.contains(polygon, q);
     }
-    // The polygon within the body: nothing of the body's outline is in it.
+    // The polygon lies within the body: nothing of the body's outline is inside it.
     return false;
   }
 

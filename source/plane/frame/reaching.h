@@ -1,4 +1,4 @@
-// What reaches into the lights of a frame, and is seen from within them.
+// Bodies that reach into the lights of a frame, and are visible from within them.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace steradian::plane {
 
-// Fills FrameScene::interior. `spend` is told the steps that this takes, and may throw.
+// Fills FrameScene::interior. `spend` receives the steps that this takes, and may throw.
 void find_interiors(FrameScene& frame, const BlockerBins& bins, Budget& budget, const std::function<void(std::uint64_t)>& spend);
-// Of one body, anew.
+// Computes the interior of one body again.
 void find_interior(FrameScene& frame, std::size_t body, const BlockerBins& bins, Budget& budget,
                    const std::function<void(std::uint64_t)>& spend);
 

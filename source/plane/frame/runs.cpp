@@ -11,10 +11,10 @@ namespace {
 using std::numbers::pi;
 using RunShape = Emitter::RunShape;
 
-constexpr double kMostTurnOfRun = 2 * pi / 3;  // of a run that is not closed
-constexpr double kStraight = 1e-9;             // turns of less are none
-constexpr std::size_t kParts = 4;              // that a run is taken apart in
-constexpr double kLeastHeight = 1e-3;          // of the tile over every line: floats must not doubt it
+constexpr double kMostTurnOfRun = 2 * pi / 3;  // for a run that is not closed
+constexpr double kStraight = 1e-9;             // smaller turns count as none
+constexpr std::size_t kParts = 4;              // number of parts of a run
+constexpr double kLeastHeight = 1e-3;          // least height of the tile over every line, so that floats decide it safely
 
 double turn_between(const Emitter& a, const Emitter& b) {
   const Vec2d u = a.b - a.a, v = b.b - b.a;
@@ -27,7 +27,7 @@ double distance_from_segment(Vec2d a, Vec2d b, Vec2d p) {
   return length(p - a - ab * (l > 0 ? std::clamp(dot(p - a, ab) / l, 0.0, 1.0) : 0));
 }
 
-// Appends the run of edges [first, first + count), or the edge, and all that it stands for.
+// Appends the run of edges [first, first + count), or the single edge, and all emitters that it represents.
 void append(const Emitter* first, std::size_t count, std::vector<Emitter>& to) {
   if (count == 1) {
     to.push_back(*first);
@@ -65,7 +65,7 @@ void append(const Emitter* first, std::size_t count, std::vector<Emitter>& to) {
   if (flat) to[at].group = to.size() - at;
 }
 
-// An outline's edges, one after another, as runs that turn one way.
+// Appends a sequence of an outline's edges, as runs that turn one way.
 void append_chains(const std::vector<Emitter>& strand, std::vector<Emitter>& to) {
   for (std::size_t i = 0; i < strand.size();) {
     double turned = 0;
@@ -81,7 +81,7 @@ void append_chains(const std::vector<Emitter>& strand, std::vector<Emitter>& to)
   }
 }
 
-// A whole outline. What is neither convex nor a hole is no run.
+// Appends a whole outline. An outline that is neither convex nor a hole is no run.
 void append_outline(const std::vector<Emitter>& edges, std::vector<Emitter>& to) {
   double least = 1e300, turned = 0, area = 0;
   for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -114,8 +114,8 @@ void for_each_edge(const Emitter* run, F f) {
     if (!is_run(run[k])) f(run[k]);
 }
 
-// Edges of light in the order in which outlines are walked, the body to the left: what follows an edge begins where it ends. Where several
-// do, as at a crossing, the way around the same part of the body is the sharpest turn to the left.
+// Edges of light in the order along outlines, with the body to the left: the next edge begins at the end of the last. If several do, as at
+// a crossing, the sharpest turn to the left leads around the same part of the body.
 class Walk {
  public:
   Walk(const World& world, const std::vector<Emitter>& emitters) : world_(world), emitters_(emitters), done_(emitters.size(), 0) {
@@ -129,7 +129,7 @@ class Walk {
   bool is_done(std::size_t i) const { return done_[i] != 0; }
   bool is_two_sided(std::size_t i) const { return world_.curves[emitters_[i].curve].two_sided; }
 
-  // All that an edge lies on, from its beginning or, of a closed outline, from that edge on.
+  // All edges of the outline of an edge, from its beginning or, for a closed outline, from that edge on.
   std::vector<Emitter> strand_of(std::size_t edge) {
     std::size_t first = edge;
     for (std::size_t before = neighbour(first, false), steps = 0; before != kNone && before != edge && steps < emitters_.size(); ++steps)
@@ -146,7 +146,7 @@ class Walk {
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  // Of the end where others begin, or of the beginning where others end.
+  // Key of the edge's beginning or end.
   std::tuple<int, double, double> key(std::size_t i, bool begin) const {
     const Vec2d p = begin ? emitters_[i].a : emitters_[i].b;
     return {emitters_[i].body, p.x, p.y};
@@ -161,7 +161,7 @@ class Walk {
          k != others.end() && key(*k, after) == at; ++k) {
       if (done_[*k] != 0 || is_two_sided(*k) != is_two_sided(i)) continue;
       double turn = after ? turn_between(emitters_[i], emitters_[*k]) : turn_between(emitters_[*k], emitters_[i]);
-      // A line that shines to both sides goes straight on.
+      // A line that emits light to both sides goes straight on.
       if (is_two_sided(i)) turn = -std::fabs(turn);
       if (turn > best_turn) best_turn = turn, best = *k;
     }
@@ -184,7 +184,7 @@ std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& e
       result.push_back(emitters[i]);
       continue;
     }
-    // Where several edges meet, the way on from a strand's beginning may pass by the edge from which that was found.
+    // If several edges meet, the way on from a strand's beginning may miss the edge from which the beginning was found.
     while (!walk.is_done(i)) {
       const std::vector<Emitter> strand = walk.strand_of(i);
       if (!walk.is_two_sided(i) && strand.size() > 2 && strand.back().b == strand.front().a)
@@ -228,7 +228,7 @@ Facing seen_as_one(const Emitter* run, const TileArea& tile) {
     case RunShape::closed: return apart ? Facing::all : Facing::some;
     case RunShape::hole: return apart ? Facing::none : Facing::some;
     case RunShape::bowl:
-      // From behind its chord what enters the hull has crossed the run from its other side.
+      // From behind the chord, everything that enters the hull has crossed the run from its other side.
       if (apart && facing(*run, tile) == Facing::none) return Facing::none;
       break;
     case RunShape::bulge: break;
@@ -245,7 +245,7 @@ bool crosses_run(const Emitter* run, Vec2d p, Vec2d q) {
     return cross(along, p - a) * cross(along, q - a) < 0 && cross(d, a - p) * cross(d, b - p) < 0;
   };
   bool crosses = strictly(run->a, run->b);
-  // Is the middle between chord and edges? By the crossings of a ray, so that ends that touch the run do not count.
+  // Is the middle between chord and edges? The test counts the crossings of a ray, so that ends that touch the run do not count.
   const Vec2d middle = (p + q) * 0.5;
   bool inside = false;
   const auto pass = [&](Vec2d a, Vec2d b) {

@@ -16,11 +16,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t kMostVertices = 8;  // of a convex blocker; more, and edges stand alone: their tangents move less
+constexpr std::size_t kMostVertices = 8;  // most vertices of a convex blocker; with more, edges stay separate: their tangents move less
 
 // A blocker with its outline, its place in a list and a tile's view of it.
 constexpr std::size_t kBlockerBytes = sizeof(Blocker) + sizeof(PaddedOutline) + 2 * sizeof(Vec2d) + sizeof(Silhouette);
-// What it takes to hold a pair of a light's piece and a blocker in its range through the levels of a frame, and to look at it.
+// Memory for a pair of a light's piece and a blocker in its range through the levels of a frame, and steps to test it.
 constexpr std::size_t kPairBytes = 60 + sizeof(EventPair), kPairSteps = 600;
 
 }  // namespace
@@ -74,7 +74,7 @@ Preparation::Preparation(const World& world, Budget& budget, const FrameLights& 
   dirty_interior_.resize(bodies);
 }
 
-// A power of two: it stays what it is when bodies move a little.
+// A power of two: it does not change when bodies move a little.
 double Preparation::find_slack() const {
   const Vec2d origin = world_.scene.origin;
   double extent = std::max(world_.scene.width, world_.scene.height);
@@ -86,7 +86,7 @@ double Preparation::find_slack() const {
   return 32 * 0x1p-24 * std::exp2(std::ceil(std::log2(extent)));
 }
 
-// A first look, before anything is made: a light without a range meets every body at least once for each of its pieces.
+// A first check, before anything is computed: a light without a range meets every body at least once for each of its pieces.
 void Preparation::check_bodies() {
   std::uint64_t bodies = 0, pieces = 0;
   for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
@@ -105,7 +105,7 @@ void Preparation::check_pairs() {
   std::uint64_t pairs = 0;
   std::size_t pieces = 0, of_disks = 0;
   for (const Emitter& e : frame_.emitters) {
-    if (is_run(e)) continue;  // it takes work from its edges
+    if (is_run(e)) continue;  // it saves work that is counted for its edges
     const std::size_t within = counts.within(e.center, std::min(e.range, 1e8) + e.bound);
     pairs += within;
     if (e.kind == Emitter::Kind::disk) of_disks += within;
@@ -118,8 +118,8 @@ void Preparation::check_pairs() {
   frame_.pairs.reserve(of_disks);
 }
 
-// Lights that only the general method serves are asked of every pixel on its own. What counts is the scene, not the picture:
-// as if it were small.
+// Lights that only the general method serves are evaluated for every pixel on its own. The check depends on the scene, not on the picture:
+// it assumes a small picture.
 void Preparation::check_general() {
   constexpr std::uint64_t kPixels = 64 * 48;
   std::uint64_t lights = 0, steps = 0;
@@ -132,7 +132,7 @@ void Preparation::check_general() {
   budget_.take_work(world_.scene.name, "its " + std::to_string(lights) + " lights that are very thin ellipses", steps);
 }
 
-// Steps that are known only as they are made.
+// Counts steps whose number is known only while they are done.
 void Preparation::spend(std::uint64_t steps) {
   steps_ += steps;
   if (steps != 0 && steps_ < 10'000'000) return;
@@ -204,7 +204,7 @@ void Preparation::add_blockers(std::size_t i) {
   const int owner = static_cast<int>(i);
   frame_.convex[i] = body(i).shape == PlaneBody::Shape::capsule || body(i).shape == PlaneBody::Shape::ellipse;
   if (body(i).shape == PlaneBody::Shape::capsule && world_.first_curve[i] < world_.first_curve[i + 1]) {
-    // Two disks and the box between them: the same silhouette.
+    // Two disks and the box between them have the same silhouette.
     const Vec2d p = body(i).contours[0][0], q = body(i).contours[0][1];
     const double r = body(i).radius;
     add_ellipse({p, {r, 0}, {0, r}}, owner);

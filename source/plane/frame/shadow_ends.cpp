@@ -12,10 +12,10 @@ TileDisk disk(const Silhouette& s) {
   return {static_cast<float>(s.center.x), static_cast<float>(s.center.y), static_cast<float>(s.radius)};
 }
 
-// However many ends there are, these are the ones that others are compared with.
+// Other ends are compared with this many ends only, however many there are.
 constexpr std::size_t kFurthest = 16, kLooks = 24;
 
-// The furthest ends come first, as the tile's centre sees them; all are ahead of it, within half a turn.
+// Moves the furthest ends to the front, as the tile's centre sees them; all are ahead of it, within half a turn.
 template <class Further>
 void bring_forward(std::vector<Vec2d>& ends, Further further) {
   if (ends.size() > kFurthest) std::nth_element(ends.begin(), ends.begin() + kFurthest, ends.end(), further);
@@ -54,10 +54,10 @@ void ShadowEnds::clear(const std::vector<Silhouette>& pool, Vec2d to_light) {
   lenses_.clear();
 }
 
-// Is b seen counter-clockwise of a, from all of the tile? cross(a - p, b - p) = cross(a, b) - cross(p, b - a)
+// Is b counter-clockwise of a, from all of the tile? cross(a - p, b - p) = cross(a, b) - cross(p, b - a)
 bool ShadowEnds::follows(Vec2d a, Vec2d b) const { return cross(a, b) >= std::fabs(b.y - a.y) * half_.x + std::fabs(b.x - a.x) * half_.y; }
 
-// The same of all of a disk.
+// The same for all of a disk.
 bool ShadowEnds::follows_disk(Vec2d a, double radius, Vec2d b) const {
   const double turn = cross(a, b) - std::fabs(b.y - a.y) * half_.x - std::fabs(b.x - a.x) * half_.y;
   const double left = turn - radius * radius_;
@@ -78,7 +78,7 @@ void ShadowEnds::take_deep(int silhouette, std::uint8_t ahead, const DepthLine& 
   held_.push_back({silhouette, ahead, true, false, false, false, depth});
 }
 
-// It is known to begin before all that is left of the light.
+// The blocker is known to begin before the rest of the light.
 void ShadowEnds::grow_low(Held& h) {
   const Silhouette& s = of(h);
   h.low_done = true;
@@ -104,7 +104,7 @@ void ShadowEnds::grow_high(Held& h) {
 }
 
 bool ShadowEnds::covered(Vec2d center, double radius) const {
-  // From the other side: the mirror image.
+  // For the other side the test uses the mirror image.
   return std::any_of(low_front_.begin(), low_front_.end(), [&](Vec2d v) { return follows_disk(center, radius, v); }) ||
          std::any_of(high_front_.begin(), high_front_.end(), [&](Vec2d v) {
            return follows_disk({center.x, -center.y}, radius, {v.x, -v.y});
@@ -122,7 +122,7 @@ bool ShadowEnds::covered(const Held& h) const {
   return false;
 }
 
-// Ends that another is always beyond. Not by what merely moved a front on: that still relies on the ends before it.
+// Drops ends that another end is always beyond. Ends that only moved a front on do not count: they rely on the ends before them.
 void ShadowEnds::drop_dominated() {
   const auto thin = [](std::vector<Vec2d>& ends, auto further, auto beyond) {
     // The furthest first, as the tile's centre sees them.
@@ -143,7 +143,7 @@ void ShadowEnds::drop_dominated() {
 
 bool ShadowEnds::hidden() {
   if (hidden_) return true;
-  // Growing further is worth only so much: what is left to the pixels is as right.
+  // The growth is limited: work that remains for the pixels gives the same result.
   std::size_t looks = kLooks * (held_.size() + 16);
   const auto worth = [&] { return looks > held_.size() && (looks -= held_.size()) != 0; };
   for (std::size_t i = 0; i < low_front_.size() && worth(); ++i)
@@ -167,7 +167,7 @@ bool ShadowEnds::hidden() {
   return false;
 }
 
-// Rises with the angle from the light's direction, -2 to 2.
+// A value that rises with the angle from the light's direction, -2 to 2.
 double ShadowEnds::turn_of(Vec2d v) const {
   const double across = cross(axis_, v), along = dot(axis_, v), sum = std::fabs(across) + std::fabs(along);
   if (!(sum > 0)) return 0;
@@ -187,7 +187,7 @@ void ShadowEnds::write(TileLight& light) {
   rounds_.clear();
   for (Vec2d v : low_points_) lows_.push_back(vertex(v));
   for (Vec2d v : high_points_) highs_.push_back(vertex(v));
-  // By where the tile's centre sees them begin: spans that follow each other then merge as they are taken.
+  // Sorted by their begins, as the tile's centre sees them: spans that follow each other then merge as they are applied.
   if (held_.size() > kFurthest) {
     const auto begin = [&](const Held& h) { return of(h).at(std::countr_zero(static_cast<unsigned>(of(h).begins))); };
     std::sort(held_.begin(), held_.end(), [&](const Held& a, const Held& b) {
@@ -196,7 +196,7 @@ void ShadowEnds::write(TileLight& light) {
     });
   }
   for (const Held& h : held_) {
-    // One whose own ends are among the front's would cover itself.
+    // A blocker whose own ends are among the front's would cover itself.
     if (h.dropped || (!h.low_done && !h.high_done && covered(h))) continue;
     const Silhouette& s = of(h);
     if (s.kind == Silhouette::Kind::disk) {

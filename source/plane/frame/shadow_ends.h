@@ -1,9 +1,9 @@
-// What stands in front of one light, as one tile sees it: blockers merged as far as all of the tile sees them overlap.
+// The blockers in front of one light, for one tile: merged if they overlap for all of the tile.
 //
-// A blocker that reaches past the light on one side takes away all up to its other end. What begins before that end is
-// seen to begin before it, and moves the end on to its own; so shadows grow from both sides of the light, and where
-// they meet the light is hidden from all of the tile. Whether a point is seen counter-clockwise of another is the sign
-// of a function affine in the eye, so that the tile's corners answer for all of it.
+// A blocker that reaches past the light on one side occludes all up to its other end. A blocker that begins before that end moves the end
+// on to its own. So shadows grow from both sides of the light. If they meet, the light is occluded from all of the tile. The test that a
+// point is counter-clockwise of another is the sign of a function affine in the eye, so that the tile's corners decide it for all of the
+// tile.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +21,17 @@ struct DepthLine {
 class ShadowEnds {
  public:
   void enter(const TileArea& tile) { half_ = tile.half, radius_ = tile.radius; }
-  // For another light. Silhouettes that are taken stay where they are in `pool`.
+  // Begins another light. Silhouettes passed to `take` stay in `pool`.
   void clear(const std::vector<Silhouette>& pool, Vec2d to_light);
-  // A convex blocker in front of the light for all of the tile. Marks of the vertices that are ahead of all pixels;
-  // whether it reaches past the light on either side.
+  // A convex blocker in front of the light for all of the tile. `ahead` marks the vertices that are ahead of all pixels; `from_low` and
+  // `to_high` tell if it reaches past the light on either side.
   void take_front(int silhouette, std::uint8_t ahead, bool from_low, bool to_high);
   void take_deep(int silhouette, std::uint8_t ahead, const DepthLine& depth);
   void take(const TileRound& round, double bound) { far_rounds_.push_back({round, bound}); }
   void take(const TileLens& lens) { lenses_.push_back(lens); }
-  bool hidden();                  // after the last of them: merges
+  bool hidden();                  // merges; call it after the last of them
   void write(TileLight& light);   // points into this object
-  std::size_t intervals() const;  // most that may be taken from within the light
+  std::size_t intervals() const;  // largest number of intervals that may be occluded within the light
 
  private:
   struct Held {
@@ -59,8 +59,8 @@ class ShadowEnds {
   bool hidden_ = false;
   const std::vector<Silhouette>* pool_ = nullptr;
   std::vector<Held> held_;
-  std::vector<Vec2d> low_front_, high_front_;    // all that is before one of the first or after one of the others is taken
-  std::vector<Vec2d> low_points_, high_points_;  // those of them that take it by themselves
+  std::vector<Vec2d> low_front_, high_front_;    // everything before one of the first or after one of the others is occluded
+  std::vector<Vec2d> low_points_, high_points_;  // the ends that occlude it by themselves
   std::vector<Round> far_rounds_;
 
   std::vector<TileVertex> lows_, highs_, vertices_;

@@ -1,5 +1,5 @@
-// What each round light sends to the pixels of each tile, kept from one picture of a scene to the next: of a tile that is drawn again, only
-// the lights that have changed there are worked out, and all are added up in the same order as ever.
+// Light of each round light at the pixels of each tile, cached from one picture of a scene to the next. When a tile is drawn again, only
+// the lights that have changed there are computed. All are summed in the same order as always.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 namespace steradian::plane {
 
 struct TileShares {
-  bool kept = false;          // it is known what lights the tile; else all is worked out when it is drawn
-  std::vector<int> emitters;  // by rising number: the disks that light it,
-  std::vector<int> slots;     // and where each has kTilePixels shares of its radiance, in the buffer's order, in
+  bool kept = false;          // are the lights of the tile known? If not, all are computed when it is drawn
+  std::vector<int> emitters;  // in increasing order: the disks that light it
+  std::vector<int> slots;     // for each of them the place of kTilePixels shares of its radiance, in the buffer's order, in `shares`
   std::vector<float> shares;
   std::vector<int> free_slots;
-  std::vector<int> always;   // those that the general rule has a part in: they are worked out every time
-  std::vector<int> changed;  // since it was drawn
+  std::vector<int> always;   // lights partly computed by the general rule: they are computed every time
+  std::vector<int> changed;  // lights changed since it was drawn
 
   int take_slot() {
     if (!free_slots.empty()) {
@@ -42,14 +42,14 @@ struct TileShares {
 class ShareStore {
  public:
   ShareStore(int columns, int rows) : columns_(columns), tiles_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
-  // Of the tile at a pixel.
+  // Shares of the tile at a pixel.
   TileShares& at(int x, int y) {
     return tiles_[static_cast<std::size_t>(y / kTileSide) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x / kTileSide)];
   }
   void forget() {
     for (TileShares& tile : tiles_) tile.forget();
   }
-  // Forgets tiles, the last ones first, until they take no more than this.
+  // Discards tiles, the last ones first, until they use no more than this.
   void keep_below(std::size_t bytes) {
     std::size_t taken = 0;
     for (TileShares& tile : tiles_)

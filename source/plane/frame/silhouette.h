@@ -1,4 +1,4 @@
-// Convex blockers as one tile sees them, and where their vertices stand to a light. On packs of doubles: one vertex a lane.
+// Convex blockers as one tile sees them, and the positions of their vertices relative to a light. On packs of doubles: one vertex a lane.
 #pragma once
 
 #include <cstddef>
@@ -14,38 +14,38 @@ struct TileArea {
   double radius;       // half its diagonal
 };
 
-// A convex polygon or a segment, counter-clockwise, the first vertex again and again beyond the last.
+// A convex polygon or a segment, counter-clockwise; the first vertex repeats beyond the last.
 struct PaddedOutline {
   static constexpr int kMost = 8;
   double x[kMost + 1], y[kMost + 1];
   int count;
 };
 
-// The same for all lights. Places are relative to the tile's centre; sets of vertices are bits.
+// Data that is the same for all lights. Places are relative to the tile's centre; sets of vertices are bits.
 struct Silhouette {
   static constexpr int kMost = PaddedOutline::kMost;
   enum class Kind : std::uint8_t { polygon, segment, disk };
   alignas(64) double x[kMost], y[kMost];  // as in the outline
-  Vec2d center;                           // of a bounding circle, a disk's own; its vertices are a diameter's ends
+  Vec2d center;                           // centre of a bounding circle, a disk's own; its vertices are a diameter's ends
   double radius;
   std::uint8_t count;
-  std::uint8_t begins, ends;  // those that some pixel may see it begin and end in, counter-clockwise
+  std::uint8_t begins, ends;  // vertices in which some pixel may see it begin and end, counter-clockwise
   Kind kind;
-  bool outside;  // all of the tile
+  bool outside;  // is all of the tile outside?
   Vec2d at(int k) const { return {x[k], y[k]}; }
 };
 
-// A line past a light and its tile, and on it the places beside the tile and beside the light: what is beyond the line and
-// between the two is seen, from all of the tile, beside the light.
+// A line past a light and its tile, and the places on it beside the tile and beside the light. A point beyond the line and between the two
+// is seen, from all of the tile, beside the light.
 struct HullSide {
   Vec2d normal, forward;
   double offset = 0, limit = 0;
-  double least = -1e300;  // edges: what is ahead of them may lie behind the tile. Of a disk it cannot
+  double least = -1e300;  // edges: a point ahead of them may lie behind the tile. For a disk it cannot
 };
 
 struct SeenLight {
   bool edge = false;
-  Vec2d normal;        // edge: to the lit side
+  Vec2d normal;        // edge: normal to the lit side
   Vec2d at;            // disk: centre
   double margin = 0;   // the tile's reach along the normal; its radius for a disk
   HullSide low, high;  // low: the clockwise side
@@ -57,7 +57,7 @@ struct VertexMarks {
 };
 
 struct SilhouetteTable {
-  // Vertices, count, begins and ends.
+  // Computes vertices, count, begins and ends.
   void (*outline)(const PaddedOutline& from, const TileArea& tile, Silhouette& s);
   VertexMarks (*mark)(const Silhouette& s, const SeenLight& light);
 };

@@ -29,7 +29,7 @@ STERADIAN_INLINE unsigned bits_where(const Silhouette& s, Test test) {
 }
 
 void outline(const PaddedOutline& from, const TileArea& tile, Silhouette& s) {
-  // How much of the tile sees the outer face of the edge that begins in a vertex: all, nothing, or a part.
+  // Visibility of the outer face of the edge that begins in a vertex: from all of the tile, from none, or from a part.
   unsigned seen = 0, unseen = 0;
   for (std::size_t i = 0; i < Silhouette::kMost; i += Doubles::size) {
     const Doubles cx(tile.center.x), cy(tile.center.y);
@@ -47,7 +47,7 @@ void outline(const PaddedOutline& from, const TileArea& tile, Silhouette& s) {
   unseen &= all;
   s.outside = seen != 0;
   if (s.count == 2) {
-    // Exactly the two faces of one edge.
+    // A segment has exactly the two faces of one edge.
     seen = (seen & 1) | (unseen & 1) << 1;
     unseen = (seen & 1) << 1 | seen >> 1;
   }
@@ -75,8 +75,8 @@ VertexMarks mark(const Silhouette& s, const SeenLight& light) {
       return x * Doubles(-light.normal.x) + y * Doubles(-light.normal.y) > Doubles(light.margin);
     });
   } else {
-    // In front of a pixel's axis is outside the circle over the light's centre and the vertex (Thales): over all
-    // pixels |v + l| > |v - l| + 2 margin, squared.
+    // A vertex is in front of a pixel's axis if it is outside the circle over the light's centre and the vertex (Thales). Over all pixels:
+    // v + l| > |v - l| + 2 margin, squared.
     ahead = bits_where(s, [&](Doubles x, Doubles y, std::size_t) {
       const Doubles lx(light.at.x), ly(light.at.y), clear(light.margin * light.margin);
       const Doubles front = x * lx + y * ly - clear, dx = x - lx, dy = y - ly;

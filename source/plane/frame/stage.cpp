@@ -19,7 +19,7 @@
 namespace steradian::plane {
 namespace {
 
-// A scene made ready, as it is drawn.
+// A prepared scene, in the state in which it is drawn.
 struct Ready {
   World world;
   Budget budget;
@@ -28,19 +28,19 @@ struct Ready {
       : world(scene, options.limits, World::Use::frames), budget(options.limits), prepared(world, budget, {}) {}
 };
 
-// Shares of lights that a stage keeps, at most, and of the memory it may take.
+// Limits of a stage's cached shares: bytes, and the divisor of the memory limit.
 constexpr std::uint64_t kMostShares = std::uint64_t{1} << 30, kShareOfMemory = 4;
 
-// Marks what a body has to do with in a frame of which it is part.
+// Marks the tiles that a body affects, in a frame that contains it.
 class Marking {
  public:
   Marking(const FrameScene& frame, const PixelGrid& grid, TileSet& tiles, ShareStore& store)
       : frame_(frame), world_(*frame.world), grid_(grid), tiles_(tiles), store_(store) {}
 
-  // A body that moves, comes or goes.
+  // Marks the tiles of a body that moves, is added or is removed.
   void mark(std::size_t body) {
     const Box& box = world_.boxes[body];
-    // Which pixels are within something, and which blocks all are.
+    // The pixels within bodies change, and the blocks that are filled entirely.
     for_each_tile(box.low, box.high, [&](int x, int y) {
       tiles_.mark(x, y, kTileSide);
       store_.at(x, y).kept = false;
@@ -55,7 +55,7 @@ class Marking {
         continue;
       }
       if (length(e.center - middle) > std::min(e.range, 1e8) + e.bound + radius) continue;
-      // What overlaps a light changes how it is taken apart, and what is seen from within.
+      // A body that overlaps a light changes its emitters, and the view from within.
       if (near(world_.boxes[owner], box))
         mark_range(index);
       else
@@ -63,7 +63,7 @@ class Marking {
     }
   }
 
-  // A light of another colour.
+  // Marks the tiles of a light that changes its colour.
   void mark_lit(std::size_t body) {
     for (std::size_t index = 0; index < frame_.emitters.size(); ++index)
       if (static_cast<std::size_t>(frame_.emitters[index].body) == body)
@@ -80,7 +80,7 @@ class Marking {
     return {grid_.at(column, row) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side), 0.5 * side * length(grid_.step)};
   }
 
-  // Tiles that a box comes near to.
+  // Calls `call` for the tiles that a box comes near to.
   template <class F>
   void for_each_tile(Vec2d low, Vec2d high, F call) {
     if (!(low.x <= high.x)) return;
@@ -94,7 +94,7 @@ class Marking {
         call(x * kTileSide, y * kTileSide);
   }
 
-  // All that an emitter may light.
+  // Calls `call` for all tiles that an emitter may light.
   template <class F>
   void for_each_tile_in_range(const Emitter& e, F call) {
     const double reach = std::min(e.range + e.bound, 1e9);
@@ -131,7 +131,7 @@ class Marking {
     }
   }
 
-  // By the hull of a square and the emitter, as lists are made on the way down.
+  // Marks by the hull of a square and the emitter, like the lists on the way down.
   void mark_hulls(const Emitter& e, std::size_t nearby, int x0, int y0, int side) {
     const int last = side == 256 ? 1 << 30 : 4;
     for (int j = 0; j < last && y0 + j * side < grid_.height; ++j)
@@ -170,22 +170,21 @@ namespace steradian {
 struct PlaneStage::Impl {
   PlaneScene scene;
   PlaneFrameOptions options;
-  std::unique_ptr<plane::Ready> ready;  // what is drawn
-  // Of the bodies: where each is in what is drawn, -1 for a new one; its number in the scene that was seen last; and what has become of it
-  // since.
+  std::unique_ptr<plane::Ready> ready;  // the prepared scene that is drawn
+  // State of each body: its place in the prepared scene, -1 for a new one; its number in the scene seen last; and its changes since.
   struct State {
     int place = -1, seen = -1;
     bool changed = true, recoloured = false;
   };
   std::vector<State> states;
   std::vector<std::size_t> gone;  // places
-  // Suns, mirrors and what takes light in add to what packs draw; clear bodies and fog change all of it.
+  // Suns, mirrors and absorbing bodies add to the result of packs; clear bodies and fog change all of it.
   enum class Extras { none, added, all };
   Extras extras = Extras::none;
   std::unique_ptr<PlaneWorld> seen;    // the world as it was drawn last, if it has extras
   std::vector<std::size_t> gone_seen;  // its bodies
-  bool other_sky = false;              // the scene's suns and fog are not those of what is drawn
-  Picture packs, added;                // the picture is their sum, where extras are added
+  bool other_sky = false;              // the scene's suns and fog differ from those drawn last
+  Picture packs, added;                // the picture is their sum, if extras are added
   std::unique_ptr<plane::ShareStore> store;
   Picture picture;
   PlaneStageStats stats;
@@ -221,7 +220,7 @@ void PlaneStage::Impl::draw() {
   if (kind != extras) forget();
   extras = kind;
   plane::TileSet tiles(plane::grid_of(scene, picture.width, picture.height));
-  // Of a scene that is refused half way, nothing is kept.
+  // If a scene is rejected half way, nothing is cached.
   try {
     if (kind == Extras::none)
       draw_by_packs(picture, tiles);
@@ -258,7 +257,7 @@ void PlaneStage::Impl::draw_by_packs(Picture& target, plane::TileSet& tiles) {
   redraw(plane::grid_of(ready->world.scene, target.width, target.height), target, tiles);
 }
 
-// Tiles to which something that has changed matters, as it was or as it is.
+// Tiles to which a changed body matters, in its old or its new state.
 plane::TileSet PlaneStage::Impl::tiles_to_see(const PlaneWorld& now, const plane::PixelGrid& grid) const {
   plane::TileSet tiles(grid);
   const auto of = [](const PlaneWorld& world) -> const plane::Extras& { return *world.impl().extras; };
@@ -318,14 +317,14 @@ void PlaneStage::Impl::redraw(const plane::PixelGrid& grid, Picture& target, pla
       else if (s.recoloured && s.place >= 0)
         before.mark_lit(static_cast<std::size_t>(s.place));
     if (general || !follow()) {
-      // Places and numbers are other ones now.
+      // Places and numbers are different now.
       stats.anew = true;
       ready = std::make_unique<plane::Ready>(scene, options);
       store->forget();
       for (std::size_t i = 0; i < states.size(); ++i) states[i].place = static_cast<int>(i);
     }
     const plane::FrameScene& frame = ready->prepared.frame();
-    // Thresholds that have moved, and lights that are asked of every pixel, spare no tile.
+    // If thresholds have moved, or lights are evaluated for every pixel, all tiles are drawn.
     if (general || frame.any_general || frame.slack != slack) std::fill(tiles.marked.begin(), tiles.marked.end(), 1);
     plane::Marking after(frame, grid, tiles, *store);
     for (const State& s : states)
@@ -338,7 +337,7 @@ void PlaneStage::Impl::redraw(const plane::PixelGrid& grid, Picture& target, pla
   store->keep_below(std::min(plane::kMostShares, options.limits.memory / plane::kShareOfMemory));
 }
 
-// Changes what is prepared as the scene has changed. False: it has to be prepared anew.
+// Applies the scene's changes to the prepared scene. Returns false if it must be prepared anew.
 bool PlaneStage::Impl::follow() {
   plane::World& world = ready->world;
   plane::Preparation& prepared = ready->prepared;

@@ -1,4 +1,4 @@
-// A stage's picture is the cold frame's, byte for byte, after any sequence of changes.
+// A stage's picture equals the cold frame's, byte for byte, after any sequence of changes.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -76,7 +76,7 @@ TEST(PlaneStage, EqualsTheColdFrameAfterAnySequence) {
       for (int i = 0; i < 25; ++i) scene.bodies.push_back(random_body(random, scene));
     }
     PlaneFrameOptions options;
-    if (kind == 1) options.limits.memory = 12'000'000;  // room for some of what lights send to tiles, not for all
+    if (kind == 1) options.limits.memory = 12'000'000;  // capacity for some of the cached light, not for all
     PlaneStage stage(scene, options);
     std::size_t drawn = 0, all = 0, anew = 0;
     for (int step = 0; step < 40; ++step) {
@@ -95,7 +95,7 @@ TEST(PlaneStage, EqualsTheColdFrameAfterAnySequence) {
   }
 }
 
-// Room for what stands in for blockers that overlap lights is counted from what a scene has of it to begin with.
+// The capacity for replacements of blockers that overlap lights depends on the number that a scene has at the beginning.
 TEST(PlaneStage, KeepsWhatIsReadyWhereManyThingsOverlap) {
   PlaneFrameOptions options;
   options.width = 192;

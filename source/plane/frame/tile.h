@@ -1,4 +1,4 @@
-// One tile of a frame and one emitter: what the packs integrate. Coordinates are floats relative to the tile's centre.
+// One tile of a frame and one emitter: the input of the packs' integration. Coordinates are floats relative to the tile's centre.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ inline constexpr int kTileSide = 16, kTilePixels = kTileSide * kTileSide;
 
 struct TileItem {
   float px, py, qx, qy;             // chord, in any order
-  float depth_x, depth_y, depth_c;  // the blocker is nearer where depth . (x, y, 1) > 0; only in deep items
+  float depth_x, depth_y, depth_c;  // the blocker is nearer if depth . (x, y, 1) > 0; only in deep items
 };
 
-// A blocker that reaches past the light on one side for all of the tile ends in a vertex.
+// The end vertex of a blocker that reaches past the light on one side for all of the tile.
 struct TileVertex {
   float x, y;
 };
 
-// A convex blocker in front of the light and of every pixel's axis: it is seen from the least of its first vertices to
-// the greatest of its others.
+// A convex blocker in front of the light and of every pixel's axis. It covers the directions from the least of its first vertices to the
+// greatest of its others.
 struct TileSpan {
-  int first, begins, ends;  // its vertices: where in TileLight::span_vertices, how many may begin and end it
+  int first, begins, ends;  // its vertices: index in TileLight::span_vertices, how many may begin and end it
 };
 
 // A convex blocker anywhere.
@@ -56,24 +56,24 @@ struct TileLens {
 
 // An arc of an ellipse: in its unit space, counter-clockwise from direction 0 over the middle one to direction 1.
 struct TileArc {
-  float x0, y0, x1, y1;          // its ends,
-  float u0, v0, u1, v1, um, vm;  // in unit space,
-  float least_cosine;            // of the angle between the middle and what is on the arc
-  bool whole;                    // all of the ellipse
-  bool between_tangents;         // slopes are from the middle of the tangents, not from the centre
-  float det;                     // of the half axes
-  float det_if_round;            // 0 where they differ
-  int nodes;                     // of Gauss' rule that serves all of the tile; 0: none does
+  float x0, y0, x1, y1;          // its ends
+  float u0, v0, u1, v1, um, vm;  // directions in unit space
+  float least_cosine;            // least cosine of the angle between the middle and a place on the arc
+  bool whole;                    // is it all of the ellipse?
+  bool between_tangents;         // slopes are relative to the middle of the tangents, not to the centre
+  float det;                     // determinant of the half axes
+  float det_if_round;            // 0 if they differ
+  int nodes;                     // number of nodes of Gauss' rule that serves all of the tile; 0: none does
   float ramp_x, ramp_y;          // radiance at p: red + red_slope dot(ramp, p - centre), ...
 };
 
 // One edge of a run.
 struct TilePart {
-  float x, y;                                // a point of its line,
+  float x, y;                                // a point of its line
   float nx, ny, begin, end;                  // as of an edge
   float red, green, blue;                    // at `begin` ...
   float red_slope, green_slope, blue_slope;  // ... and their change per distance along it
-  float from_x, from_y, to_x, to_y;          // its ends: where it begins and ends
+  float from_x, from_y, to_x, to_y;          // its ends
   bool small;                                // it faces all pixels, and none is nearer to it than five times its length
 };
 
@@ -90,8 +90,8 @@ struct TileLight {
   TileRound shape;  // disk, arc
   TileArc arc;
   TileSpot spot;
-  // Disk: centre and radius. Edge: foot on its line, unit normal towards the lit side, ends as distances along. Run: the normal is against
-  // a direction in which all of it is ahead of every pixel.
+  // Disk: centre and radius. Edge: foot on its line, unit normal towards the lit side, ends as distances along. Run: the normal is opposite
+  // to a direction in which all of it is ahead of every pixel.
   float x, y, radius;
   float nx, ny, begin, end;
   float inverse_range;                       // 0: no range
@@ -100,12 +100,12 @@ struct TileLight {
   int profile;                               // PlaneProfile as int
   bool linear;
 
-  const TilePart* parts;  // of a run whose edges shine each in its own way
+  const TilePart* parts;  // run whose edges have different emissions
   int part_count;
-  bool all_parts_seen;            // none of them is hidden by others
-  const TileVertex* low_corners;  // of a run: it is seen from the first of these
+  bool all_parts_seen;            // none of them is occluded by others
+  const TileVertex* low_corners;  // run: visible from the first of these
   int low_corner_count;
-  const TileVertex* high_corners;  // to the last of these
+  const TileVertex* high_corners;  // up to the last of these
   int high_corner_count;
   const TileVertex* lows;  // ends of blockers that begin before the light
   int low_count;
@@ -121,7 +121,7 @@ struct TileLight {
   int span_count;
   const TileBody* bodies;
   int body_count;
-  const TileVertex* span_vertices;  // of spans and bodies
+  const TileVertex* span_vertices;  // vertices of spans and bodies
   const TileItem* chords;           // any chord in front of the light
   int chord_count;
   const TileItem* deep;  // any chord, with a depth line
@@ -130,7 +130,7 @@ struct TileLight {
   int round_count;
   const TileLens* lenses;
   int lens_count;
-  float* scratch;  // 32 floats for each interval that may be taken
+  float* scratch;  // 32 floats for each interval that may be occluded
 };
 
 // The accumulators of a tile's pixels.
@@ -143,9 +143,9 @@ struct TileBuffer {
 inline constexpr unsigned kAllBlocks = 0xffff;
 
 struct TileTable {
-  // On blocks of 4 x 4 pixels: a set of bits, in the buffer's order.
+  // Adds light on blocks of 4 x 4 pixels: a set of bits, in the buffer's order.
   void (*add_light)(const TileLight& light, TileBuffer& tile, unsigned blocks);
-  // The buffer's first columns and rows as pixels of red, green and blue; `stride` floats from row to row.
+  // Writes the buffer's first columns and rows as pixels of red, green and blue; `stride` floats from row to row.
   void (*write)(const TileBuffer& tile, int width, int height, float* out, std::size_t stride);
 };
 

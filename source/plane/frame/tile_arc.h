@@ -1,10 +1,10 @@
-// What a visible piece of an arc sends, where that has no closed form: quadrature on as many pixels at once as a register
-// holds. For *_pack.cpp only.
+// Contribution of a visible piece of an arc without a closed form: quadrature on as many pixels at once as a register holds. For *_pack.cpp
+// only.
 //
-// In the space where the ellipse is the unit circle, a ray at the angle psi from the centre's direction passes it at the
-// distance d sin psi = sin beta, beta being the angle at which it hits. In beta nothing is singular at the tangents. Away from the arc
-// Gauss' rule of a few nodes serves, by what the tile knows of its distance (TileArc::nodes); near it, Gauss-Kronrod's in
-// z = tan(beta / 2), halved where it has to be.
+// In the space where the ellipse is the unit circle, a ray at the angle psi from the centre's direction passes it at the distance d sin psi
+// = sin beta; beta is the angle at which it hits. In beta nothing is singular at the tangents. Away from the arc Gauss' rule of a few nodes
+// is used; the tile's distance decides their number (TileArc::nodes). Near it, Gauss-Kronrod's rule in z = tan(beta / 2) is used, with
+// intervals halved if necessary.
 #pragma once
 
 #include "plane/frame/tile_cut.h"
@@ -16,7 +16,7 @@ struct ArcSum {
   PackReal constant{0.0}, ramp{0.0};  // integrals over directions: of 1, and of TileArc's ramp; times profile and range
 };
 
-// Gauss-Legendre, the nodes above 0: to polynomials of degree 2 n - 1. Abramowitz and Stegun, table 25.4.
+// Gauss-Legendre, the nodes above 0: exact to polynomials of degree 2 n - 1. Abramowitz and Stegun, table 25.4.
 struct ArcRule {
   float node[8], weight[8];
 };
@@ -38,7 +38,7 @@ class ArcIntegrand {
   STERADIAN_INLINE ArcIntegrand(const TileLight& light, const UnitPoint& eye)
       : light_(light), eye_(eye), d2_(max(eye.outside2, PackReal(1e-6)) + PackReal(1.0)), inverse_d2_(PackReal(1.0) / d2_) {}
 
-  // What is seen between two slopes.
+  // Adds the light between two slopes.
   STERADIAN_INLINE void add(const Axis& axis, PackReal from, PackReal to, ArcSum& sum) const {
     if (light_.arc.nodes > 0)
       add_smooth(incidence(sine_of(axis, from)), incidence(sine_of(axis, to)), sum);
@@ -47,7 +47,7 @@ class ArcIntegrand {
   }
 
  private:
-  // Of the angle of incidence, for the direction of a slope.
+  // Sine of the angle of incidence, for the direction of a slope.
   STERADIAN_INLINE PackReal sine_of(const Axis& axis, PackReal m) const {
     const TileRound& r = light_.shape;
     const PackReal x = axis.x - m * axis.y, y = axis.y + m * axis.x;
@@ -65,7 +65,7 @@ class ArcIntegrand {
     return select(sine < PackReal(0.0), -angle, angle);
   }
 
-  // To 1e-7 within a right angle: the series leave out x^13 / 13! and x^14 / 14!.
+  // Accurate to 1e-7 within a right angle: the series omit x^13 / 13! and x^14 / 14!.
   STERADIAN_INLINE static void sine_and_cosine(PackReal x, PackReal& s, PackReal& c) {
     const PackReal q = x * x;
     s = x * (PackReal(1.0) +
@@ -77,7 +77,7 @@ class ArcIntegrand {
                                             q * (PackReal(1.0 / 40320) + q * (PackReal(-1.0 / 3628800) + q * PackReal(1.0 / 479001600))))));
   }
 
-  // Gauss' rule in the angle of incidence; nodes in pairs about the middle share the sine and cosine of their distance from it.
+  // Gauss' rule in the angle of incidence; nodes in pairs around the middle share the sine and cosine of their distance from it.
   STERADIAN_INLINE void add_smooth(PackReal from, PackReal to, ArcSum& sum) const {
     const ArcRule& rule = arc_rule(light_.arc.nodes);
     const PackReal half = PackReal(0.5) * (to - from);
@@ -95,9 +95,9 @@ class ArcIntegrand {
     sum.ramp += half * ramp;
   }
 
-  // Halves what 15 nodes do not serve. Beside the outline, directions change within a small part of the arc; the halves
-  // then shrink towards it. What is still not served after so many halvings, or is no number, is taken as it is: the right half of a
-  // half waits in its place, so that the depth alone would not end it.
+  // Halves intervals for which 15 nodes are not enough. Beside the outline, directions change within a small part of the arc; the halves
+  // then shrink towards it. An interval that still fails after the most halvings, or is not a number, is accepted as it is. The right half
+  // of a half waits in its place, so that the depth alone would not end the loop.
   STERADIAN_INLINE void add_halving(PackReal from, PackReal to, ArcSum& sum) const {
     alignas(64) float ends[kDeepest * kLanes];
     int waiting = 0, halvings = 0;
@@ -119,10 +119,10 @@ class ArcIntegrand {
   }
 
   static constexpr int kDeepest = 12, kMostHalvings = 64;
-  // What the two rules may differ by, of 2 pi, the emission of a light all around; of the part's own light where that is more, or is
-  // divided by the distance. Where Gauss' 7 nodes, exact to degree 13, are off by rho^-14, Kronrod's 15, exact to degree 22, are off by
-  // rho^-23: by (2e-4)^(23/14) = 8e-7. Their difference swings about 0, so that it may be small by accident: a second null rule has to
-  // be as small, Legendre's P12 by Kronrod's rule, 0 up to degree 11. Of 60,000 functions (z - x)^-p with poles at random about the
+  // Largest difference of the two rules, relative to 2 pi, the emission of a light all around; relative to the part's own light if that is
+  // more, or is divided by the distance. Where Gauss' 7 nodes, exact to degree 13, are off by rho^-14, Kronrod's 15, exact to degree 22,
+  // are off by rho^-23: by (2e-4)^(23/14) = 8e-7. Their difference oscillates around 0, so that it may be small by accident. A second null
+  // rule must be as small: Legendre's P12 by Kronrod's rule, 0 up to degree 11. Of 60,000 functions (z - x)^-p with random poles around the
   // part, the 15 nodes are then off by 1.1e-5 at most, and by 4e-2 without it.
   static constexpr double kOff = 2e-4, kNullOff = 1.2e-4;
 
@@ -130,7 +130,7 @@ class ArcIntegrand {
     PackReal weight, ramp;
   };
 
-  // At an angle of incidence with this sine and cosine: what there is for each unit of it.
+  // Value for each unit of an angle of incidence with this sine and cosine.
   STERADIAN_INLINE Node at(PackReal s, PackReal c) const {
     const TileRound& r = light_.shape;
     const PackReal root2 = max(d2_ - s * s, PackReal(1e-12)), inverse_root = inversesqrt(root2), root = root2 * inverse_root, t = root - c;
@@ -144,8 +144,8 @@ class ArcIntegrand {
       far2 = t * t * broadcast(light_.arc.det_if_round);
       if (light_.linear) u = (-eye_.u * root + eye_.v * s) * inverse_d2_, v = (-eye_.v * root - eye_.u * s) * inverse_d2_;
     } else {
-      // The ray's direction in unit space, from there in the plane: as long as the two spaces differ along it, and the angle in the
-      // plane is det / m2 times as much.
+      // The ray's direction in unit space, and from there in the plane. Its length is the ratio of the two spaces along it, and the angle
+      // in the plane is det / m2 times as large.
       u = (-eye_.u * root + eye_.v * s) * inverse_d2_, v = (-eye_.v * root - eye_.u * s) * inverse_d2_;
       const PackReal x = u * broadcast(r.xx) + v * broadcast(r.yx), y = u * broadcast(r.xy) + v * broadcast(r.yy), m2 = x * x + y * y;
       node.weight *= quotient(broadcast(light_.arc.det), m2);
@@ -177,7 +177,7 @@ class ArcIntegrand {
     return node;
   }
 
-  // Gauss-Kronrod, 7 and 15 nodes; Piessens et al., QUADPACK, 1983. False where the two differ, or the null rule is not near 0.
+  // Gauss-Kronrod, 7 and 15 nodes; Piessens et al., QUADPACK, 1983. Returns false if the two differ, or the null rule is not near 0.
   STERADIAN_INLINE bool add_part(PackReal from, PackReal to, ArcSum& sum) const {
     static constexpr double kNode[8] = {0.991455371120812639, 0.949107912342758525, 0.864864423359769073, 0.741531185599394440,
                                         0.586087235467691130, 0.405845151377397167, 0.207784955007898468, 0.0};

@@ -1,8 +1,7 @@
-// What the blockers of a tile leave of a light, as many pixels at once as a register holds. For *_pack.cpp only.
+// The part of a light that the blockers of a tile leave visible, for as many pixels at once as a register holds. For *_pack.cpp only.
 //
-// Every direction is a slope: the tangent of its angle from an axis, the direction of a disk's centre or an edge's
-// normal. Blockers cut [-limit, limit] of the light's slopes down from both ends; the few that lie strictly within are
-// kept, sorted.
+// Every direction is a slope: the tangent of its angle from an axis, the direction of a disk's centre or an edge's normal. Blockers reduce
+// the light's slopes [-limit, limit] from both ends. The few intervals that lie strictly within are stored, sorted.
 #pragma once
 
 #include "core/pack.h"
@@ -19,7 +18,7 @@ STERADIAN_INLINE void add(float* p, PackReal x) { store(p, load(p) + x); }
 // The light's slopes that are still visible.
 struct Cut {
   PackReal low, high;
-  float* kept;  // begin and end of each interval; room for all the tile's items
+  float* kept;  // begin and end of each interval; capacity for all the tile's items
   int count = 0;
 
   STERADIAN_INLINE float* begin_of(int k) const { return kept + static_cast<std::size_t>(2 * k) * kLanes; }
@@ -27,9 +26,9 @@ struct Cut {
 
   STERADIAN_INLINE bool dark() const { return all_lanes(low >= high); }
 
-  // Takes [from, to] away where `valid`.
+  // Removes [from, to] where `valid`.
   STERADIAN_INLINE void take(PackReal from, PackReal to, PackMask valid) {
-    from = select(valid, from, PackReal(kBeyond));  // an interval at the far end takes nothing
+    from = select(valid, from, PackReal(kBeyond));  // an interval at the far end removes nothing
     to = select(valid, to, PackReal(kBeyond));
     from = max(from, low);
     const PackMask left = from <= low;
@@ -43,8 +42,8 @@ struct Cut {
       insert(select(within, from, PackReal(kBeyond)), select(within, to, PackReal(kBeyond)));
   }
 
-  // Sorted by begin, lane by lane. Mostly they come in that order already, and go on where the last one ends: then the last
-  // one grows. Lanes that take nothing have both ends beyond.
+  // Inserts sorted by begin, lane by lane. Mostly intervals arrive in that order, and continue where the last one ends: then the last one
+  // grows. Lanes that remove nothing have both ends beyond.
   STERADIAN_INLINE void insert(PackReal from, PackReal to) {
     if (count > 0) {
       const PackReal b = load(begin_of(count - 1)), e = load(end_of(count - 1));
@@ -71,7 +70,7 @@ struct Cut {
     }
   }
 
-  // What is taken from within [low, high], without overlaps.
+  // Calls f for the intervals removed from within [low, high], without overlaps.
   template <class F>
   STERADIAN_INLINE void for_each_taken(F f) const {
     PackReal at = low;
@@ -107,7 +106,7 @@ STERADIAN_INLINE PackReal quotient(PackReal a, PackReal b) {
 #endif
 }
 
-// The slope of a direction (w along the axis, t across it), `beyond` where it is not in front.
+// The slope of a direction (w along the axis, t across it), or `beyond` if it is not in front.
 STERADIAN_INLINE PackReal slope(PackReal w, PackReal t, PackReal beyond) {
   const PackReal q = quotient(t, max(w, PackReal(1e-12)));
   return select(w > PackReal(1e-12), clamp(q, PackReal(-kBeyond), PackReal(kBeyond)), beyond);
@@ -133,7 +132,7 @@ STERADIAN_INLINE void take_blocker(const TileSpan& span, const TileVertex* verti
   cut.take(from, to, from < to);
 }
 
-// Two directions that span less than half a turn, in any order, also behind the pixel.
+// Removes the span of two directions less than half a turn apart, in any order, also behind the pixel.
 STERADIAN_INLINE void take_span(PackReal pw, PackReal pt, PackReal qw, PackReal qt, PackMask valid, Cut& cut) {
   const PackMask swap = pw * qt - pt * qw < PackReal(0.0);
   const PackReal aw = select(swap, qw, pw), at = select(swap, qt, pt), bw = select(swap, pw, qw), bt = select(swap, pt, qt);
@@ -152,7 +151,7 @@ STERADIAN_INLINE PackMask nearer(const Item& item, const Axis& axis) {
   return broadcast(item.depth_x) * axis.px + broadcast(item.depth_y) * axis.py + broadcast(item.depth_c) > PackReal(0.0);
 }
 
-// The blocker's tangents: its most clockwise and counter-clockwise vertices.
+// Removes the directions between the blocker's tangents: its most clockwise and counter-clockwise vertices.
 STERADIAN_INLINE void take_body(const TileBody& body, const TileVertex* vertices, const Axis& axis, Cut& cut) {
   const TileVertex* v = vertices + body.vertices.first;
   const auto outermost = [&](const TileVertex* candidates, int count, PackReal sign, PackReal& w, PackReal& t) {
@@ -186,7 +185,7 @@ struct UnitPoint {
   }
 };
 
-// Tangent directions of an ellipse seen from a point: p the clockwise one.
+// Tangent directions of an ellipse from a point: p is the clockwise one.
 struct TangentVectors {
   PackReal px, py, qx, qy;
   STERADIAN_INLINE TangentVectors(const TileRound& r, const UnitPoint& eye) {
@@ -210,7 +209,7 @@ STERADIAN_INLINE Tangents tangents(const TileRound& r, const UnitPoint& eye, con
   return {axis.w(t.px, t.py), axis.t(t.px, t.py), axis.w(t.qx, t.qy), axis.t(t.qx, t.qy), eye.outside2 > PackReal(0.0)};
 }
 
-// Slopes of a disk's tangents, the disk in front of the axis: its clockwise one and the other.
+// Slopes of a disk's tangents, with the disk in front of the axis: its clockwise one and the other.
 struct DiskTangents {
   PackReal x, y, root, radius;  // the centre from the pixel, the length of a tangent
   STERADIAN_INLINE DiskTangents(const TileDisk& disk, const Axis& axis) {
@@ -224,13 +223,13 @@ struct DiskTangents {
   STERADIAN_INLINE static PackReal along(const Axis& axis, PackReal dx, PackReal dy) { return quotient(axis.t(dx, dy), axis.w(dx, dy)); }
 };
 
-// On the line from the eye through a point of the ellipse, a share 1 of the way: the share at which it enters.
+// On the line from the eye through a point of the ellipse, at the fraction 1 of the way: the fraction at which it enters.
 STERADIAN_INLINE PackReal entry_before(const TileRound& r, const UnitPoint& eye, PackReal x, PackReal y) {
   const PackReal u = x * broadcast(r.ux) + y * broadcast(r.uy), v = x * broadcast(r.vx) + y * broadcast(r.vy);
   return min(quotient(max(eye.outside2, PackReal(0.0)), max(u * u + v * v, PackReal(1e-30))), PackReal(1.0));
 }
 
-// Two convex outlines that cross: which is nearer changes only at a crossing that is seen on both.
+// Two convex outlines that cross: the nearer one changes only at a crossing that is visible on both.
 STERADIAN_INLINE void take_lens(const TileLens& lens, const TileLight& light, const Axis& axis, Cut& cut) {
   const UnitPoint eye(lens.round, axis.px, axis.py);
   const Tangents t = tangents(lens.round, eye, axis);
@@ -246,15 +245,15 @@ STERADIAN_INLINE void take_lens(const TileLens& lens, const TileLight& light, co
     at[i] = slope(axis.w(x, y), axis.t(x, y), PackReal(0.0));
     any = any || seen[i];
   }
-  // None seen: the order is the same everywhere, also towards the first crossing.
+  // No crossing is visible: the order is the same everywhere, also towards the first crossing.
   const PackReal x = broadcast(lens.crossings[0].x) - axis.px, y = broadcast(lens.crossings[0].y) - axis.py;
   PackReal light_entry(1.0);
   if (light.kind != TileKind::edge) light_entry = entry_before(light.shape, UnitPoint(light.shape, axis.px, axis.py), x, y);
   const PackMask in_front = !any && entry_before(lens.round, eye, x, y) < light_entry;
   if (any_lane(in_front && valid)) cut.take(p, q, in_front && valid);
   if (!any_lane(any && valid)) return;
-  // In front from each crossing where it begins to be, up to the next where it ends; from its tangent up to one where
-  // it ends and none has begun.
+  // The blocker is in front from each crossing where this begins, up to the next where it ends. It is also in front from its tangent up to
+  // a crossing where it ends, if none has begun.
   for (int i = 0; i < lens.count; ++i) {
     const bool begins = lens.crossings[i].begins;
     PackReal from = begins ? at[i] : p, to = begins ? q : at[i];
@@ -268,7 +267,7 @@ STERADIAN_INLINE void take_lens(const TileLens& lens, const TileLight& light, co
   }
 }
 
-// Leaves the directions in which a spot's light arrives.
+// Restricts the cut to the directions in which a spot's light arrives.
 STERADIAN_INLINE void cut_spot(const TileSpot& spot, const Axis& axis, Cut& cut) {
   const PackReal low_x = broadcast(spot.low_x), low_y = broadcast(spot.low_y), high_x = broadcast(spot.high_x),
                  high_y = broadcast(spot.high_y);
@@ -283,7 +282,7 @@ STERADIAN_INLINE void cut_spot(const TileSpot& spot, const Axis& axis, Cut& cut)
   cut.high = select(either, min(cut.high, slope(hw, ht, PackReal(kBeyond))), cut.low);
 }
 
-// False where nothing is left on any lane.
+// Returns false if nothing remains on any lane.
 STERADIAN_INLINE bool cut_blockers(const TileLight& light, const Axis& axis, Cut& cut) {
   if (light.spot.present) cut_spot(light.spot, axis, cut);
   for (int i = 0; i < light.low_count; ++i) cut.low = max(cut.low, slope_to(light.lows[i], axis));

@@ -1,4 +1,4 @@
-// A round light on the pixels of one tile, by the slopes that blockers leave of it. For *_pack.cpp only.
+// A round light on the pixels of one tile, by the slopes that blockers leave visible. For *_pack.cpp only.
 #pragma once
 
 #include "plane/frame/tile_cut.h"
@@ -6,8 +6,8 @@
 namespace steradian::plane::STERADIAN_ISA {
 namespace {
 
-// Where a disk with a range is seen, on one tile. Blocks of pixels are integrated end by end in loops of their own:
-// without branches, many ends are under way at once.
+// Ends of the visible parts of a disk with a range, on one tile. Blocks of pixels are integrated end by end in separate loops: without
+// branches, many ends are in flight at once.
 struct DiskEnds {
   static constexpr int kRoom = 64;
   alignas(64) float d2[kTilePixels];  // the centre's distance squared, range 1
@@ -19,7 +19,7 @@ struct DiskEnds {
   // Ends at a tangent of the disk.
   alignas(64) float tangent[kTilePixels];
   int tangent_pixel[kTilePixels / kLanes];
-  float tangent_sign[kTilePixels / kLanes];  // 2 where both are
+  float tangent_sign[kTilePixels / kLanes];  // 2 if both are
   int tangent_count = 0;
   PackReal rho2;
 
@@ -88,7 +88,7 @@ void add_ranged_disk(const TileLight& light, TileBuffer& tile, unsigned blocks) 
     const PackMask leaves = d2 - ends.rho2 > PackReal(1.0);
     const bool within = !any_lane(leaves);
     if (!within) {
-      // Where the near side leaves the range before the tangent: law of cosines, R = 1.
+      // The near side leaves the range before the tangent: law of cosines, R = 1.
       const PackReal numerator = d2 + PackReal(1.0) - ends.rho2;
       const PackReal sine2 = PackReal(4.0) * d2 - numerator * numerator;
       const PackReal reach = PackKernels().plane_root(max(sine2, PackReal(0.0))) / numerator;
@@ -100,7 +100,7 @@ void add_ranged_disk(const TileLight& light, TileBuffer& tile, unsigned blocks) 
     lit[lit_count++] = i;
     store(ends.d2 + i, d2);
     store(ends.sum + i, PackReal(0.0));
-    // The integral over [low, high] without what is taken from within; where low has passed high, over nothing.
+    // The integral over [low, high] without the removed intervals; if low has passed high, over nothing.
     const bool high_open = within && all_lanes(cut.high >= reached), low_open = within && all_lanes(cut.low <= -reached);
     if (high_open && low_open) {
       ends.push_tangent(i, reached, 2.0f);

@@ -1,5 +1,4 @@
-// The inner loop of a frame: one light on the pixels of one tile. What the blockers leave of it is integrated in closed
-// form.
+// The inner loop of a frame: one light on the pixels of one tile. The part that blockers leave visible is integrated in closed form.
 #include "plane/frame/tile_arc.h"
 #include "plane/frame/tile_cut.h"
 #include "plane/frame/tile_disk.h"
@@ -82,7 +81,7 @@ STERADIAN_INLINE void open_arc(const TileLight& light, const UnitPoint& eye, Axi
   cut.high = slope(axis.w(t.qx, t.qy), axis.t(t.qx, t.qy), PackReal(kBeyond));
   PackMask outside = eye.outside2 > PackReal(1e-6);
   if (!arc.whole) {
-    // Seen from outside, the near side runs clockwise: the arc's first end is the high one.
+    // From outside, the near side runs clockwise: the arc's first end is the high one.
     const PackMask first = eye.u * broadcast(arc.u0) + eye.v * broadcast(arc.v0) > PackReal(1.0),
                    last = eye.u * broadcast(arc.u1) + eye.v * broadcast(arc.v1) > PackReal(1.0);
     const PackReal d = sqrt(eye.outside2 + PackReal(1.0)), middle = eye.u * broadcast(arc.um) + eye.v * broadcast(arc.vm);

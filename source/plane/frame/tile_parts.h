@@ -1,4 +1,4 @@
-// The edges of a run on the pixels of one tile: each over what blockers leave of the run's chord. For *_pack.cpp only.
+// The edges of a run on the pixels of one tile: each over the part of the run's chord that blockers leave visible. For *_pack.cpp only.
 #pragma once
 
 #include "plane/frame/tile_cut.h"
@@ -6,7 +6,7 @@
 namespace steradian::plane::STERADIAN_ISA {
 namespace {
 
-// What an edge of a run sends from [from, to] of the run's slopes. power: 1 where emission falls with the cosine or the distance.
+// Contribution of an edge of a run from [from, to] of the run's slopes. power: 1 if emission falls with the cosine or the distance.
 template <bool ranged, bool linear, int power>
 class PartIntegral {
  public:
@@ -15,7 +15,7 @@ class PartIntegral {
     axis_.py = run.py;
     axis_.x = broadcast(-part.nx);
     axis_.y = broadcast(-part.ny);
-    // Of the run's axis, seen from this one: a slope m of the run is the direction axis + m across.
+    // The run's axis relative to this one: a slope m of the run is the direction axis + m across.
     cosine_ = axis_.w(run.x, run.y);
     sine_ = axis_.t(run.x, run.y);
     const PackReal d = axis_.w(broadcast(part.x) - axis_.px, broadcast(part.y) - axis_.py);
@@ -55,7 +55,7 @@ class PartIntegral {
   }
 
  private:
-  // Of kinds that do not need the angle, the compiler leaves it out.
+  // The compiler removes the angle for kinds that do not need it.
   template <int j>
   STERADIAN_INLINE PackReal antiderivative(PackReal t) const {
     PackKernels k;
@@ -70,9 +70,9 @@ class PartIntegral {
   PackReal constant_{0.0}, slope_{0.0};
 };
 
-// The same of an edge of uniform or linear radiance without a range that is small as every pixel sees it: between two points of it at
-// distances r0 and r1, the angle is atan(cross / dot), and ln(r1 / r0), the integral of tan f, is atanh((r1^2 - r0^2) / (r1^2 + r0^2)).
-// Both arguments are below 1/5, so that x^9 / 9 < 6e-8 is what their series leave out.
+// The same for an edge of uniform or linear radiance without a range that is small for every pixel. Between two points of it at distances
+// r0 and r1, the angle is atan(cross / dot). ln(r1 / r0), the integral of tan f, is atanh((r1^2 - r0^2) / (r1^2 + r0^2)). Both arguments
+// are below 1/5, so that their series omit x^9 / 9 < 6e-8.
 class SmallPart {
  public:
   STERADIAN_INLINE SmallPart(const TilePart& part, const Axis& run) : part_(part) {
@@ -86,7 +86,7 @@ class SmallPart {
     w1_ = run.w(x1_, y1_);
   }
   STERADIAN_INLINE void add_all() { add_between(x0_, y0_, x1_, y1_); }
-  // What lies between two slopes of the run.
+  // Adds the light between two slopes of the run.
   STERADIAN_INLINE void add(PackReal from, PackReal to) {
     const PackReal low = share_at(from), high = share_at(to), dx = x1_ - x0_, dy = y1_ - y0_;
     if (!any_lane(high > low)) return;
@@ -95,7 +95,7 @@ class SmallPart {
   }
   STERADIAN_INLINE void add_to(PackReal& red, PackReal& green, PackReal& blue) const {
     const PackReal scale(0.159154943091895336), nx = broadcast(part_.nx), ny = broadcast(part_.ny);
-    // Towards the edge is against its normal; along it is (ny, -nx).
+    // The direction towards the edge is against its normal; along it is (ny, -nx).
     const PackReal d = -(nx * x0_ + ny * y0_), foot = nx * y0_ - ny * x0_;
     const PackReal constant = angle_ * scale, at_foot = foot * constant + logarithm_ * scale * d;
     red += broadcast(part_.red) * constant + broadcast(part_.red_slope) * at_foot;
@@ -125,7 +125,7 @@ class SmallPart {
   PackReal angle_{0.0}, logarithm_{0.0};
 };
 
-// A function of its own for each kind of emission: inlined, they would take registers from the others.
+// A separate function for each kind of emission: inlined, they would take registers from each other.
 template <bool ranged, bool linear, int power>
 __attribute__((flatten, noinline)) void add_parts_of(const TileLight& light, TileBuffer& tile, int i, const Axis& axis, const Cut& cut,
                                                      bool whole) {
@@ -149,7 +149,7 @@ __attribute__((flatten, noinline)) void add_parts_of(const TileLight& light, Til
   add(tile.blue + i, blue);
 }
 
-// `whole`: blockers take nothing of it.
+// `whole`: blockers occlude nothing of it.
 STERADIAN_INLINE void add_parts(const TileLight& light, TileBuffer& tile, int i, const Axis& axis, const Cut& cut, bool whole) {
   const int kind = (light.inverse_range > 0.0f ? 4 : 0) + (light.linear ? 2 : 0) + (light.profile == 0 ? 0 : 1);
   switch (kind) {

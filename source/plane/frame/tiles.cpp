@@ -1,5 +1,5 @@
-// A frame by tile recursion: 256, 128, 64, 32, 16 pixels. At every level a light keeps only the blockers that touch the
-// hull of tile and light, and is dropped where one of them hides it from all of the tile.
+// A frame by tile recursion: 256, 128, 64, 32, 16 pixels. At every level a light keeps only the blockers that touch the hull of tile and
+// light. It is dropped if one of them occludes it from all of the tile.
 #include "plane/frame/tiles.h"
 
 #include <tbb/parallel_for.h>
@@ -26,13 +26,14 @@ constexpr int kLevels = 5;
 struct Entry {
   int emitter;
   std::size_t begin, end;  // its blockers in the level's list
-  std::size_t group = 1;  // with the entries of what it stands for, which follow it; a run without them is seen as one from all of the tile
+  // Number of entries, itself and those that it represents, which follow it; a run without them is visible as one from all of the tile.
+  std::size_t group = 1;
 };
 
 struct Level {
   std::vector<Entry> entries;
   BlockerList blockers;
-  std::vector<int> bodies;   // whose boxes touch the tile
+  std::vector<int> bodies;   // bodies whose boxes touch the tile
   std::vector<int> general;  // general lights in range
 };
 
@@ -60,7 +61,7 @@ class Worker {
       }
   }
 
-  // The 256 pixels from (x, y) on.
+  // Renders the 256 pixels from (x, y) on.
   void run(int x, int y) {
     Level& top = levels_[0];
     top.entries.clear();
@@ -101,7 +102,7 @@ class Worker {
     return length(gap) < world_.scene.bodies[body].light->range;
   }
 
-  // Appends an emitter; of a run that does not face all of the tile, what it stands for, too.
+  // Appends an emitter; for a run that does not face all of the tile, also the emitters that it represents.
   void take_first(std::size_t index, const TileArea& tile, Level& to) {
     const Emitter& e = frame_.emitters[index];
     const bool whole = frame_.whole_run[index] != 0;
@@ -118,7 +119,7 @@ class Worker {
     if (whole) close_group(at, to);
   }
 
-  // The same of entries of the level above, the first one and what it stands for.
+  // The same for entries of the level above: the first one and the entries that it represents.
   void take(const Level& from, std::size_t first, const TileArea& tile, Level& to) {
     const Entry& entry = from.entries[first];
     const Facing faces = entry.group > 1 ? seen_as_one(&frame_.emitters[static_cast<std::size_t>(entry.emitter)], tile) : Facing::all;
@@ -129,7 +130,7 @@ class Worker {
     close_group(at, to);
   }
 
-  // A run of which nothing else is left goes, too.
+  // Removes a run if none of its parts remains.
   static void close_group(std::size_t at, Level& to) {
     const std::size_t group = to.entries.size() - at;
     if (group == 1)
@@ -138,7 +139,7 @@ class Worker {
       to.entries[at].group = group;
   }
 
-  // Appends the emitter with those of from[begin, end) that touch the hull of it and the tile, unless it cannot be seen: then false.
+  // Appends the emitter with those of from[begin, end) that touch the hull of it and the tile. Returns false if it is invisible.
   bool filter(int index, const BlockerList& from, std::size_t begin, std::size_t end, const TileArea& tile, Level& to) {
     const Emitter& e = frame_.emitters[static_cast<std::size_t>(index)];
     const double half = tile.radius, bound = e.bound;
@@ -162,12 +163,12 @@ class Worker {
 
   bool hides(int blocker, const Emitter& e, const TileArea& tile) const {
     const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
-    // Within a chain's hull, its edges are seen, or not.
+    // Within a chain's hull, its edges decide on their own.
     if (b.edges != 0 && length(b.center - tile.center) < b.bound + tile.radius) return false;
     return plane::hides(&frame_.vertices[b.first], b.count, e, tile);
   }
 
-  // Fills a tile that one convex occluder holds all of.
+  // Fills a tile that lies entirely within one convex occluder.
   bool stays_dark(const Level& level, int x0, int y0, int side) {
     const int x1 = std::min(x0 + side, grid_.width) - 1, y1 = std::min(y0 + side, grid_.height) - 1;
     for (int i : level.bodies) {
@@ -217,7 +218,7 @@ class Worker {
     const unsigned wanted = only_ == nullptr || only_->blocks.empty() ? kAllBlocks : only_->blocks_of(x0, y0);
     filling_.find(level.bodies, x0, y0, tile);
     if (lists_ != nullptr) lists_->begin_tile(x0, y0, tile.center);
-    // Where something fills every pixel, no light arrives from outside.
+    // If every pixel is filled, no light arrives from outside.
     const bool filled = filling_.all();
     for (const Entry& e : level.entries) {
       if (filled) break;
@@ -245,7 +246,7 @@ class Worker {
     if (!level.general.empty()) add_general(level, tile, x0, y0);
   }
 
-  // Lights without a rule of their own, one by one: the envelope of what touches the hull of tile and light.
+  // Lights without a special rule, one by one: the envelope of the curves that touch the hull of tile and light.
   void add_general(const Level& level, const TileArea& tile, int x0, int y0) {
     for (int light : level.general) {
       collect_general_curves(static_cast<std::size_t>(light), tile);
@@ -264,7 +265,7 @@ class Worker {
     const double size = radius(world_.boxes[light]), wide = std::max(size, tile.radius), l2 = dot(to, to);
     general_curves_.clear();
     for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
-      // Within the wider of the two radii of the line between the two.
+      // A body counts within the wider of the two radii of the line between the two.
       const Vec2d at = middle(world_.boxes[i]) - tile.center;
       const double t = l2 > 0 ? std::clamp(dot(at, to) / l2, 0.0, 1.0) : 0, limit = wide + radius(world_.boxes[i]);
       const Vec2d away = at - to * t;

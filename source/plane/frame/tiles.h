@@ -13,7 +13,7 @@
 namespace steradian::plane {
 
 struct PixelGrid {
-  Vec2d origin, step;  // the picture's corner, a pixel's size
+  Vec2d origin, step;  // the picture's corner, the size of a pixel
   int width, height;
   Vec2d at(int x, int y) const { return {origin.x + step.x * (x + 0.5), origin.y + step.y * (y + 0.5)}; }
 };
@@ -22,12 +22,12 @@ struct PixelGrid {
 struct TileSet {
   int columns, rows;
   std::vector<char> marked;
-  std::vector<std::uint16_t> blocks;  // of the tiles: those of 4 x 4 pixels that want light, in the buffer's order; empty: all
+  std::vector<std::uint16_t> blocks;  // by tile: the blocks of 4 x 4 pixels that need light, in the buffer's order; empty: all
   explicit TileSet(const PixelGrid& grid)
       : columns((grid.width + kTileSide - 1) / kTileSide),
         rows((grid.height + kTileSide - 1) / kTileSide),
         marked(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0) {}
-  // The tiles of a square of so many pixels from (x, y) on.
+  // Marks the tiles of a square of `side` pixels from (x, y) on.
   void mark(int x, int y, int side);
   bool any(int x, int y, int side) const;
   unsigned blocks_of(int x, int y) const {
@@ -35,13 +35,13 @@ struct TileSet {
   }
 };
 
-// Fills the picture's pixels, or those of some tiles, and the counts of the statistics. With a store, what round lights send to a tile is
-// kept there, and worked out anew only where that has changed.
+// Fills the picture's pixels, or those of some tiles, and the counts of the statistics. With a store, the light of round lights on a tile
+// is cached there, and computed again only if it has changed.
 void render_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, Picture& picture,
                   PlaneFrameStats& stats, const TileSet* only = nullptr, ShareStore* store = nullptr);
 
-// The same with tiles' light left to the lists of each square of 256 pixels, which are asked for by the square's number, row by row, from
-// any thread. What the host alone knows is in the picture: pixels that something fills, and lights that only the general method serves.
+// The same, but the light of tiles goes to the lists of each square of 256 pixels. They are requested by the square's number, row by row,
+// from any thread. The picture holds the parts that only the host computes: filled pixels, and lights that only the general method serves.
 using ListsOfSquare = std::function<TileLists&(std::size_t square)>;
 std::size_t squares_of(const PixelGrid& grid);
 void list_tiles(const FrameScene& frame, const PlaneFrameOptions& options, const PixelGrid& grid, const ListsOfSquare& lists,

@@ -1,4 +1,4 @@
-// Walls that send light on (plane/bounce) as emitters of a frame.
+// Walls that reflect light (plane/bounce) as emitters of a frame.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace steradian::plane {
 
 enum class WallLight { radiance, error };
 
-// Of all elements, edges in the runs of their walls.
+// Emitters of all elements, with edges in the runs of their walls.
 std::vector<Emitter> wall_emitters(const PlaneBounces::Impl& bounces, WallLight what);
 
 }  // namespace steradian::plane

@@ -1,4 +1,4 @@
-// The animations of SMIL in a drawing, put into its elements as the attributes that they have at a time.
+// The SMIL animations of a drawing, written into its elements as the attributes that they have at a time.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,13 +21,13 @@
 namespace steradian::plane::svg {
 namespace {
 
-constexpr double kMotionFlatness = 1e-5;  // of a motion's path, as a share of the picture's larger side
+constexpr double kMotionFlatness = 1e-5;  // for a motion's path, as a fraction of the picture's larger side
 
 bool is_animation(std::string_view name) {
   return name == "animate" || name == "set" || name == "animateTransform" || name == "animateMotion" || name == "animateColor";
 }
 
-// Elements of some names in the file's order; not recursive, since files may nest as deep as they like.
+// Elements of some names in the file's order. The search is not recursive, since files may nest to any depth.
 std::vector<pugi::xml_node> animations_of(pugi::xml_node root) {
   std::vector<pugi::xml_node> open{root}, found;
   while (!open.empty()) {
@@ -42,7 +42,7 @@ std::vector<pugi::xml_node> animations_of(pugi::xml_node root) {
   return found;
 }
 
-// Where a Bezier curve from (0, 0) to (1, 1) has this x: keySplines.
+// The value at x of a Bezier curve from (0, 0) to (1, 1): keySplines.
 double on_spline(const std::vector<double>& s, double x) {
   const auto at = [](double a, double b, double t) { return ((1 - 3 * b + 3 * a) * t + 3 * b - 6 * a) * t * t + 3 * a * t; };
   double low = 0, high = 1;
@@ -69,10 +69,10 @@ double size_of(const Document& document) {
   return std::max(box.size() == 4 ? std::max(box[2], box[3]) : 512, 1e-6);
 }
 
-// Between which two of so many values an animation is, and where between them.
+// The two values between which an animation is, and the place between them.
 struct Place {
   std::size_t index = 0;
-  double share = 0;  // of the way to the next one
+  double share = 0;  // fraction of the way to the next one
 };
 
 class Animating {
@@ -93,7 +93,7 @@ class Animating {
       else
         change(n, target);
     }
-    // Motions are outside of an element's own transforms.
+    // Motions apply outside of an element's own transforms.
     for (auto& [element, motion] : motions_) {
       const pugi::xml_node target = motion.target;
       const std::string own = target.attribute("transform").value();
@@ -149,10 +149,10 @@ class Animating {
     return {i, at};
   }
 
-  // What an animation says it goes through: `values`, or from and to. `base` stands for a missing from; by adds to it.
+  // The values of an animation: `values`, or from and to. `base` replaces a missing from; `by` adds to it.
   struct Values {
     std::vector<std::string> list;
-    bool adds = false;  // to what the element has
+    bool adds = false;  // are they added to the element's own value?
   };
   Values values_of(pugi::xml_node n, const std::string& base, const std::string& nothing) {
     Values v;
@@ -175,7 +175,7 @@ class Animating {
     const Place at = place_of(n, list.size(), p.share, mode);
     std::string value = list[at.index];
     if (at.share > 0) {
-      // Of values that nothing lies between, the second one from half way on.
+      // Values that cannot be interpolated change to the second one half way.
       const auto between = value_between(list[at.index], list[at.index + 1], at.share);
       value = between ? *between : list[at.index + (at.share >= 0.5 ? 1 : 0)];
     }
@@ -213,7 +213,7 @@ class Animating {
     const std::string type = n.attribute("type") ? n.attribute("type").value() : "translate";
     if (type != "translate" && type != "scale" && type != "rotate" && type != "skewX" && type != "skewY")
       document_.fail(n, "type=\"" + type + "\" is no transform", "write translate, scale, rotate, skewX or skewY");
-    // As many numbers everywhere: between "10" and "10 5" lies something, too.
+    // Lists get the same number of values everywhere: "10" and "10 5" can be interpolated, too.
     const auto full = [&](const std::string& text) {
       std::vector<double> x = numbers_in(text);
       if (x.empty()) x.push_back(type == "scale" ? 1 : 0);
@@ -231,7 +231,7 @@ class Animating {
     put(target, key, v.adds ? std::string(target.attribute(key.c_str()).value()) + " " + now : now);
   }
 
-  // The places that a motion goes through, as lines, one after another.
+  // The places along a motion, as lines, one after another.
   std::vector<Vec2d> way_of(pugi::xml_node n) {
     std::vector<Vec2d> way;
     std::string data = n.attribute("path").value();
@@ -304,7 +304,7 @@ class Animating {
     motion.transform = adds ? motion.transform + " " + now : now;
   }
 
-  // Over what style sheets and the element itself say.
+  // Overrides style sheets and the element's own attributes.
   static void put(pugi::xml_node target, const std::string& key, const std::string& value) {
     static constexpr std::array<std::string_view, 14> kProperties = {
         "fill",    "stroke",     "opacity",   "fill-opacity", "stroke-opacity", "stroke-width", "color",

@@ -1,4 +1,4 @@
-// Drawings at a time: what SMIL says of timing, values, transforms and motions.
+// Drawings at a time: timing, values, transforms and motions of SMIL.
 #include <gtest/gtest.h>
 
 #include "plane/svg/timing.h"
@@ -14,7 +14,7 @@ PlaneSvg at(const std::string& shapes, double seconds) {
   return PlaneAnimation(svg + "</svg>", "drawing", {}).at(seconds);
 }
 
-// Of one circle.
+// The centre of the only circle.
 Vec2d center_at(const std::string& inside, double seconds, const std::string& attributes = "cx='10' cy='20'") {
   const PlaneSvg svg = at("<circle r='2' " + attributes + ">" + inside + "</circle>", seconds);
   EXPECT_EQ(svg.scene.bodies.size(), 1u);
@@ -74,7 +74,7 @@ TEST(PlaneAnimation, ChangesAttributesInTime) {
   EXPECT_EQ(center_at(steps + "/>", 3).x, 30);
   EXPECT_EQ(center_at(steps + " keyTimes='0;.25;1'/>", 1).x, 10);
   EXPECT_EQ(center_at(steps + " calcMode='discrete'/>", 3.9).x, 50);
-  // The curve of these splines is the line.
+  // The curve of these splines is a straight line.
   EXPECT_NEAR(center_at(steps + " calcMode='spline' keySplines='.3 .3 .7 .7;0 0 1 1'/>", 3).x, 30, 1e-9);
   EXPECT_EQ(center_at("<set attributeName='cx' to='77' begin='1s' dur='1s'/>", 1.5).x, 77);
   EXPECT_EQ(center_at("<set attributeName='cx' to='77' begin='1s' dur='1s'/>", 2.5).x, 10);
@@ -87,7 +87,7 @@ TEST(PlaneAnimation, RecoloursOverStyles) {
       "<animate attributeName='data-intensity' values='2;4' dur='2s' fill='freeze'/></circle>";
   EXPECT_EQ(at(light, 0).scene.bodies.at(0).light->radiance.x, 0);
   EXPECT_EQ(at(light, 2).scene.bodies.at(0).light->radiance.x, 4);
-  // Half way in sRGB, made linear.
+  // Half way in sRGB, converted to linear.
   EXPECT_NEAR(at(light, 1).scene.bodies.at(0).light->radiance.x, 3 * 0.21404114048, 1e-9);
 }
 
@@ -97,7 +97,7 @@ TEST(PlaneAnimation, TurnsAndMoves) {
   expect_near(center_at(turn + " additive='sum'/>", 1, "cx='10' cy='20' transform='translate(1 0)'"), {81, 10});
   expect_near(center_at("<animateTransform attributeName='transform' type='scale' from='1' to='3 1' dur='2s'/>", 1), {20, 20});
   expect_near(center_at("<animateMotion path='M0 0H30V40' dur='7s'/>", 5, "transform='rotate(90)' cx='1' cy='0'"), {30, 21}, 1e-6);
-  // The element's own x axis along the path, which goes down there.
+  // The element's own x axis follows the path, which goes down there.
   expect_near(center_at("<animateMotion path='M0 0H30V40' dur='7s' rotate='auto'/>", 5, "cx='1' cy='0'"), {30, 21}, 1e-6);
   expect_near(center_at("<animateMotion values='0 0;10 0;10 30' dur='4s'/>", 1, "cx='0' cy='0'"), {10, 0}, 1e-6);
   expect_near(center_at("<animateMotion values='0 0;10 0;10 30' calcMode='linear' dur='4s'/>", 1, "cx='0' cy='0'"), {5, 0}, 1e-6);

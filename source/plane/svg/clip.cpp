@@ -31,7 +31,7 @@ std::vector<Edge> edges_of(const std::vector<Contour>& contours, bool closed) {
   return edges;
 }
 
-// Where each edge meets others, as shares of its length: calls found(i, s) for edges[i].
+// Places at which each edge meets others, as fractions of its length: calls found(i, s) for edges[i].
 template <class Found>
 void for_each_meeting(const std::vector<Edge>& edges, double touch, const std::function<void(std::uint64_t)>& spend, Found found) {
   std::vector<std::size_t> order(edges.size());
@@ -53,7 +53,7 @@ void for_each_meeting(const std::vector<Edge>& edges, double touch, const std::f
         const double s = cross(q - p, e) / det, t = cross(q - p, d) / det;
         if (s * ld > -touch && (s - 1) * ld < touch && t * le > -touch && (t - 1) * le < touch) found(i, s), found(k, t);
       }
-      // Ends of one that lie on the other, of edges along one line above all.
+      // Ends of one that lie on the other, especially of collinear edges.
       const auto on = [&](std::size_t edge, Vec2d start, Vec2d along, double size, Vec2d point) {
         const Vec2d v = point - start;
         const double at = dot(v, along) / (size * size);
@@ -68,7 +68,7 @@ void for_each_meeting(const std::vector<Edge>& edges, double touch, const std::f
   }
 }
 
-// Closed walks along edges that each lead from one point to the next.
+// Closed loops along edges that each lead from one point to the next.
 std::vector<Contour> loops(const std::vector<Vec2d>& points, std::map<int, std::vector<int>> next) {
   std::vector<Contour> result;
   for (auto& [start, ways] : next)
@@ -87,7 +87,7 @@ std::vector<Contour> loops(const std::vector<Vec2d>& points, std::map<int, std::
   return result;
 }
 
-// Points that are the same to the grid have one number.
+// Points that are the same on the grid have one number.
 class Points {
  public:
   explicit Points(double grid) : grid_(grid) {}
@@ -105,8 +105,8 @@ class Points {
 
 enum class Keep { common, rest };
 
-// The common part of two filled outlines, or what of the first lies outside the second: all edges cut where they meet, and of the pieces
-// those with what is kept on one side only, that side to their left.
+// The common part of two filled outlines, or the part of the first outside the second. All edges are cut where they meet. The result has
+// the pieces with the kept region on one side only, with that side to their left.
 std::vector<Contour> part_of(const PlaneBody& a, const PlaneBody& b, Keep keep, double grid,
                              const std::function<void(std::uint64_t)>& spend) {
   std::vector<Edge> edges = edges_of(a.contours, true);
@@ -168,7 +168,7 @@ std::vector<Contour> lines_within(const std::vector<Contour>& lines, const ClipR
   return result;
 }
 
-// Does no edge of the one meet an edge of the other, and is a point of it within?
+// Does no edge of `body` meet an edge of `part`, and are all its points within?
 bool lies_within(const PlaneBody& body, const PlaneBody& part, double grid, const std::function<void(std::uint64_t)>& spend) {
   const bool closed = body.shape == PlaneBody::Shape::polygon;
   std::vector<Edge> edges = edges_of(body.contours, closed);
@@ -235,7 +235,7 @@ std::uint64_t count_points(const PlaneBody& body) {
   return points;
 }
 
-// Of what a curve may be off by: points nearer to each other are one.
+// Fraction of the largest error of a curve: points nearer to each other are merged.
 double grid_of(double tolerance) { return 1e-3 * tolerance; }
 
 }  // namespace

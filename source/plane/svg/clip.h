@@ -1,4 +1,4 @@
-// The part of an outline within others, or outside: clipPath and mask.
+// The part of an outline inside or outside of others: clipPath and mask.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace steradian::plane::svg {
 
-// Filled outlines, of which the union is kept.
+// Filled outlines; the region is their union.
 using ClipRegion = std::vector<PlaneBody>;
 
-// The body as polygons or polylines, off by `tolerance` at most where it is round.
+// The body as polygons or polylines, with an error of at most `tolerance` for round shapes.
 PlaneBody flattened(const PlaneBody& body, double tolerance);
 
-// The part of a body within the region: the body itself where all of it is, no contours where nothing is. `region` is
-// polygons; `spend` is told of the pairs of edges that are looked at.
+// The part of a body within the region: the unchanged body if all of it is inside, no contours if nothing is. `region` consists of
+// polygons; `spend` receives the number of tested pairs of edges.
 PlaneBody clipped(const PlaneBody& body, const ClipRegion& region, double tolerance, const std::function<void(std::uint64_t)>& spend);
 
-// What of a filled outline lies outside of another. Both are polygons, and so is the result, without contours where nothing is left.
+// The part of a filled outline outside of another. Both are polygons, and so is the result, which has no contours if nothing remains.
 PlaneBody without(const PlaneBody& body, const PlaneBody& part, double tolerance, const std::function<void(std::uint64_t)>& spend);
 
 }  // namespace steradian::plane::svg

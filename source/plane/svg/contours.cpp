@@ -10,10 +10,10 @@ namespace {
 
 using std::numbers::pi;
 
-// One curve of a broken file may ask for billions.
+// One curve of a broken file may need billions of pieces.
 constexpr double kMostPieces = 10'000;
 
-// At least one piece, also where the estimate is not a number.
+// At least one piece, also if the estimate is not a number.
 int pieces(double wanted) { return wanted > 1 ? static_cast<int>(std::ceil(std::min(wanted, kMostPieces))) : 1; }
 
 }  // namespace
@@ -25,10 +25,10 @@ void Pen::move(Vec2d to) {
   points_.push_back(transform_.apply(at_));
 }
 
-// Before `more` points of a line or curve.
+// Prepares for `more` points of a line or curve.
 void Pen::begin(int more) {
   if (before_) before_(static_cast<std::size_t>(more));
-  if (points_.empty()) points_.push_back(transform_.apply(at_));  // after a close the pen goes on from its start
+  if (points_.empty()) points_.push_back(transform_.apply(at_));  // after a close the pen continues from its start
 }
 
 void Pen::line(Vec2d to) {
@@ -37,14 +37,14 @@ void Pen::line(Vec2d to) {
   at_ = to;
 }
 
-// In eighths, each in as many pieces as its own bend asks for: most curves bend in few places.
+// A cubic is split into eighths, each with as many pieces as its own bend needs: most curves bend in few places.
 void Pen::cubic(Vec2d first_control, Vec2d second_control, Vec2d to) {
   bezier(transform_.apply(at_), transform_.apply(first_control), transform_.apply(second_control), transform_.apply(to), 3);
   at_ = to;
 }
 
-// A parabola through n pieces is off by |second difference| / (8 n^2) at most; the cubic's bound takes the larger of
-// its two second differences (Wang, "Some subdivision techniques", 1984).
+// A parabola through n pieces is off by |second difference| / (8 n^2) at most. The cubic's bound uses the larger of its two second
+// differences (Wang, "Some subdivision techniques", 1984).
 void Pen::bezier(Vec2d a, Vec2d b, Vec2d c, Vec2d d, int halvings) {
   const double bend = 6 * std::max(length(a - b * 2 + c), length(b - c * 2 + d));
   const int n = pieces(std::sqrt(bend / (8 * tolerance_)));
@@ -62,16 +62,16 @@ void Pen::bezier(Vec2d a, Vec2d b, Vec2d c, Vec2d d, int halvings) {
   }
 }
 
-// SVG 1.1, appendix F.6, in the space where the ellipse is the unit circle: its squares neither overflow nor vanish there.
+// SVG 1.1, appendix F.6, in the space where the ellipse is the unit circle: squares neither overflow nor vanish there.
 void Pen::arc(double rx, double ry, double turn, bool large, bool sweep, Vec2d to) {
   const Vec2d from = at_;
   if (from == to) return;
   const double c = std::cos(turn), s = std::sin(turn);
   const Vec2d half = (from - to) * 0.5;
   double u = (c * half.x + s * half.y) / rx, v = (c * half.y - s * half.x) / ry, n2 = u * u + v * v;
-  if (!(n2 > 0 && n2 < 1e300)) return line(to);  // one radius is nothing, or both are endless
+  if (!(n2 > 0 && n2 < 1e300)) return line(to);  // one radius is zero, or both are infinite
   if (n2 > 1) {
-    // Too small to reach: grown until it does.
+    // Too small to reach: it is enlarged until it does.
     const double grow = std::sqrt(n2);
     rx *= grow;
     ry *= grow;

@@ -1,4 +1,4 @@
-// Contours: outlines made of points, as lines, Bezier curves and arcs leave them behind.
+// Contours: outlines of points, from lines, Bezier curves and arcs.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ struct Contours {
   std::vector<bool> closed;
 };
 
-// A pen that draws in the coordinates of an element. The polylines that it leaves behind are in the scene's, after the
-// transform, and no further than `tolerance` from the curves there.
+// A pen that draws in the coordinates of an element. Its polylines are in the scene's coordinates, after the transform, and no further than
+// `tolerance` from the curves there.
 class Pen {
  public:
-  // `before` is told how many points are coming; it may throw.
+  // `before` receives the number of points before they are added; it may throw.
   using Before = std::function<void(std::size_t points)>;
   Pen(const Transform& transform, double tolerance, Before before)
       : transform_(transform), tolerance_(tolerance), before_(std::move(before)) {}

@@ -20,7 +20,7 @@ std::string without_comments(std::string_view text) {
   return out;
 }
 
-// Behind the brace that closes the one at `open`.
+// The position behind the brace that closes the one at `open`.
 std::size_t behind_block(std::string_view text, std::size_t open) {
   int depth = 0;
   for (std::size_t i = open; i < text.size(); ++i) {

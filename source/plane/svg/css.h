@@ -12,14 +12,14 @@ namespace steradian::plane::svg {
 
 class StyleSheet {
  public:
-  // Adds the text of a <style>; rules later in the file win over earlier ones of the same weight.
+  // Adds the text of a <style>; later rules in the file override earlier ones of the same weight.
   void add(std::string_view text);
 
-  // What the rules say of a property of an element.
+  // The value of a property of an element by the rules.
   std::optional<std::string> property(std::string_view element, std::string_view id, std::string_view classes, std::string_view key) const;
   bool empty() const { return rules_.empty(); }
 
-  std::set<std::string> unsupported;  // selectors and at-rules that were left out
+  std::set<std::string> unsupported;  // selectors and at-rules that were skipped
 
  private:
   struct Rule {
@@ -30,7 +30,7 @@ class StyleSheet {
   };
   void add_rule(std::string_view selector, const std::map<std::string, std::string, std::less<>>& declarations);
 
-  std::map<std::string, std::vector<Rule>, std::less<>> rules_;  // by what they are found by: "name", ".class", "#id", "*"
+  std::map<std::string, std::vector<Rule>, std::less<>> rules_;  // by the key that finds them: "name", ".class", "#id", "*"
   std::size_t count_ = 0;
 };
 

@@ -24,7 +24,7 @@ Document::Document(std::string text, std::string name) : text_(std::move(text)),
     if (n.attribute("id")) ids_.insert({n.attribute("id").value(), n});
     for (pugi::xml_node child : n.children()) open.push_back(child);
   }
-  // The last of equal rules wins, so in the file's order.
+  // The last of equal rules wins, so they are added in the file's order.
   std::sort(sheets.begin(), sheets.end(), [](pugi::xml_node a, pugi::xml_node b) { return a.offset_debug() < b.offset_debug(); });
   for (pugi::xml_node sheet : sheets)
     for (pugi::xml_node part : sheet.children()) sheet_.add(part.value());

@@ -8,7 +8,7 @@ namespace steradian::plane::svg {
 
 void take_extras(const Document& document, pugi::xml_node n, const Style& style, PlaneBody& body) {
   if (body.light) {
-    // What a group says is for the occluders in it.
+    // Attributes of a group apply to the occluders in it.
     for (const char* key : {"data-transmittance", "data-mirror", "data-light-depth"})
       if (n.attribute(key)) document.fail(n, std::string(key) + " of a light", "it is for occluders; make two shapes of it");
     return;

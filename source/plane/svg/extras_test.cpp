@@ -1,4 +1,4 @@
-// What SVG says of suns, fog, glass, mirrors, stones and textured lines.
+// SVG attributes of suns, fog, glass, mirrors, stones and textured lines.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ PlaneScene read(const std::string& body, const std::string& root = "") {
   return load_plane_scene_from_text(drawing(body, root), "a.svg").scene;
 }
 
-// The refusal of a drawing.
+// The error that a drawing causes.
 Error refusal(const std::string& body) {
   try {
     PlaneWorld(read(body));

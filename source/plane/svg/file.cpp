@@ -1,4 +1,4 @@
-// SVG from files. Apart from its reader, since streams bring locales: a page's module has neither (web/steradian-plane).
+// SVG from files. It is separate from its reader, since streams need locales: a page's module has neither (web/steradian-plane).
 #include <fstream>
 #include <sstream>
 

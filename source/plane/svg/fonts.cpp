@@ -37,7 +37,7 @@ double Face::kerning(unsigned before, unsigned glyph) const {
 
 namespace {
 
-// A walk along an outline in the font's units, y upwards.
+// State of a walk along an outline in the font's units, y upwards.
 struct Walk {
   Pen* pen;
   Vec2d at;
@@ -76,7 +76,7 @@ void Face::draw(unsigned glyph, Vec2d at, double size, Pen& pen) const {
   FT_Face face = handle_->face;
   if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE) != 0 || face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return;
   static const FT_Outline_Funcs steps = {move_to, line_to, conic_to, cubic_to, 0, 0};
-  // The pen may refuse what is too much, and FreeType's own frames lie between: it must not see exceptions.
+  // The pen may throw if there is too much, and FreeType's own frames lie between: it must not see exceptions.
   Walk walk{&pen, at, size / face->units_per_EM};
   FT_Outline_Decompose(&face->glyph->outline, &steps, &walk);
   if (walk.open) pen.close();
@@ -96,7 +96,7 @@ struct Fonts::Libraries {
 };
 
 Fonts::Fonts() : libraries_(std::make_unique<Libraries>()) {}
-Fonts::~Fonts() { faces_.clear(); }  // before the library that they are of
+Fonts::~Fonts() { faces_.clear(); }  // before the library that they belong to
 
 namespace {
 

@@ -16,7 +16,7 @@ class Face {
   ~Face();
 
   const std::string& family() const;
-  unsigned glyph_of(char32_t character) const;  // 0: the font's sign for none
+  unsigned glyph_of(char32_t character) const;  // 0: the font's sign for a missing glyph
   // In units of the font's size.
   double advance(unsigned glyph) const;
   double kerning(unsigned before, unsigned glyph) const;
@@ -31,7 +31,7 @@ class Fonts {
  public:
   Fonts();
   ~Fonts();
-  // The face that fontconfig holds nearest to what CSS asks for; null where the system has no font.
+  // The face that fontconfig finds nearest to the CSS request; null if the system has no font.
   const Face* face(const std::string& families, const std::string& weight, const std::string& slant);
 
  private:

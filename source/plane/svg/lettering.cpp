@@ -50,7 +50,7 @@ class Layout {
       ++letter;
     };
     if (!x.empty() || !y.empty()) end_line();
-    // A place holds from here on, also where the first letter is in an element within.
+    // A position applies from here on, also if the first letter is in a nested element.
     step();
     letter = 0;
     bool first = true;
@@ -145,7 +145,7 @@ class Layout {
   Vec2d whole_, at_;
   const std::function<void()>& spend_;
   std::vector<TextRun> runs_;
-  std::vector<std::pair<std::size_t, std::size_t>> line_;  // of the line so far: run, letter
+  std::vector<std::pair<std::size_t, std::size_t>> line_;  // in the line so far: run, letter
   double line_start_ = 0, line_end_ = 0, anchor_ = 0;      // without spaces at the end
   bool after_space_ = true;
   const Face* last_face_ = nullptr;

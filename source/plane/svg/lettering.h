@@ -1,4 +1,4 @@
-// <text> as outlines: where its letters stand, and in which fonts.
+// <text> as outlines: positions of its letters, and their fonts.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace steradian::plane::svg {
 
-// Letters that stand in one element and share its style.
+// Letters in one element that share its style.
 struct TextRun {
   struct Letter {
     const Face* face;
@@ -21,8 +21,8 @@ struct TextRun {
   std::vector<Letter> letters;
 };
 
-// The runs of a <text> of the given style, letters from left to right by their advances and kerning pairs. x, y, dx and dy may
-// be lists; text-anchor is by line. What is left out is named in the document's warnings. `spend` is told of every letter.
+// The runs of a <text> of the given style, letters from left to right by their advances and kerning pairs. x, y, dx and dy may be lists;
+// text-anchor applies to each line. The document's warnings name unsupported features. `spend` is called for every letter.
 std::vector<TextRun> lay_out_text(Document& document, Styles& styles, Fonts& fonts, pugi::xml_node text, const Style& style, Vec2d whole,
                                   const std::function<void()>& spend);
 

@@ -43,7 +43,7 @@ class Paint {
   void gradient(pugi::xml_node user, pugi::xml_node node, const PlaneBody& body, const Style& style, PlaneEmission& e) {
     const bool is_linear = std::string_view(node.name()) == "linearGradient";
     if (!is_linear) document_.ignored.insert("<" + std::string(node.name()) + "> (its mean colour shines)");
-    // Attributes and stops may come from gradients this one refers to.
+    // Attributes and stops may come from gradients to which this one refers.
     std::vector<pugi::xml_node> chain;
     for (pugi::xml_node g = node; g && chain.size() < 16; g = document_.referred(g)) chain.push_back(g);
     const auto attribute = [&](const char* key) {
@@ -90,8 +90,8 @@ class Paint {
       e.radiance = stops.back().radiance;
       return;
     }
-    // Lines of one colour stay lines under the transform, but not at right angles to the mapped axis: map the
-    // offset's derivative, a covector, and lay a new axis along it.
+    // Lines of one colour stay lines under the transform, but not at right angles to the mapped axis. So map the offset's derivative, a
+    // covector, and lay a new axis along it.
     const Vec2d g = axis / dot(axis, axis);
     const Vec2d mapped{(g.x * t.d - g.y * t.b) / det, (g.y * t.a - g.x * t.c) / det};
     PlaneGradient result;
@@ -101,7 +101,7 @@ class Paint {
     e.gradient = std::move(result);
   }
 
-  // From the unit square to the shape's bounding box in its own coordinates, then to the scene.
+  // Maps the unit square to the shape's bounding box in its own coordinates, then to the scene.
   Transform box_transform(pugi::xml_node n, const PlaneBody& body, const Style& style) const {
     const Transform& t = style.transform;
     const double det = t.determinant();

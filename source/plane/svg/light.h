@@ -1,4 +1,4 @@
-// What a light made of an element emits.
+// Emission of a light from an element.
 #pragma once
 
 #include "plane/svg/style.h"
@@ -9,7 +9,7 @@ namespace steradian::plane::svg {
 // The emission of a body in a picture of the given size.
 PlaneEmission emission_of(Document& document, pugi::xml_node n, const PlaneBody& body, const Style& style, bool filled, Vec2d size);
 
-// The colour to draw an occluder with; black where it has none that is understood.
+// The colour of a drawn occluder; black if it has none that is supported.
 Vec3d color_of(const Document& document, const Style& style, bool filled);
 
 }  // namespace steradian::plane::svg

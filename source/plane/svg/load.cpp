@@ -1,4 +1,4 @@
-// SVG to bodies: the tree, what is inherited down it, and the shapes.
+// Converts SVG to bodies: the tree, inherited properties, and the shapes.
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -21,10 +21,10 @@
 namespace steradian::plane::svg {
 namespace {
 
-// How far a flattened curve may be from its own, as a share of the picture's larger side: 0.01 of a pixel in a picture of
+// Largest distance of a flattened curve from the exact one, as a fraction of the picture's larger side: 0.01 of a pixel in a picture of
 // 1000 pixels, whatever a user unit is.
 constexpr double kCurveFlatness = 1e-5;
-constexpr int kDeepest = 64;  // nested groups and uses: deeper is a cycle or an attack
+constexpr int kDeepest = 64;  // nested groups and uses: deeper ones are a cycle or an attack
 constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000, kMostSuns = 1000;
 constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
 
@@ -62,11 +62,11 @@ class Reader {
       document_.fail(root, "the picture's width and height must be positive and below a million", "set the viewBox");
   }
 
-  // Which elements show anything, themselves or by what is in them: groups of nothing are not gone through again and again.
+  // Finds elements that draw anything, themselves or by their children: empty groups are not traversed again and again.
   void find_drawing(pugi::xml_node root) {
     std::vector<pugi::xml_node> order{root};
     for (std::size_t i = 0; i < order.size(); ++i) {
-      // Not recursive: files may nest as deep as they like.
+      // Not recursive: files may nest to any depth.
       const pugi::xml_node n = order[i];
       for (pugi::xml_node child : n.children())
         if (child.type() == pugi::node_element) order.push_back(child);
@@ -75,12 +75,12 @@ class Reader {
       const std::string_view name = order[i].name();
       const bool is_group = name == "g" || name == "a" || name == "svg" || name == "symbol" || name == "defs";
       if (!is_group) drawing_.insert(order[i].internal_object());
-      // A definition draws nothing where it stands.
+      // A definition draws nothing at its own place.
       if (name != "defs" && drawing_.count(order[i].internal_object()) != 0) drawing_.insert(order[i].parent().internal_object());
     }
   }
 
-  // Steps and bytes are taken in portions: the place of an element costs a look through the file.
+  // Steps and bytes are counted in portions: finding the place of an element needs a search through the file.
   void spend(pugi::xml_node n, std::uint64_t steps, std::uint64_t bytes) {
     steps_ += steps;
     bytes_ += bytes;
@@ -136,7 +136,7 @@ class Reader {
     shape(n, name, style);
   }
 
-  // Whatever the element's shape: its paint is what matters.
+  // The element's shape does not matter: only its paint does.
   void sun(pugi::xml_node n, const Style& style) {
     if (!style.sun)
       document_.fail(n, "a sun without a place", "write data-sun-direction=\"DIRECTION HALF-WIDTH\", in degrees; -90 stands above");
@@ -162,14 +162,14 @@ class Reader {
     element(target, style, depth + 1);
   }
 
-  // What url(#...) names, if it is such an element of this file.
+  // The element that url(#...) names, if it is of this kind and in this file.
   pugi::xml_node named(const std::string& url, std::string_view kind) const {
     const std::size_t hash = url.find('#'), close = url.find_first_of(")\"'", hash);
     const pugi::xml_node node = hash == std::string::npos ? pugi::xml_node() : document_.by_id(url.substr(hash + 1, close - hash - 1));
     return std::string_view(node.name()) == kind ? node : pugi::xml_node();
   }
 
-  // The shapes of a clipPath or a mask, drawn as if they stood where they are used, in the order of the file.
+  // The shapes of a clipPath or a mask, drawn as if they stood at the place of use, in the order of the file.
   std::vector<PlaneBody> shapes_of(pugi::xml_node node, pugi::xml_node user, const Style& style, Purpose purpose, int depth) {
     if (depth > kDeepest)
       document_.fail(user, "elements nest deeper than " + std::to_string(kDeepest), "look for a clipPath or a mask that uses itself");
@@ -185,7 +185,7 @@ class Reader {
     return std::exchange(result_.scene.bodies, std::move(outside));
   }
 
-  // Adds what the element's clip-path shows of it.
+  // Adds the region of the element's clip-path.
   void clip(pugi::xml_node n, Style& style, int depth) {
     const pugi::xml_node node = named(style.clip, "clipPath");
     if (!node || std::string_view(node.attribute("clipPathUnits").value()) == "objectBoundingBox") {
@@ -198,7 +198,7 @@ class Reader {
     style.clips.push_back(std::move(region));
   }
 
-  // A mask of whites and blacks cuts as its whites do, less the blacks that are painted over them. Any other is left out.
+  // A mask of whites and blacks clips to its whites, less the blacks that are painted over them. Any other mask is skipped.
   void mask(pugi::xml_node n, Style& style, int depth) {
     const pugi::xml_node node = named(style.mask, "mask");
     const auto leave_out = [&] { document_.ignored.insert("mask (but of plain white and black shapes)"); };
@@ -218,7 +218,8 @@ class Reader {
       for (PlaneBody& part : *region) part = without(part, flat, flatness(), spend_on);
     }
     style.clips.push_back(std::move(region));
-    // A mask's own room; that in shares of the shape's box, which is larger than the shape unless a file says otherwise, is left out.
+    // The mask's own rectangle. Rectangles in fractions of the shape's box are skipped: they are larger than the shape unless a file says
+    // otherwise.
     if (std::string_view(node.attribute("maskUnits").value()) != "userSpaceOnUse" || !node.attribute("width")) return;
     Pen pen(style.transform, flatness(), {});
     draw_rect(document_, node, size(), size().y, pen);
@@ -227,7 +228,7 @@ class Reader {
     style.clips.push_back(std::make_shared<ClipRegion>(ClipRegion{std::move(room)}));
   }
 
-  // A nested <svg>, or a <symbol>, in the room that its own or the <use>'s width and height give.
+  // A nested <svg>, or a <symbol>, in the box of its own or the <use>'s width and height.
   void box(pugi::xml_node n, pugi::xml_node user, Style style, int depth) {
     const PlaneScene& scene = result_.scene;
     const auto length = [&](const char* key, double whole) {
@@ -236,7 +237,7 @@ class Reader {
     const Viewport view = viewport_of(document_, n);
     const Vec2d room{length("width", scene.width), length("height", scene.height)};
     if (view.box && !(view.box->size.x > 0 && view.box->size.y > 0)) return;
-    // A <use> has moved by its x and y already.
+    // A <use> has already moved by its x and y.
     const bool nested = n == user;
     const Vec2d corner{nested ? document_.length_attribute(n, "x", scene.width) : 0,
                        nested ? document_.length_attribute(n, "y", scene.height) : 0};
@@ -251,7 +252,7 @@ class Reader {
       if (run.style.opacity * run.style.fill_opacity == 0 || (!filled && run.style.role == Role::by_shape)) continue;
       PlaneBody body;
       for (const TextRun::Letter& letter : run.letters) {
-        // FreeType calls the pen, and must not be thrown through: what a letter takes is counted afterwards.
+        // FreeType calls the pen, so that it must not throw: the cost of a letter is counted afterwards.
         Pen pen(run.style.transform, flatness(), {});
         letter.face->draw(letter.glyph, letter.at, run.style.font_size, pen);
         for (auto& contour : pen.finish().points) {
@@ -284,7 +285,7 @@ class Reader {
       body.y_axis = style.transform.apply_vector({0, ry});
       if (!filled) {
         if (style.stroke == "none" && style.role == Role::by_shape) return;
-        // Seen from both sides: a closed polyline.
+        // Visible from both sides: a closed polyline.
         Pen pen({body.x_axis.x, body.x_axis.y, body.y_axis.x, body.y_axis.y, body.center.x, body.center.y}, flatness(), {});
         pen.move({1, 0});
         for (double x : {-1.0, 1.0}) pen.arc(1, 1, 0, false, true, {x, 0});
@@ -335,7 +336,7 @@ class Reader {
     finish(n, std::move(body), style);
   }
 
-  // A line with colours along it, semicolons between them.
+  // A line with colours along it, separated by semicolons.
   void add_textured(pugi::xml_node n, const PlaneBody& body, const Style& style) {
     const std::vector<Vec3d> texels = texels_of(document_, n, style, body);
     for (const auto& contour : body.contours) {
@@ -351,7 +352,7 @@ class Reader {
     }
   }
 
-  // Cut by what clips it, into the scene.
+  // Applies the clip regions, and adds the body to the scene.
   void finish(pugi::xml_node n, PlaneBody body, const Style& style) {
     if (body.light && body.light->gradient)
       spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
@@ -362,13 +363,13 @@ class Reader {
     result_.scene.bodies.push_back(std::move(body));
   }
 
-  // One opaque colour.
+  // Is it one opaque colour?
   static bool is_plain(const Style& style, bool filled) {
     const double opacity = style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
     return opacity == 1 && !(filled ? style.fill : style.stroke).starts_with("url(");
   }
 
-  // A translucent light shines as much less.
+  // Scales a translucent light's radiance by its opacity.
   static void dim(PlaneEmission& light, double opacity) {
     light.radiance = light.radiance * opacity;
     if (!light.gradient) return;

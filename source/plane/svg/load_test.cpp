@@ -138,7 +138,7 @@ TEST(LoadSvg, CurvesAreFlattenedToAThousandthOfAUnitHere) {
   EXPECT_NEAR(area_of(round.scene.bodies[0]), 2400 - (4 - M_PI) * 100, 1e-3 * 200);
 }
 
-// The same drawing in other units is the same picture: curves keep the accuracy of a share of it, not of a user unit.
+// The same drawing in other units is the same picture: the accuracy of curves is a fraction of the picture, not of a user unit.
 TEST(LoadSvg, CurvesAreAsFineInAnyUnit) {
   for (double unit : {1e-3, 0.01, 1.0, 1000.0}) {
     const auto number = [&](double x) { return std::to_string(x * unit); };
@@ -146,7 +146,7 @@ TEST(LoadSvg, CurvesAreAsFineInAnyUnit) {
     const PlaneSvg svg = load("<path d=\"M" + number(40) + " " + number(50) + " a" + r + " " + r + " 0 1 0 " + number(20) + " 0 a" + r +
                                   " " + r + " 0 1 0 " + number(-20) + " 0z\"/>",
                               "viewBox=\"0 0 " + number(100) + " " + number(100) + "\"");
-    // The inscribed polygon falls short by two thirds of the sagitta, along the outline.
+    // The inscribed polygon is smaller by two thirds of the sagitta, along the outline.
     EXPECT_NEAR(area_of(svg.scene.bodies.at(0)) / (unit * unit), M_PI * 100, 1e-3 * 63) << unit;
     EXPECT_LT(svg.scene.bodies[0].contours[0].size(), 400u) << "no finer than that: " << unit;
   }
@@ -187,8 +187,8 @@ TEST(LoadSvg, StrokesAreThinOrCapsules) {
   EXPECT_EQ(svg.scene.bodies[3].shape, PlaneBody::Shape::polygon);
 }
 
-// The outline of a round stroke holds what is nearer to the line than its radius, and nothing else: cut corners, tight bends,
-// closed and open.
+// The outline of a round stroke contains the points nearer to the line than its radius, and no others: cut corners, tight bends, closed and
+// open.
 TEST(LoadSvg, RoundStrokesHoldWhatIsNear) {
   SceneRandom random(8);
   for (int i = 0; i < 60; ++i) {
@@ -255,7 +255,7 @@ TEST(LoadSvg, ClipPathsCutOutlines) {
       <clipPath id="two"><circle cx="20" cy="20" r="10" fill="none"/><rect x="60" y="0" width="10" height="100"/></clipPath>
       <clipPath id="ring" clip-path="url(#c)"><path clip-rule="evenodd" d="M0 0H100V100H0Z M20 20H40V40H20Z"/></clipPath>)~";
   const auto bodies = [&](const std::string& shape) { return load(clips + shape).scene.bodies; };
-  // Halves, corners, holes, and what lies all within, which stays as it is.
+  // Halves, corners, holes, and shapes entirely within, which stay unchanged.
   EXPECT_NEAR(area_of(bodies(R"~(<rect width="30" height="100" clip-path="url(#c)"/>)~").at(0)), 20 * 40, 1e-6);
   EXPECT_EQ(bodies(R"~(<circle cx="30" cy="30" r="5" clip-path="url(#c)"/>)~").at(0).shape, PlaneBody::Shape::ellipse);
   EXPECT_TRUE(bodies(R"~(<circle cx="90" cy="30" r="5" clip-path="url(#c)"/>)~").empty());
@@ -265,7 +265,7 @@ TEST(LoadSvg, ClipPathsCutOutlines) {
   const PlaneBody ring = bodies(R"~(<rect width="30" height="30" clip-path="url(#ring)"/>)~").at(0);
   EXPECT_NEAR(area_of(ring), 400 - 100, 1e-6) << "the clip is clipped, too";
   EXPECT_FALSE(plane::contains(ring, {25, 25}));
-  // A comb leaves several parts without bridges between them, and groups clip all that is in them, twice over.
+  // A comb leaves several parts without bridges between them, and groups clip everything in them, twice over.
   const PlaneBody comb = bodies(R"~(<g clip-path="url(#c)"><path d="M0 0H100V60H90V5H80V60H70V5H30V60H25V5H15V60H0Z"/></g>)~").at(0);
   EXPECT_EQ(comb.contours.size(), 2u);
   EXPECT_NEAR(area_of(comb), 5 * 40 + 5 * 40, 1e-6);
@@ -341,7 +341,7 @@ Vec2d middle_of(const PlaneBody& body) {
 
 }  // namespace
 
-// With whatever font the machine has: an O has a hole and is as high as a capital, and lines are anchored.
+// For any font that the machine has: an O has a hole and is as high as a capital, and lines are anchored.
 TEST(LoadSvg, TextIsOutlines) {
   const PlaneSvg svg = load(R"~(<text x="100" y="80" font-size="50" class="light" fill="#fff">O</text>
       <text x="300" y="80" font-size="50" text-anchor="middle"> HH </text>
@@ -432,7 +432,7 @@ TEST(LoadSvg, RefusesClipsAndMasksOfThemselves) {
   }
 }
 
-// Whatever the bytes: a scene, or an Error; and no scene makes the exact method return what is not a number.
+// Any bytes give a scene or an Error; and no scene makes the exact method return a value that is not a number.
 TEST(LoadSvg, SurvivesMutations) {
   const std::string seed =
       R"~(<svg viewBox="0 0 64 64"><defs><linearGradient id="g" x1="0" y1="0" x2="1" y2="1" gradientTransform="rotate(10)">

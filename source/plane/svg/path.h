@@ -7,7 +7,7 @@
 
 namespace steradian::plane::svg {
 
-// Draws path data. Throws std::string with what is wrong.
+// Draws path data. Throws std::string with a description of the error.
 void draw_path(std::string_view data, Pen& pen);
 
 // Draws lines from point to point, as in the points attribute.

@@ -6,11 +6,11 @@
 
 namespace steradian::plane::svg {
 
-// Draws the element, which is one of them; percentages are of +whole+, the picture's size in user units. Throws Error with its line where
-// it is malformed.
+// Draws the element, which is one of them; percentages refer to +whole+, the picture's size in user units. Throws Error with its line if it
+// is malformed.
 void draw_shape(const Document& document, pugi::xml_node n, Vec2d whole, Pen& pen);
 
-// Draws the box of x, y, width and height, with its round corners; nothing where it is empty. +height+ is that of a box that gives none.
+// Draws the box of x, y, width and height, with its round corners; nothing if it is empty. +height+ is the default height.
 void draw_rect(const Document& document, pugi::xml_node n, Vec2d whole, double height, Pen& pen);
 
 }  // namespace steradian::plane::svg

@@ -9,18 +9,18 @@ namespace {
 
 using std::numbers::pi;
 
-// The side to the left of a walk along the line.
+// The side to the left along the line.
 class Side {
  public:
   Side(double radius, double tolerance) : radius_(radius), step_(4 * std::asin(std::sqrt(0.5 * std::min(tolerance / radius, 1.0)))) {}
 
   std::vector<Vec2d> points;
 
-  // At a vertex between two directions of walk; the lengths of the segments before and behind it.
+  // Adds the points at a vertex between two directions; the lengths are those of the segments before and behind it.
   void turn(Vec2d at, Vec2d before, Vec2d after, double length_before, double length_after) {
     const double angle = std::atan2(cross(before, after), dot(before, after));
     if (angle <= 0) return bend(at, before, angle);
-    // To the inside the two sides meet, if they are long enough; else by way of the vertex, all of which lies within.
+    // On the inside the two sides meet, if they are long enough. Otherwise they go through the vertex, which lies entirely within.
     const double back = radius_ * std::tan(0.5 * angle);
     if (back < 0.5 * std::min(length_before, length_after) && angle < 3) {
       points.push_back(at + left(before) * radius_ - before * back);
@@ -31,11 +31,11 @@ class Side {
     }
   }
 
-  // Around the outside of a vertex, clockwise: an angle of at most 0.
+  // Adds points around the outside of a vertex, clockwise: an angle of at most 0.
   void bend(Vec2d at, Vec2d before, double angle) {
     const int n = static_cast<int>(std::ceil(-angle / step_));
     const double first = angle_of(left(before));
-    // One point in the middle will do where the arc is that flat.
+    // One point in the middle is enough if the arc is that flat.
     if (n <= 1) {
       points.push_back(at + direction_at(first + 0.5 * angle) * radius_);
       return;

@@ -7,7 +7,7 @@
 
 namespace steradian::plane::svg {
 
-// A capsule where the line is one segment, else a filled outline no further than `tolerance` from the stroke's own.
+// A capsule if the line is one segment, else a filled outline no further than `tolerance` from the exact stroke.
 PlaneBody stroke_of(const std::vector<Vec2d>& line, bool closed, double radius, double tolerance);
 
 }  // namespace steradian::plane::svg

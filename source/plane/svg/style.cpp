@@ -10,7 +10,7 @@
 namespace steradian::plane::svg {
 namespace {
 
-// Levenshtein's distance: letters to change, add or leave out.
+// Levenshtein's distance: letters to change, add or remove.
 std::size_t edits_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
@@ -25,7 +25,7 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-// Units of the parent's size, names, and lengths. What is none of these leaves the parent's.
+// Units of the parent's size, names, and lengths. Any other text keeps the parent's size.
 double font_size_of(std::string_view text, double parent) {
   static constexpr std::pair<const char*, double> kNames[] = {{"xx-small", 9}, {"x-small", 10}, {"small", 13},   {"medium", 16},
                                                               {"large", 18},   {"x-large", 24}, {"xx-large", 32}};
@@ -123,7 +123,7 @@ Style Styles::inherit(pugi::xml_node n, Style style) {
   return style;
 }
 
-// A share of 1, or a percentage.
+// A fraction of 1, or a percentage.
 std::optional<double> Styles::share(pugi::xml_node n, const char* key) const {
   const auto text = document_.property(n, key);
   if (!text || *text == "inherit") return {};
@@ -132,7 +132,7 @@ std::optional<double> Styles::share(pugi::xml_node n, const char* key) const {
   return std::clamp(*v, 0.0, 1.0);
 }
 
-// Other programs write data- attributes of their own; one that is nearly ours is a slip.
+// Other programs write data- attributes of their own; one that is nearly ours is a typing error.
 void Styles::refuse_misspelt(pugi::xml_node n) const {
   static constexpr const char* kOurs[] = {"data-steradian",   "data-intensity", "data-range",         "data-profile",
                                           "data-spot",        "data-albedo",    "data-transmittance", "data-mirror",
@@ -168,7 +168,7 @@ void Styles::read_role(pugi::xml_node n, Declared& d) const {
                  "use light, occluder, sun or ignore");
 }
 
-// One share, or three.
+// One fraction, or three.
 std::optional<Vec3d> Styles::read_shares(pugi::xml_node n, const char* key) const {
   if (!n.attribute(key)) return {};
   Scanner scan(n.attribute(key).value());

@@ -1,4 +1,4 @@
-// What elements say of themselves, by attributes and style sheets, and what they inherit.
+// Properties of elements, from attributes and style sheets, and their inheritance.
 #pragma once
 
 #include <limits>
@@ -16,18 +16,18 @@
 
 namespace steradian::plane::svg {
 
-// What elements are read for: the picture, the outline of a clipPath (by clip-rule, whatever their paint), or the whites and
+// Purpose for which elements are read: the picture, the outline of a clipPath (by clip-rule, whatever their paint), or the whites and
 // blacks of a mask.
 enum class Purpose { picture, clip, mask };
 
 enum class Role { by_shape, light, occluder, sun, ignore };
 
-// Where a sun stands, and half of its width, in radians.
+// Position of a sun, and half of its width, in radians.
 struct SunPlace {
   double direction = 0, half_width = 0;
 };
 
-// What elements inherit.
+// Properties that elements inherit.
 struct Style {
   std::string fill = "black", stroke = "none", color = "black", cap = "butt", rule = "nonzero", clip_rule = "nonzero";
   std::string family = "sans-serif", weight = "normal", slant = "normal", anchor = "start";
@@ -45,25 +45,25 @@ struct Style {
   double spot_half_angle = 0;
   Transform transform;
   Purpose purpose = Purpose::picture;
-  std::string clip, mask;                                // of the element itself; empty: none
-  std::vector<std::shared_ptr<const ClipRegion>> clips;  // of the element and those around it, in the scene's coordinates
+  std::string clip, mask;                                // those of the element itself; empty: none
+  std::vector<std::shared_ptr<const ClipRegion>> clips;  // for the element and those around it, in the scene's coordinates
 };
 
 class Styles {
  public:
-  // `diagonal`: what percentages that belong to neither width nor height are of.
+  // `diagonal`: reference of percentages that belong to neither width nor height.
   Styles(Document& document, double diagonal) : document_(document), diagonal_(diagonal) {}
 
-  // The style of an element within one of the given style. An element is read once however many <use> show it.
+  // The style of an element within a parent of the given style. An element is read once however many <use> show it.
   Style inherit(pugi::xml_node n, Style style);
 
  private:
-  // What one element says of itself.
+  // Properties declared by one element.
   struct Declared {
     std::optional<std::string> fill, stroke, color, cap, rule, clip_rule, family, font_size, weight, slant, anchor, clip, mask;
     std::optional<double> stroke_width, intensity, range, fill_opacity, stroke_opacity;
-    double opacity = 1;          // of the whole element
-    Role role = Role::by_shape;  // by_shape: says nothing
+    double opacity = 1;          // for the whole element
+    Role role = Role::by_shape;  // by_shape: not declared
     std::optional<PlaneProfile> profile;
     std::optional<Vec3d> albedo, transmittance, mirror;
     std::optional<double> light_depth;

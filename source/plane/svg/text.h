@@ -12,11 +12,11 @@
 namespace steradian::plane::svg {
 
 std::string_view trimmed(std::string_view text);
-std::vector<std::string> words(std::string_view text);  // between white space
+std::vector<std::string> words(std::string_view text);  // separated by white space
 // The names of CSS's font-family, without their quotes.
 std::vector<std::string> family_names(const std::string& css);
 
-// Walks a list of numbers. Independent of the locale.
+// Reads a list of numbers, independently of the locale.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) { skip_separators(); }
@@ -25,15 +25,15 @@ class Scanner {
   char next() { return text_[at_++]; }
   bool accept(char c);
   void skip_separators();          // white space and commas
-  std::optional<double> number();  // skips separators behind it; empty where no finite number stands
-  std::optional<bool> flag();      // 0 or 1, as in arcs, where nothing need follow it
+  std::optional<double> number();  // skips separators behind it; empty if there is no finite number
+  std::optional<bool> flag();      // 0 or 1, as in arcs, where nothing needs to follow it
 
  private:
   std::string_view text_;
   std::size_t at_ = 0;
 };
 
-// #rgb, #rrggbb, rgb(), the keywords; sRGB made linear. Empty where it is none of these.
+// #rgb, #rrggbb, rgb(), the keywords; sRGB converted to linear. Empty if it is none of these.
 std::optional<Vec3d> parse_color(std::string_view text);
 double srgb_from_linear(double x);
 

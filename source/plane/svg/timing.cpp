@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-// The first of the begins that is a time; events and other animations never come.
+// The first of the begins that is a time; events and other animations never begin.
 std::optional<double> begin_of(Document& document, std::string_view text) {
   if (text.empty()) return 0;
   while (!text.empty()) {
@@ -61,7 +61,7 @@ std::optional<double> clock_value(std::string_view text) {
 
 namespace {
 
-// How long it is at work, with its repeats. As in SMIL: the less of what is said about them; once where nothing is said.
+// Active duration, with repeats. As in SMIL it is the smaller of the declared limits; one turn if none is declared.
 double active_of(Document& document, pugi::xml_node n, double simple) {
   const std::string_view repeats = trimmed(n.attribute("repeatCount").value());
   double active = kForever;

@@ -1,4 +1,4 @@
-// When an animation of SMIL is at work, and how far it has come.
+// Active times of SMIL animations, and their progress.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@ namespace steradian::plane::svg {
 // Seconds: "1.5", "1.5s", "200ms", "2min", "1h", "01:30", "0:01:30.5".
 std::optional<double> clock_value(std::string_view text);
 
-// How far in its simple duration, 0 to 1, and how often that has been passed.
+// Progress in its simple duration, 0 to 1, and the number of completed durations.
 struct Progress {
   double share = 0;
   int iteration = 0;
 };
 
-// Empty where the animation has no effect at that time: not yet begun, over and not frozen, or begun by an event.
+// Empty if the animation has no effect at that time: not yet begun, over and not frozen, or begun by an event.
 std::optional<Progress> progress_of(Document& document, pugi::xml_node animation, double seconds);
 
-// From the beginning of the document to the end of the animation; of one that is repeated without end, to that of its first turn. 0 where
-// it never begins or has no duration.
+// Time from the beginning of the document to the end of the animation; if it repeats without end, to the end of its first turn. 0 if it
+// never begins or has no duration.
 struct Extent {
   double seconds = 0;
   bool endless = false;

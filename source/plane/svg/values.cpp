@@ -10,7 +10,7 @@
 namespace steradian::plane::svg {
 namespace {
 
-// A text as its numbers and what stands between them: one more of these. White space and commas are all alike.
+// A text as its numbers and the texts between them, which are one more. White space and commas are equivalent.
 struct Numbers {
   std::vector<double> values;
   std::vector<std::string> between{""};
@@ -46,7 +46,7 @@ Numbers numbers_of(std::string_view text) {
   return result;
 }
 
-// The same with numbers made of two, where both are of one kind.
+// The same text with numbers combined from two texts, if both are of one kind.
 template <class F>
 std::optional<std::string> combined(std::string_view a, std::string_view b, F f) {
   const Numbers x = numbers_of(a), y = numbers_of(b);

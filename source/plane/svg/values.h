@@ -1,4 +1,4 @@
-// Values of animated attributes: between two, and one on top of another.
+// Values of animated attributes: interpolation and addition.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@ namespace steradian::plane::svg {
 
 std::vector<std::string> split_list(std::string_view text, char separator);  // trimmed
 
-// "a + share (b - a)" of two colours, in sRGB, or of two texts that differ in their numbers alone: lengths, points, paths. Empty where the
-// two are of different kinds.
+// "a + share (b - a)" of two colours, in sRGB, or of two texts that differ in their numbers alone: lengths, points, paths. Empty if the two
+// are of different kinds.
 std::optional<std::string> value_between(std::string_view a, std::string_view b, double share);
 
 // "a + times b" of such texts.

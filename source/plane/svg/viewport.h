@@ -1,4 +1,4 @@
-// The box that an <svg> or a <symbol> shows, and how it is fitted into the room it is given.
+// The box that an <svg> or a <symbol> shows, and how it is fitted into a given area.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,11 @@ struct Viewport {
   PlaneFit fit = PlaneFit::meet;
   Vec2d align{0.5, 0.5};
 
-  // From the box to the room at a corner. A box without an area shows nothing.
+  // Maps the box to the area at a corner. A box without an area shows nothing.
   Transform into(Vec2d corner, Vec2d room) const;
 };
 
-// By its viewBox and preserveAspectRatio.
+// Reads viewBox and preserveAspectRatio.
 Viewport viewport_of(const Document& document, pugi::xml_node n);
 
 }  // namespace steradian::plane::svg

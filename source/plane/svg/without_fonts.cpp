@@ -1,4 +1,4 @@
-// Compiled where STERADIAN_FONTS is OFF: text has no outlines.
+// Compiled if STERADIAN_FONTS is OFF: text has no outlines.
 #include "plane/svg/fonts.h"
 #include "steradian/error.h"
 

@@ -20,7 +20,7 @@ std::string attribute(const char* name, double x) { return std::string(" ") + na
 
 double largest(Vec3d c) { return std::max({c.x, c.y, c.z, 0.0}); }
 
-// sRGB in percent: with all digits, so that linear radiance survives.
+// sRGB in percent with all digits, so that linear radiance is preserved.
 std::string color(Vec3d linear) {
   const auto percent = [](double x) { return number(100 * srgb_from_linear(std::clamp(x, 0.0, 1.0))) + "%"; };
   return "rgb(" + percent(linear.x) + "," + percent(linear.y) + "," + percent(linear.z) + ")";
@@ -132,7 +132,7 @@ std::string plane_scene_to_svg(const PlaneScene& scene) {
           out +=
               "<circle" + attribute("cx", body.center.x) + attribute("cy", body.center.y) + attribute("r", body.x_axis.x) + rest + "/>\n";
         } else {
-          // The gradient's coordinates are the scene's: the transform is on the ellipse only where there is none.
+          // The gradient's coordinates are the scene's: the ellipse has the transform only if there is no gradient.
           out += "<circle r=\"1\" transform=\"matrix(" + number(body.x_axis.x) + " " + number(body.x_axis.y) + " " + number(body.y_axis.x) +
                  " " + number(body.y_axis.y) + " " + number(body.center.x) + " " + number(body.center.y) + ")\"" + rest + "/>\n";
         }
