@@ -14,7 +14,7 @@ TILE = 16  # pixels a side
 COLUMNS, ROWS = 4, 3
 MOST = 0.01  # that a patch may be off
 
-# What differs from a Principled BSDF as it is; the base colour of all is the same.
+# The inputs that differ from a new Principled BSDF; the base colour of all is the same.
 MATERIALS = {
     "diffuse": {"Specular": 0},
     "dielectric": {"Specular": 0.5, "Roughness": 0.5},
@@ -50,7 +50,7 @@ class Comparison(in_blender.Pictures):
                 a, b = sum(ours[i] for i in at), sum(cycles[i] for i in at)
                 print(f"TEST {name_of(column, rows - 1 - row)}: {a / b:.4f} of Cycles", flush=True)
                 patches[row, column] = a, b
-        # Of itself, or of the picture's mean where it is darker: a spot's rim differs by a sixth of nearly nothing.
+        # Relative to the pixel, or to the picture's mean where the pixel is darker: a spot's rim differs by a sixth of nearly nothing.
         mean = sum(b for _, b in patches.values()) / len(patches)
         return max(abs(a - b) / max(b, mean if least_is_mean else 0) for a, b in patches.values())
 

@@ -446,7 +446,7 @@ SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, float
         float3 start = a;
         float3 end = b;
         if (a_below || b_below) {
-            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
             float wa = abs(b.z);
             float wb = abs(a.z);
             float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
@@ -582,7 +582,7 @@ SteradianHorizonClip steradian_horizon_clip_begin() {
     return clip;
 }
 
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+// The direction in which the edge from a to b crosses the plane z = 0; their z must differ in sign.
 //
 // Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
 // Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
@@ -820,7 +820,8 @@ struct SteradianCosineLobe {
     float scale;
 };
 
-// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of steradian_lobe_product_stretch(lobe, u): about the z axis of its own frame.
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of steradian_lobe_product_stretch(lobe, u): about the z axis of its own
+// frame.
 struct SteradianStretchedLobe {
     float3x3 frame;
     float3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy
@@ -1147,7 +1148,7 @@ float steradian_light_elements_half_vector_sharpness(float deviation, float view
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
-// Whether the elements are better than an integral along the outline.
+// True where the elements are better than an integral along the outline.
 //
 //   normal     the surface's, unit
 //   sharpness  of the lobe
@@ -1381,7 +1382,8 @@ float3 steradian_conic_residue(SteradianConicArc arc, float2 z, float2 o, float 
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
+// cancel. 8 nodes, twice.
 //
 //   wanted   where the value counts; others may be left at 0
 float3 steradian_conic_vector_approximate(SteradianConicArc arc, bool wanted) {
@@ -1648,7 +1650,7 @@ SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, float
     float n2 = max(dot(normal, normal), steradian_smallest_divisor());
     float height = dot(e.center, normal);  // > 0 in walk order
     float along = dot(r, normal);
-    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    // The place at which the axis meets the plane, in units of the half axes: (x, y) / along.
     float3 across = r * height - e.center * along;
     float2 place = float2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     float size2 = dot(place, place);
@@ -1909,7 +1911,7 @@ SteradianPolygonWalk steradian_capsule_add_arc(SteradianPolygonWalk walk, float3
     float high = turn + half_angle;
     float seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
 
-    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    // The crossings of the cap's rim: azimuths left and right of the cap's own.
     float flat2 = max(center.x * center.x + center.y * center.y, steradian_smallest_square());
     float2 azimuth = float2(center.x, center.y) * rsqrt(flat2);
     float2 tilt = steradian_complex_sign(float2(tangent, root));
@@ -2049,7 +2051,7 @@ SteradianCapsuleEnd steradian_capsule_end(float3 center, float radius, float3 mi
     end.side = side * (radius * cosine);
     end.half_angle = half_angle;
 
-    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    // The place at which the lobe's axis meets the rim's plane, in units of the rim's radius.
     float along = dot(r, axis);
     float2 place = float2(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
     float nearest = clamp(steradian_trig_atan2(place.y, place.x), -half_angle, half_angle);
@@ -2085,8 +2087,8 @@ float2 steradian_capsule_corner(SteradianCapsuleEnd end, float j) {
     return steradian_select(outer_low && outer_high, float2(1.0, 0.0), corner);
 }
 
-// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
-// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+// The square of a corner's radius that equal area requires, for the step to its neighbour. With `outer`, the neighbour stands on a straight
+// edge's continuation: its radius is given, and so is the area that it adds.
 //
 //   joint    (cos, sin) of the arc's end behind the neighbour
 float steradian_capsule_gap(float2 corner, float2 neighbour, float2 joint, bool outer) {
@@ -2319,7 +2321,7 @@ float steradian_far_error_of_grazing_nodes(int nodes, float reach, float distanc
 // Positions in metres, vectors in any one frame. A directional light needs no kernel: its illuminance arrives everywhere
 // against its direction.
 
-// What is per light.
+// The values of one light.
 //   position        [m]
 //   direction       unit: along which a spot shines
 //   inverse_range2  1 / range^2 [1/m2]; 0 without a limit
@@ -2521,7 +2523,7 @@ float steradian_moment_phong_radiance(float sum, bool reversed) {
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
-// What the integrand needs of an edge and a lobe.
+// The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
 struct SteradianMomentQuadrature {
     float m;
@@ -2806,7 +2808,7 @@ float steradian_moment_series_front(SteradianMomentEdge edge, SteradianMomentSer
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// What steradian_moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// The result of steradian_moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 float steradian_moment_series_high_front(SteradianMomentEdge edge, SteradianMomentSeriesHigh series) {
     SteradianMomentWarp warp = steradian_moment_warp(edge, series.m);
     float t = warp.kap2;
@@ -2886,7 +2888,7 @@ float steradian_moment_series_low_front(SteradianMomentEdge edge, SteradianMomen
     return max(steradian_moment_series_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// What steradian_moment_series_low_front returns, in high quality; the error is then that of the cosines.
+// The result of steradian_moment_series_low_front, in high quality; the error is then that of the cosines.
 float steradian_moment_series_high_low_front(SteradianMomentEdge edge, SteradianMomentSeriesHigh raised, float n) {
     return max(steradian_moment_series_high_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
@@ -2917,7 +2919,8 @@ float steradian_moment_double_axis_share(float3 a, float3 b, float3 r, float3 v,
 // is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
-// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
+// determinant is positive.
 struct SteradianLtcMatrix {
     float xx;
     float xz;
@@ -3070,7 +3073,7 @@ float steradian_ltc_integral(SteradianLtcWalk walk, bool reversed) {
     return steradian_polygon_irradiance(walk.lobe, reversed) * steradian_inverse_pi();
 }
 
-// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+// The factor of the lobe's integral: Schlick's Fresnel averaged over the lobe.
 //
 //   n_a      magnitude of the lobe without Fresnel
 //   f_a      of the lobe times (1 - v.h)^5
@@ -3169,7 +3172,7 @@ float3 steradian_ltc_texture_irradiance_vector(SteradianLtcWalk walk, bool rever
     return steradian_polygon_irradiance_vector(walk.lobe, reversed);
 }
 
-// Where a lobe looks on a light's plane.
+// The footprint of a lobe on a light's plane.
 //
 //   m        M^-1
 //   phi      irradiance vector of the light under M^-1 (steradian_ltc_texture_irradiance_vector)
@@ -3237,7 +3240,7 @@ SteradianLtcTextureEllipse steradian_ltc_texture_gaussian(SteradianLtcTextureEll
     return g;
 }
 
-// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+// The place at which a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
 //
 // A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
 // Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
@@ -3272,7 +3275,7 @@ float2 steradian_ltc_texture_place(SteradianLtcTextureEllipse g, float2 aside, f
     float2 p = float2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = float2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = float2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
-    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    // The maximum of exp(-x^2 / 2) (1 + q^(1/2) x), over its first order.
     float q = max(dot(slope, p), 0.0);
     float share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     float2 d = aside + p * share;
@@ -3707,7 +3710,7 @@ float steradian_charlie_cubature_finish(SteradianCharlieCubature c) {
 // docs/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
 
-// What the lobe's integrals need of the view and the surface.
+// The values of the view and the surface that the lobe's integrals need.
 //   v        unit view, z > 0
 //   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
 //   ax, ay   widths: roughness squared, at least 1.0e-4
@@ -4403,7 +4406,7 @@ float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop,
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
 
-// What the fits share for one edge.
+// The values that the fits share for one edge.
 //   x_w, x_t     half width and the place in the tail [rad]
 //   ratio_w      x_w over its limit for c -> 0
 //   peak         I at the foot, less its smallest value
@@ -4460,7 +4463,7 @@ float steradian_moment_peak_half_width_ratio(float c, float n, int f_is_x) {
     return steradian_phong_power(max(1.0 - steradian_phong_power(k, 2.5), 1.0e-8), 0.45);
 }
 
-// What the fits share for one edge and a lobe of exponent n.
+// The values that the fits share for one edge and a lobe of exponent n.
 SteradianMomentPeak steradian_moment_peak_prepare(SteradianMomentEdge edge, float n, int f_is_x) {
     float s2 = edge.s * edge.s;
     float c2 = edge.c * edge.c;
@@ -4919,7 +4922,7 @@ float3 steradian_indirect_under(SteradianIndirectLobe lobe, float3 v) {
     return float3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
+// The contribution of a glossy end to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -4932,7 +4935,7 @@ float steradian_indirect_glossy_half(SteradianIndirectLobe lobe, float3 v, float
     return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), steradian_smallest_square());
 }
 
-// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
+// The contribution of a diffuse end of albedo pi to a pair, its half: cosine over distance.
 float steradian_indirect_diffuse_half(float3 n, float3 v, float d2, float wide2) {
     return max(dot(n, v), 0.0) / max(d2 + wide2, steradian_smallest_square());
 }
@@ -5039,7 +5042,7 @@ float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
     return rsqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
-// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+// The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's

@@ -442,7 +442,7 @@ fn steradian_polygon_add_edge(walk: SteradianPolygonWalk, a: vec3f, b: vec3f) ->
         var start = a;
         var end = b;
         if (a_below || b_below) {
-            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
             let wa = abs(b.z);
             let wb = abs(a.z);
             var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
@@ -578,7 +578,7 @@ fn steradian_horizon_clip_begin() -> SteradianHorizonClip {
     return clip;
 }
 
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+// The direction in which the edge from a to b crosses the plane z = 0; their z must differ in sign.
 //
 // Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
 // Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.
@@ -816,7 +816,8 @@ struct SteradianCosineLobe {
     scale: f32,
 }
 
-// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own
+// frame.
 struct SteradianStretchedLobe {
     frame: mat3x3f,
     stretch: vec3f,  // symmetric 2x2 of determinant 1: xx, xy, yy
@@ -1143,7 +1144,7 @@ fn steradian_light_elements_half_vector_sharpness(deviation: f32, view_z: f32) -
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
-// Whether the elements are better than an integral along the outline.
+// True where the elements are better than an integral along the outline.
 //
 //   normal     the surface's, unit
 //   sharpness  of the lobe
@@ -1377,7 +1378,8 @@ fn steradian_conic_residue(arc: SteradianConicArc, z: vec2f, o: vec2f, sweep: f3
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
+// cancel. 8 nodes, twice.
 //
 //   wanted   where the value counts; others may be left at 0
 fn steradian_conic_vector_approximate(arc: SteradianConicArc, wanted: bool) -> vec3f {
@@ -1644,7 +1646,7 @@ fn steradian_ellipse_fan_concentrated(e: SteradianEllipse, r: vec3f, width: f32)
     let n2 = max(dot(normal, normal), steradian_smallest_divisor());
     let height = dot(e.center, normal);  // > 0 in walk order
     let along = dot(r, normal);
-    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    // The place at which the axis meets the plane, in units of the half axes: (x, y) / along.
     let across = r * height - e.center * along;
     let place = vec2f(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     let size2 = dot(place, place);
@@ -1905,7 +1907,7 @@ fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: 
     let high = turn + half_angle;
     let seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
 
-    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    // The crossings of the cap's rim: azimuths left and right of the cap's own.
     let flat2 = max(center.x * center.x + center.y * center.y, steradian_smallest_square());
     let azimuth = vec2f(center.x, center.y) * inverseSqrt(flat2);
     let tilt = steradian_complex_sign(vec2f(tangent, root));
@@ -2045,7 +2047,7 @@ fn steradian_capsule_end(center: vec3f, radius: f32, middle: vec3f, half_angle: 
     end.side = side * (radius * cosine);
     end.half_angle = half_angle;
 
-    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    // The place at which the lobe's axis meets the rim's plane, in units of the rim's radius.
     let along = dot(r, axis);
     let place = vec2f(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
     let nearest = clamp(steradian_trig_atan2(place.y, place.x), -half_angle, half_angle);
@@ -2081,8 +2083,8 @@ fn steradian_capsule_corner(end: SteradianCapsuleEnd, j: f32) -> vec2f {
     return select(corner, vec2f(1.0, 0.0), outer_low && outer_high);
 }
 
-// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
-// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+// The square of a corner's radius that equal area requires, for the step to its neighbour. With `outer`, the neighbour stands on a straight
+// edge's continuation: its radius is given, and so is the area that it adds.
 //
 //   joint    (cos, sin) of the arc's end behind the neighbour
 fn steradian_capsule_gap(corner: vec2f, neighbour: vec2f, joint: vec2f, outer: bool) -> f32 {
@@ -2315,7 +2317,7 @@ fn steradian_far_error_of_grazing_nodes(nodes: i32, reach: f32, distance: f32, v
 // Positions in metres, vectors in any one frame. A directional light needs no kernel: its illuminance arrives everywhere
 // against its direction.
 
-// What is per light.
+// The values of one light.
 //   position        [m]
 //   direction       unit: along which a spot shines
 //   inverse_range2  1 / range^2 [1/m2]; 0 without a limit
@@ -2517,7 +2519,7 @@ fn steradian_moment_phong_radiance(sum: f32, reversed: bool) -> f32 {
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
-// What the integrand needs of an edge and a lobe.
+// The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
 struct SteradianMomentQuadrature {
     m: f32,
@@ -2802,7 +2804,7 @@ fn steradian_moment_series_front(edge: SteradianMomentEdge, series: SteradianMom
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// What moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// The result of moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 fn steradian_moment_series_high_front(edge: SteradianMomentEdge, series: SteradianMomentSeriesHigh) -> f32 {
     let warp = steradian_moment_warp(edge, series.m);
     let t = warp.kap2;
@@ -2882,7 +2884,7 @@ fn steradian_moment_series_low_front(edge: SteradianMomentEdge, raised: Steradia
     return max(steradian_moment_series_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// What moment_series_low_front returns, in high quality; the error is then that of the cosines.
+// The result of moment_series_low_front, in high quality; the error is then that of the cosines.
 fn steradian_moment_series_high_low_front(edge: SteradianMomentEdge, raised: SteradianMomentSeriesHigh, n: f32) -> f32 {
     return max(steradian_moment_series_high_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
@@ -2913,7 +2915,8 @@ fn steradian_moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, sh
 // is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
-// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
+// determinant is positive.
 struct SteradianLtcMatrix {
     xx: f32,
     xz: f32,
@@ -3066,7 +3069,7 @@ fn steradian_ltc_integral(walk: SteradianLtcWalk, reversed: bool) -> f32 {
     return steradian_polygon_irradiance(walk.lobe, reversed) * steradian_inverse_pi();
 }
 
-// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+// The factor of the lobe's integral: Schlick's Fresnel averaged over the lobe.
 //
 //   n_a      magnitude of the lobe without Fresnel
 //   f_a      of the lobe times (1 - v.h)^5
@@ -3165,7 +3168,7 @@ fn steradian_ltc_texture_irradiance_vector(walk: SteradianLtcWalk, reversed: boo
     return steradian_polygon_irradiance_vector(walk.lobe, reversed);
 }
 
-// Where a lobe looks on a light's plane.
+// The footprint of a lobe on a light's plane.
 //
 //   m        M^-1
 //   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
@@ -3233,7 +3236,7 @@ fn steradian_ltc_texture_gaussian(e: SteradianLtcTextureEllipse, width: f32, wid
     return g;
 }
 
-// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+// The place at which a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
 //
 // A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
 // Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
@@ -3268,7 +3271,7 @@ fn steradian_ltc_texture_place(g: SteradianLtcTextureEllipse, aside: vec2f, slop
     var p = vec2f(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = vec2f(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = vec2f(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
-    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    // The maximum of exp(-x^2 / 2) (1 + q^(1/2) x), over its first order.
     let q = max(dot(slope, p), 0.0);
     let share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     let d = aside + p * share;
@@ -3700,7 +3703,7 @@ fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
 // docs/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
 
-// What the lobe's integrals need of the view and the surface.
+// The values of the view and the surface that the lobe's integrals need.
 //   v        unit view, z > 0
 //   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
 //   ax, ay   widths: roughness squared, at least 1.0e-4
@@ -4396,7 +4399,7 @@ fn steradian_moment_arvo_front(edge: SteradianMomentEdge, n: i32, can_stop: i32,
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
 
-// What the fits share for one edge.
+// The values that the fits share for one edge.
 //   x_w, x_t     half width and the place in the tail [rad]
 //   ratio_w      x_w over its limit for c -> 0
 //   peak         I at the foot, less its smallest value
@@ -4453,7 +4456,7 @@ fn steradian_moment_peak_half_width_ratio(c: f32, n: f32, f_is_x: i32) -> f32 {
     return steradian_phong_power(max(1.0 - steradian_phong_power(k, 2.5), 1.0e-8), 0.45);
 }
 
-// What the fits share for one edge and a lobe of exponent n.
+// The values that the fits share for one edge and a lobe of exponent n.
 fn steradian_moment_peak_prepare(edge: SteradianMomentEdge, n: f32, f_is_x: i32) -> SteradianMomentPeak {
     let s2 = edge.s * edge.s;
     let c2 = edge.c * edge.c;
@@ -4912,7 +4915,7 @@ fn steradian_indirect_under(lobe: SteradianIndirectLobe, v: vec3f) -> vec3f {
     return vec3f(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
+// The contribution of a glossy end to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -4925,7 +4928,7 @@ fn steradian_indirect_glossy_half(lobe: SteradianIndirectLobe, v: vec3f, d2: f32
     return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), steradian_smallest_square());
 }
 
-// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
+// The contribution of a diffuse end of albedo pi to a pair, its half: cosine over distance.
 fn steradian_indirect_diffuse_half(n: vec3f, v: vec3f, d2: f32, wide2: f32) -> f32 {
     return max(dot(n, v), 0.0) / max(d2 + wide2, steradian_smallest_square());
 }
@@ -5032,7 +5035,7 @@ fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
     return inverseSqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
-// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+// The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's

@@ -1,4 +1,4 @@
-// Textures as source/core/mip_maps.h looks them up: the mean over the footprint of a pixel.
+// Texture look-up: the mean over the footprint of a pixel.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Coordinates, and their change to the next pixels.

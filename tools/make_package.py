@@ -18,7 +18,7 @@ import tarfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-# Of glibc and the kernel; whoever runs a program has these.
+# Libraries of glibc and the kernel; every machine that runs a program has these.
 OF_THE_SYSTEM = re.compile(r"^(linux-vdso|ld-linux|libc\.so|libm\.so|libdl\.so|libpthread\.so|librt\.so)")
 LOADED_WHEN_ASKED_FOR = ["libvulkan.so.1"]
 

@@ -32,7 +32,7 @@ SPECIAL = {13: "sin", 14: "cos", 15: "tan", 16: "asin", 17: "acos", 18: "atan", 
            30: "log2", 31: "sqrt", 32: "inversesqrt", 66: "length", 67: "distance", 69: "normalize"}
 STORAGE_BUFFER, UNIFORM = 12, 2
 
-# What is counted: shader, what its pipeline is, constants by their number, what a unit of work is, and the loop (in the order of the text)
+# The pipelines that are counted: shader, name of the pipeline, constants by their number, unit of work, and the loop (in the order of the text)
 # whose body is one; no loop: the whole.
 PIPELINES = [
     ("diffuse", "a polygon", {0: 0, 5: 0}, "a pixel and a light", 0),
@@ -83,7 +83,7 @@ PIPELINES = [
 ]
 
 
-# What a device does, from its data sheet: lanes times clock, an operation each. A special function takes as long as eight.
+# The throughput of a device, from its data sheet: lanes times clock, an operation each. A special function takes as long as eight.
 DEVICES = [("H200", 132 * 128 * 1.98e9), ("96 EU Xe", 96 * 8 * 1.35e9)]
 SPECIAL_COST = 8
 SHARE = 0.5  # of the rate, that is assumed to be reached

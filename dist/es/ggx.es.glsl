@@ -133,7 +133,7 @@ float steradian_charlie_cubature_finish(SteradianCharlieCubature c) {
 // docs/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
 
-// What the lobe's integrals need of the view and the surface.
+// The values of the view and the surface that the lobe's integrals need.
 //   v        unit view, z > 0
 //   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
 //   ax, ay   widths: roughness squared, at least 1.0e-4

@@ -136,7 +136,8 @@ struct SteradianCosineLobe {
     float scale;
 };
 
-// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of steradian_lobe_product_stretch(lobe, u): about the z axis of its own frame.
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of steradian_lobe_product_stretch(lobe, u): about the z axis of its own
+// frame.
 struct SteradianStretchedLobe {
     mat3 frame;
     vec3 stretch;  // symmetric 2x2 of determinant 1: xx, xy, yy

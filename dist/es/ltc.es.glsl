@@ -35,7 +35,8 @@
 // is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
-// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
+// determinant is positive.
 struct SteradianLtcMatrix {
     float xx;
     float xz;
@@ -188,7 +189,7 @@ float steradian_ltc_integral(SteradianLtcWalk walk, bool reversed) {
     return steradian_polygon_irradiance(walk.lobe, reversed) * steradian_inverse_pi();
 }
 
-// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+// The factor of the lobe's integral: Schlick's Fresnel averaged over the lobe.
 //
 //   n_a      magnitude of the lobe without Fresnel
 //   f_a      of the lobe times (1 - v.h)^5
@@ -287,7 +288,7 @@ vec3 steradian_ltc_texture_irradiance_vector(SteradianLtcWalk walk, bool reverse
     return steradian_polygon_irradiance_vector(walk.lobe, reversed);
 }
 
-// Where a lobe looks on a light's plane.
+// The footprint of a lobe on a light's plane.
 //
 //   m        M^-1
 //   phi      irradiance vector of the light under M^-1 (steradian_ltc_texture_irradiance_vector)
@@ -355,7 +356,7 @@ SteradianLtcTextureEllipse steradian_ltc_texture_gaussian(SteradianLtcTextureEll
     return g;
 }
 
-// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+// The place at which a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
 //
 // A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
 // Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
@@ -390,7 +391,7 @@ vec2 steradian_ltc_texture_place(SteradianLtcTextureEllipse g, vec2 aside, vec2 
     vec2 p = vec2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = vec2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = vec2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
-    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    // The maximum of exp(-x^2 / 2) (1 + q^(1/2) x), over its first order.
     float q = max(dot(slope, p), 0.0);
     float share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     vec2 d = aside + p * share;

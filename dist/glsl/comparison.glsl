@@ -151,7 +151,7 @@ float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop,
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
 
-// What the fits share for one edge.
+// The values that the fits share for one edge.
 //   x_w, x_t     half width and the place in the tail [rad]
 //   ratio_w      x_w over its limit for c -> 0
 //   peak         I at the foot, less its smallest value
@@ -208,7 +208,7 @@ float steradian_moment_peak_half_width_ratio(float c, float n, int f_is_x) {
     return steradian_phong_power(max(1.0 - steradian_phong_power(k, 2.5), 1.0e-8), 0.45);
 }
 
-// What the fits share for one edge and a lobe of exponent n.
+// The values that the fits share for one edge and a lobe of exponent n.
 SteradianMomentPeak steradian_moment_peak_prepare(SteradianMomentEdge edge, float n, int f_is_x) {
     float s2 = edge.s * edge.s;
     float c2 = edge.c * edge.c;

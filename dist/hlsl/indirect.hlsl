@@ -75,7 +75,7 @@ float3 steradian_indirect_under(SteradianIndirectLobe lobe, float3 v) {
     return float3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
+// The contribution of a glossy end to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -88,7 +88,7 @@ float steradian_indirect_glossy_half(SteradianIndirectLobe lobe, float3 v, float
     return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), steradian_smallest_square());
 }
 
-// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
+// The contribution of a diffuse end of albedo pi to a pair, its half: cosine over distance.
 float steradian_indirect_diffuse_half(float3 n, float3 v, float d2, float wide2) {
     return max(dot(n, v), 0.0) / max(d2 + wide2, steradian_smallest_square());
 }
@@ -195,7 +195,7 @@ float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
     return rsqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
-// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+// The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's

@@ -187,7 +187,7 @@ float steradian_moment_phong_radiance(float sum, bool reversed) {
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
-// What the integrand needs of an edge and a lobe.
+// The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
 struct SteradianMomentQuadrature {
     float m;
@@ -472,7 +472,7 @@ float steradian_moment_series_front(SteradianMomentEdge edge, SteradianMomentSer
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// What steradian_moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// The result of steradian_moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 float steradian_moment_series_high_front(SteradianMomentEdge edge, SteradianMomentSeriesHigh series) {
     SteradianMomentWarp warp = steradian_moment_warp(edge, series.m);
     float t = warp.kap2;
@@ -552,7 +552,7 @@ float steradian_moment_series_low_front(SteradianMomentEdge edge, SteradianMomen
     return max(steradian_moment_series_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// What steradian_moment_series_low_front returns, in high quality; the error is then that of the cosines.
+// The result of steradian_moment_series_low_front, in high quality; the error is then that of the cosines.
 float steradian_moment_series_high_low_front(SteradianMomentEdge edge, SteradianMomentSeriesHigh raised, float n) {
     return max(steradian_moment_series_high_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }

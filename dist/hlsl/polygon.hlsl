@@ -93,7 +93,7 @@ SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, float
         float3 start = a;
         float3 end = b;
         if (a_below || b_below) {
-            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
             float wa = abs(b.z);
             float wb = abs(a.z);
             float2 p = float2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
@@ -229,7 +229,7 @@ SteradianHorizonClip steradian_horizon_clip_begin() {
     return clip;
 }
 
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+// The direction in which the edge from a to b crosses the plane z = 0; their z must differ in sign.
 //
 // Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
 // Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.

@@ -96,7 +96,7 @@ float steradian_light_elements_half_vector_sharpness(float deviation, float view
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
-// Whether the elements are better than an integral along the outline.
+// True where the elements are better than an integral along the outline.
 //
 //   normal     the surface's, unit
 //   sharpness  of the lobe
@@ -330,7 +330,8 @@ float3 steradian_conic_residue(SteradianConicArc arc, float2 z, float2 o, float 
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
+// cancel. 8 nodes, twice.
 //
 //   wanted   where the value counts; others may be left at 0
 float3 steradian_conic_vector_approximate(SteradianConicArc arc, bool wanted) {
@@ -597,7 +598,7 @@ SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, float
     float n2 = max(dot(normal, normal), steradian_smallest_divisor());
     float height = dot(e.center, normal);  // > 0 in walk order
     float along = dot(r, normal);
-    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    // The place at which the axis meets the plane, in units of the half axes: (x, y) / along.
     float3 across = r * height - e.center * along;
     float2 place = float2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     float size2 = dot(place, place);
@@ -858,7 +859,7 @@ SteradianPolygonWalk steradian_capsule_add_arc(SteradianPolygonWalk walk, float3
     float high = turn + half_angle;
     float seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
 
-    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    // The crossings of the cap's rim: azimuths left and right of the cap's own.
     float flat2 = max(center.x * center.x + center.y * center.y, steradian_smallest_square());
     float2 azimuth = float2(center.x, center.y) * rsqrt(flat2);
     float2 tilt = steradian_complex_sign(float2(tangent, root));
@@ -998,7 +999,7 @@ SteradianCapsuleEnd steradian_capsule_end(float3 center, float radius, float3 mi
     end.side = side * (radius * cosine);
     end.half_angle = half_angle;
 
-    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    // The place at which the lobe's axis meets the rim's plane, in units of the rim's radius.
     float along = dot(r, axis);
     float2 place = float2(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
     float nearest = clamp(steradian_trig_atan2(place.y, place.x), -half_angle, half_angle);
@@ -1034,8 +1035,8 @@ float2 steradian_capsule_corner(SteradianCapsuleEnd end, float j) {
     return steradian_select(outer_low && outer_high, float2(1.0, 0.0), corner);
 }
 
-// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
-// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+// The square of a corner's radius that equal area requires, for the step to its neighbour. With `outer`, the neighbour stands on a straight
+// edge's continuation: its radius is given, and so is the area that it adds.
 //
 //   joint    (cos, sin) of the arc's end behind the neighbour
 float steradian_capsule_gap(float2 corner, float2 neighbour, float2 joint, bool outer) {
@@ -1268,7 +1269,7 @@ float steradian_far_error_of_grazing_nodes(int nodes, float reach, float distanc
 // Positions in metres, vectors in any one frame. A directional light needs no kernel: its illuminance arrives everywhere
 // against its direction.
 
-// What is per light.
+// The values of one light.
 //   position        [m]
 //   direction       unit: along which a spot shines
 //   inverse_range2  1 / range^2 [1/m2]; 0 without a limit

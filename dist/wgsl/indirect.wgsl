@@ -75,7 +75,7 @@ fn steradian_indirect_under(lobe: SteradianIndirectLobe, v: vec3f) -> vec3f {
     return vec3f(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
+// The contribution of a glossy end to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -88,7 +88,7 @@ fn steradian_indirect_glossy_half(lobe: SteradianIndirectLobe, v: vec3f, d2: f32
     return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), steradian_smallest_square());
 }
 
-// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
+// The contribution of a diffuse end of albedo pi to a pair, its half: cosine over distance.
 fn steradian_indirect_diffuse_half(n: vec3f, v: vec3f, d2: f32, wide2: f32) -> f32 {
     return max(dot(n, v), 0.0) / max(d2 + wide2, steradian_smallest_square());
 }
@@ -195,7 +195,7 @@ fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
     return inverseSqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
-// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+// The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's

@@ -136,7 +136,8 @@ struct SteradianCosineLobe {
     scale: f32,
 }
 
-// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own frame.
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own
+// frame.
 struct SteradianStretchedLobe {
     frame: mat3x3f,
     stretch: vec3f,  // symmetric 2x2 of determinant 1: xx, xy, yy

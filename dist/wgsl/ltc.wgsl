@@ -35,7 +35,8 @@
 // is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
-// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
+// determinant is positive.
 struct SteradianLtcMatrix {
     xx: f32,
     xz: f32,
@@ -188,7 +189,7 @@ fn steradian_ltc_integral(walk: SteradianLtcWalk, reversed: bool) -> f32 {
     return steradian_polygon_irradiance(walk.lobe, reversed) * steradian_inverse_pi();
 }
 
-// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+// The factor of the lobe's integral: Schlick's Fresnel averaged over the lobe.
 //
 //   n_a      magnitude of the lobe without Fresnel
 //   f_a      of the lobe times (1 - v.h)^5
@@ -287,7 +288,7 @@ fn steradian_ltc_texture_irradiance_vector(walk: SteradianLtcWalk, reversed: boo
     return steradian_polygon_irradiance_vector(walk.lobe, reversed);
 }
 
-// Where a lobe looks on a light's plane.
+// The footprint of a lobe on a light's plane.
 //
 //   m        M^-1
 //   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
@@ -355,7 +356,7 @@ fn steradian_ltc_texture_gaussian(e: SteradianLtcTextureEllipse, width: f32, wid
     return g;
 }
 
-// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+// The place at which a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
 //
 // A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
 // Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
@@ -390,7 +391,7 @@ fn steradian_ltc_texture_place(g: SteradianLtcTextureEllipse, aside: vec2f, slop
     var p = vec2f(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = vec2f(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = vec2f(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
-    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    // The maximum of exp(-x^2 / 2) (1 + q^(1/2) x), over its first order.
     let q = max(dot(slope, p), 0.0);
     let share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     let d = aside + p * share;

@@ -93,7 +93,7 @@ fn steradian_polygon_add_edge(walk: SteradianPolygonWalk, a: vec3f, b: vec3f) ->
         var start = a;
         var end = b;
         if (a_below || b_below) {
-            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
             let wa = abs(b.z);
             let wb = abs(a.z);
             var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
@@ -229,7 +229,7 @@ fn steradian_horizon_clip_begin() -> SteradianHorizonClip {
     return clip;
 }
 
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+// The direction in which the edge from a to b crosses the plane z = 0; their z must differ in sign.
 //
 // Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
 // Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.

@@ -96,7 +96,7 @@ fn steradian_light_elements_half_vector_sharpness(deviation: f32, view_z: f32) -
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
-// Whether the elements are better than an integral along the outline.
+// True where the elements are better than an integral along the outline.
 //
 //   normal     the surface's, unit
 //   sharpness  of the lobe
@@ -330,7 +330,8 @@ fn steradian_conic_residue(arc: SteradianConicArc, z: vec2f, o: vec2f, sweep: f3
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
+// cancel. 8 nodes, twice.
 //
 //   wanted   where the value counts; others may be left at 0
 fn steradian_conic_vector_approximate(arc: SteradianConicArc, wanted: bool) -> vec3f {
@@ -597,7 +598,7 @@ fn steradian_ellipse_fan_concentrated(e: SteradianEllipse, r: vec3f, width: f32)
     let n2 = max(dot(normal, normal), steradian_smallest_divisor());
     let height = dot(e.center, normal);  // > 0 in walk order
     let along = dot(r, normal);
-    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    // The place at which the axis meets the plane, in units of the half axes: (x, y) / along.
     let across = r * height - e.center * along;
     let place = vec2f(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     let size2 = dot(place, place);
@@ -858,7 +859,7 @@ fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: 
     let high = turn + half_angle;
     let seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * steradian_pi() - horizon), 0.0);
 
-    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    // The crossings of the cap's rim: azimuths left and right of the cap's own.
     let flat2 = max(center.x * center.x + center.y * center.y, steradian_smallest_square());
     let azimuth = vec2f(center.x, center.y) * inverseSqrt(flat2);
     let tilt = steradian_complex_sign(vec2f(tangent, root));
@@ -998,7 +999,7 @@ fn steradian_capsule_end(center: vec3f, radius: f32, middle: vec3f, half_angle: 
     end.side = side * (radius * cosine);
     end.half_angle = half_angle;
 
-    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    // The place at which the lobe's axis meets the rim's plane, in units of the rim's radius.
     let along = dot(r, axis);
     let place = vec2f(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
     let nearest = clamp(steradian_trig_atan2(place.y, place.x), -half_angle, half_angle);
@@ -1034,8 +1035,8 @@ fn steradian_capsule_corner(end: SteradianCapsuleEnd, j: f32) -> vec2f {
     return select(corner, vec2f(1.0, 0.0), outer_low && outer_high);
 }
 
-// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
-// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+// The square of a corner's radius that equal area requires, for the step to its neighbour. With `outer`, the neighbour stands on a straight
+// edge's continuation: its radius is given, and so is the area that it adds.
 //
 //   joint    (cos, sin) of the arc's end behind the neighbour
 fn steradian_capsule_gap(corner: vec2f, neighbour: vec2f, joint: vec2f, outer: bool) -> f32 {
@@ -1268,7 +1269,7 @@ fn steradian_far_error_of_grazing_nodes(nodes: i32, reach: f32, distance: f32, v
 // Positions in metres, vectors in any one frame. A directional light needs no kernel: its illuminance arrives everywhere
 // against its direction.
 
-// What is per light.
+// The values of one light.
 //   position        [m]
 //   direction       unit: along which a spot shines
 //   inverse_range2  1 / range^2 [1/m2]; 0 without a limit

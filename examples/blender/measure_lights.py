@@ -62,7 +62,7 @@ def light(kind, **settings):
     return make
 
 
-# What a small light of these sizes makes of the floor below: irradiance over pi is radiance * area / (pi h^2), or intensity / (pi h^2).
+# The floor's radiance below a small light of these sizes: irradiance over pi is radiance * area / (pi h^2), or intensity / (pi h^2).
 SIDE, RADIUS = 0.02, 0.01
 CASES = [
     ("square, radiance", light("AREA", shape="SQUARE", size=SIDE), SIDE ** 2, 1 / (4 * SIDE ** 2), "P / (4 A)"),

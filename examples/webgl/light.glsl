@@ -1,4 +1,4 @@
-// What one light sends from every surface of the G-buffer to the eye, by one method. page.js puts the version, KIND, METHOD and the shader
+// The radiance of one light, reflected by every surface of the G-buffer to the eye, by one method. page.js puts the version, KIND, METHOD and the shader
 // library before it, and adds the lights up.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #define POLYGON 0

@@ -1,4 +1,4 @@
-// What there is to see: objects, lights of every shape, and how they are made of triangles.
+// The scene: objects, lights of every shape, and their triangles.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 "use strict";
 
@@ -136,7 +136,7 @@ function light_mesh(light) {
   return { vertices, indices: new Uint32Array(outline.flatMap((_, i) => [0, i + 1, ((i + 1) % outline.length) + 1])) };
 }
 
-// What a light shows of itself: nothing on the back of a flat one.
+// The visible faces of a light: a flat one shows nothing on its back.
 function shown_of(light, eye) {
   if (light.kind === "ball" || light.kind === "tube") return light.radiance;
   const [first, ...others] = light.vertices, from = (p) => add(p, times(first, -1));

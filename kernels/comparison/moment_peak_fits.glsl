@@ -11,7 +11,7 @@
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// What the fits share for one edge.
+// The values that the fits share for one edge.
 //   x_w, x_t     half width and the place in the tail [rad]
 //   ratio_w      x_w over its limit for c -> 0
 //   peak         I at the foot, less its smallest value
@@ -68,7 +68,7 @@ real moment_peak_half_width_ratio(real c, real n, int f_is_x) {
     return phong_power(max(1.0 - phong_power(k, 2.5), 1.0e-8), 0.45);
 }
 
-// What the fits share for one edge and a lobe of exponent n.
+// The values that the fits share for one edge and a lobe of exponent n.
 MomentPeak moment_peak_prepare(MomentEdge edge, real n, int f_is_x) {
     real s2 = edge.s * edge.s;
     real c2 = edge.c * edge.c;

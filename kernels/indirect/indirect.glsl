@@ -47,7 +47,7 @@ vec3 indirect_under(IndirectLobe lobe, vec3 v) {
     return vec3(dot(lobe.x, v), dot(lobe.y, v), dot(lobe.z, v));
 }
 
-// What a glossy end contributes to a pair, its half, for scale 1: w_z D / |w|^4. One division.
+// The contribution of a glossy end to a pair, its half, for scale 1: w_z D / |w|^4. One division.
 //
 //   v        as the lobe's rows take it
 //   d2       dot(v, v)
@@ -60,7 +60,7 @@ real indirect_glossy_half(IndirectLobe lobe, vec3 v, real d2, real wide2) {
     return max(w.z, 0.0) * d2 * d2 / max(w2 * w2 * (d2 + wide2), smallest_square());
 }
 
-// What a diffuse end of albedo pi contributes to a pair, its half: cosine over distance.
+// The contribution of a diffuse end of albedo pi to a pair, its half: cosine over distance.
 real indirect_diffuse_half(vec3 n, vec3 v, real d2, real wide2) {
     return max(dot(n, v), 0.0) / max(d2 + wide2, smallest_square());
 }
@@ -167,7 +167,7 @@ real indirect_largest_stretch(LtcMatrix m) {
     return inversesqrt(max(min(least2, m.yy * m.yy), smallest_square()));
 }
 
-// Where the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
+// The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's

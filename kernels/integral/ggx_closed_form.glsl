@@ -15,7 +15,7 @@
 // Topics: ggx
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// What the lobe's integrals need of the view and the surface.
+// The values of the view and the surface that the lobe's integrals need.
 //   v        unit view, z > 0
 //   w        (ax v_x, ay v_y, v_z): w.u is v.h in stretched space
 //   ax, ay   widths: roughness squared, at least 1.0e-4

@@ -7,7 +7,8 @@
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its determinant is positive.
+// The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
+// determinant is positive.
 struct LtcMatrix {
     real xx;
     real xz;
@@ -160,7 +161,7 @@ real ltc_integral(LtcWalk walk, mask reversed) {
     return polygon_irradiance(walk.lobe, reversed) * inverse_pi();
 }
 
-// What multiplies the lobe's integral: Schlick's Fresnel averaged over the lobe.
+// The factor of the lobe's integral: Schlick's Fresnel averaged over the lobe.
 //
 //   n_a      magnitude of the lobe without Fresnel
 //   f_a      of the lobe times (1 - v.h)^5

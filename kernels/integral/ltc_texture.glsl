@@ -50,7 +50,7 @@ vec3 ltc_texture_irradiance_vector(LtcWalk walk, mask reversed) {
     return polygon_irradiance_vector(walk.lobe, reversed);
 }
 
-// Where a lobe looks on a light's plane.
+// The footprint of a lobe on a light's plane.
 //
 //   m        M^-1
 //   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
@@ -118,7 +118,7 @@ LtcTextureEllipse ltc_texture_gaussian(LtcTextureEllipse e, real width, real wid
     return g;
 }
 
-// Where a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
+// The place at which a Gaussian must stand for the light under it to have the centroid that it has under the lobe.
 //
 // A wide Gaussian over a small light hardly knows where it stands, and its mean is the light's own. If the light were a
 // Gaussian of covariance V, the centroid under a Gaussian of covariance S at distance x would be at V (V + S)^-1 x; this
@@ -153,7 +153,7 @@ vec2 ltc_texture_place(LtcTextureEllipse g, vec2 aside, vec2 slope, vec3 light) 
     vec2 p = vec2(vxx * slope.x + light.y * slope.y, light.y * slope.x + vyy * slope.y);
     p = vec2(tyy * p.x - txy * p.y, txx * p.y - txy * p.x) * t_inverse;
     p = vec2(sxx * p.x + sxy * p.y, sxy * p.x + syy * p.y);
-    // Of exp(-x^2 / 2) (1 + q^(1/2) x): the maximum, over its first order.
+    // The maximum of exp(-x^2 / 2) (1 + q^(1/2) x), over its first order.
     real q = max(dot(slope, p), 0.0);
     real share = 2.0 / (1.0 + sqrt(1.0 + 4.0 * q));
     vec2 d = aside + p * share;

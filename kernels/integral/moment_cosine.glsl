@@ -61,7 +61,7 @@ real moment_series_low_front(MomentEdge edge, MomentSeries raised, real n) {
     return max(moment_series_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// What moment_series_low_front returns, in high quality; the error is then that of the cosines.
+// The result of moment_series_low_front, in high quality; the error is then that of the cosines.
 real moment_series_high_low_front(MomentEdge edge, MomentSeriesHigh raised, real n) {
     return max(moment_series_high_front(edge, raised) - edge.s * moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }

@@ -9,7 +9,7 @@
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// What the integrand needs of an edge and a lobe.
+// The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
 struct MomentQuadrature {
     real m;

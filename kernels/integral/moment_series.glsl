@@ -187,7 +187,7 @@ real moment_series_front(MomentEdge edge, MomentSeries series) {
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// What moment_series_front returns, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// The result of moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 real moment_series_high_front(MomentEdge edge, MomentSeriesHigh series) {
     MomentWarp warp = moment_warp(edge, series.m);
     real t = warp.kap2;

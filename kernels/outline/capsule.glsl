@@ -145,7 +145,7 @@ PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, real radius, vec3 mid
     real high = turn + half_angle;
     real seen = max(min(high, horizon) - max(low, -horizon), 0.0) + max(high - (2.0 * pi() - horizon), 0.0);
 
-    // Where the cap's rim crosses: azimuths left and right of the cap's own.
+    // The crossings of the cap's rim: azimuths left and right of the cap's own.
     real flat2 = max(center.x * center.x + center.y * center.y, smallest_square());
     vec2 azimuth = vec2(center.x, center.y) * inversesqrt(flat2);
     vec2 tilt = complex_sign(vec2(tangent, root));
@@ -285,7 +285,7 @@ CapsuleEnd capsule_end(vec3 center, real radius, vec3 middle, real half_angle, v
     end.side = side * (radius * cosine);
     end.half_angle = half_angle;
 
-    // Where the lobe's axis meets the rim's plane, in units of the rim's radius.
+    // The place at which the lobe's axis meets the rim's plane, in units of the rim's radius.
     real along = dot(r, axis);
     vec2 place = vec2(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
     real nearest = clamp(trig_atan2(place.y, place.x), -half_angle, half_angle);
@@ -321,8 +321,8 @@ vec2 capsule_corner(CapsuleEnd end, real j) {
     return select(outer_low && outer_high, vec2(1.0, 0.0), corner);
 }
 
-// What equal area needs of the square of a corner's radius, for the step to its neighbour, which stands on a straight edge's
-// continuation where `outer`: that one's radius is given, and so is the area that it adds.
+// The square of a corner's radius that equal area requires, for the step to its neighbour. With `outer`, the neighbour stands on a straight
+// edge's continuation: its radius is given, and so is the area that it adds.
 //
 //   joint    (cos, sin) of the arc's end behind the neighbour
 real capsule_gap(vec2 corner, vec2 neighbour, vec2 joint, mask outer) {

@@ -1,7 +1,7 @@
 // Parity cases of capsule.glsl; tests/parity/case.glsl says how to write one.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Where the rim of an end only just meets the horizon, error analysis cannot tell on which side of a root's 0 it is.
+// Error analysis cannot tell on which side of a root's 0 it is, where the rim of an end only just meets the horizon.
 
 // capsule, irradiance vector
 //   a.xyz  vector(1, 5)

@@ -204,7 +204,8 @@ vec3 conic_residue(ConicArc arc, vec2 z, vec2 o, real sweep) {
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues cancel. 8 nodes, twice.
+// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
+// cancel. 8 nodes, twice.
 //
 //   wanted   where the value counts; others may be left at 0
 vec3 conic_vector_approximate(ConicArc arc, mask wanted) {

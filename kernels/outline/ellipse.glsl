@@ -235,7 +235,7 @@ EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
     real n2 = max(dot(normal, normal), smallest_divisor());
     real height = dot(e.center, normal);  // > 0 in walk order
     real along = dot(r, normal);
-    // Where the axis meets the plane, in units of the half axes: (x, y) / along.
+    // The place at which the axis meets the plane, in units of the half axes: (x, y) / along.
     vec3 across = r * height - e.center * along;
     vec2 place = vec2(dot(across, cross(e.axis_b, normal)), dot(across, cross(normal, e.axis_a))) * (1.0 / n2);
     real size2 = dot(place, place);

@@ -51,7 +51,7 @@ HorizonClip horizon_clip_begin() {
     return clip;
 }
 
-// Where the edge from a to b crosses the plane z = 0; their z must differ in sign.
+// The direction in which the edge from a to b crosses the plane z = 0; their z must differ in sign.
 //
 // Degenerate: an edge through the zenith's axis, or an end that is the zero vector, has no azimuth and gives zero.
 // Error: weights of one sign, so nothing cancels unless a and b are nearly opposite.

@@ -69,7 +69,7 @@ real light_elements_half_vector_sharpness(real deviation, real view_z) {
     return light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
-// Whether the elements are better than an integral along the outline.
+// True where the elements are better than an integral along the outline.
 //
 //   normal     the surface's, unit
 //   sharpness  of the lobe

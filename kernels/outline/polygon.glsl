@@ -66,7 +66,7 @@ PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
         vec3 start = a;
         vec3 end = b;
         if (any_lane(a_below || b_below)) {
-            // Where the edge crosses the horizon: weights of one sign, so nothing cancels.
+            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
             real wa = abs(b.z);
             real wb = abs(a.z);
             vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);

@@ -4,7 +4,7 @@
 // against its direction.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// What is per light.
+// The values of one light.
 //   position        [m]
 //   direction       unit: along which a spot shines
 //   inverse_range2  1 / range^2 [1/m2]; 0 without a limit

@@ -74,7 +74,7 @@ void each_point(std::size_t count, const auto& use) {
   }
 }
 
-// Where every light is an area light and nothing stands before it: by the library's batches.
+// Area lights without occluders are evaluated by the library's batches.
 bool serves_batches(const eval::Query& query) {
   if (query.occluders != nullptr) return false;
   for (const eval::Light& light : query.lights)

@@ -136,7 +136,7 @@ def check_surfaces(answer):
     print(f"balls: {seen} pixels, off by at most {worst:.1e} of their radius")
 
 
-# What hands do: appended to the page, whose state it reads.
+# The actions of a user: appended to the page, whose state it reads.
 VISITOR = """<script>
 const seen = [], look = () => seen.push(JSON.parse(JSON.stringify(state)));
 const point = (type, id, x, y) => canvas.dispatchEvent(new PointerEvent(type, { pointerId: id, clientX: x, clientY: y, pointerType: "touch", bubbles: true }));

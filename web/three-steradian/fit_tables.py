@@ -178,7 +178,7 @@ def main():
         return
     coded = [base64.b64encode(t.astype("<f2").tobytes()).decode() for t in tables()]
     (HERE / "src" / "tables.js").write_text(
-        "// Of GGX, for the formula of three's RectAreaLight: a matrix and two magnitudes an entry, as half floats. Made by fit_tables.py.\n" + LICENCE +
+        "// GGX tables for the formula of three's RectAreaLight: a matrix and two magnitudes an entry, as half floats. Made by fit_tables.py.\n" + LICENCE +
         "import { DataUtils } from 'three';\n\n"
         f"const MATRIX = '{coded[0]}';\nconst MAGNITUDE = '{coded[1]}';\n\n"
         "function decoded( text ) {\n\n"
@@ -186,7 +186,7 @@ def main():
         "\tconst view = new DataView( bytes.buffer );\n"
         "\treturn Float32Array.from( { length: bytes.length / 2 }, ( _, i ) => DataUtils.fromHalfFloat( view.getUint16( 2 * i, true ) ) );\n\n"
         "}\n\n"
-        "// What three's textures hold: four numbers an entry.\n"
+        "// The contents of three's textures: four numbers an entry.\n"
         "export function ltcTables() {\n\n"
         f"\tconst size = {SIZE}, pairs = decoded( MAGNITUDE ), magnitude = new Float32Array( 4 * size * size );\n"
         "\tfor ( let i = 0; i < size * size; i ++ ) magnitude.set( pairs.subarray( 2 * i, 2 * i + 2 ), 4 * i );\n"

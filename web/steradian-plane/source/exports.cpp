@@ -1,4 +1,4 @@
-// What JavaScript calls. A plane is a scene with what has been made of it so far: its stage, its world, its bounces.
+// The functions that JavaScript calls. A plane is a scene with its stage, its world and its bounces, each made when it is first needed.
 //
 // Every function that may fail returns null or -1 then; plane_problem says why: place, problem, hint, a line each. What is returned stays
 // until the next call.
@@ -181,7 +181,7 @@ EMSCRIPTEN_KEEPALIVE int plane_replace(Plane* p, int at, const double* numbers, 
     PlaneBody body = plane::body_of(numbers, static_cast<std::size_t>(count));
     const PlaneBody& old = p->scene.bodies[i];
     body.name = old.name;
-    // What the list of numbers does not say: a pane that is moved stays a pane.
+    // The list of numbers does not tell a pane: a pane that is moved stays a pane.
     if (!body.light) body.transmittance = old.transmittance, body.mirror = old.mirror, body.light_depth = old.light_depth;
     p->changed();
     if (p->stage) p->stage->replace(i, body);
@@ -190,7 +190,7 @@ EMSCRIPTEN_KEEPALIVE int plane_replace(Plane* p, int at, const double* numbers, 
   });
 }
 
-// Those behind it move up by one.
+// The bodies behind it move up by one.
 EMSCRIPTEN_KEEPALIVE int plane_remove(Plane* p, int at) {
   return guarded(-1, [&] {
     const std::size_t i = p->checked(at);
@@ -250,7 +250,7 @@ EMSCRIPTEN_KEEPALIVE const float* plane_draw(Plane* p, int width, int height, in
   });
 }
 
-// What a picture by WebGL2 is made from (gl_lists.h): where lists, pairs, vertices and the base picture stand and how many words or numbers
+// The data of a picture by WebGL2 (gl_lists.h): where lists, pairs, vertices and the base picture stand and how many words or numbers
 // they are; words of masks, disks; first job and number of jobs of the four kinds; 1 where no light is listed tile by tile.
 EMSCRIPTEN_KEEPALIVE const double* plane_gl_lists(Plane* p, int width, int height, int bounces, int room) {
   return guarded(static_cast<const double*>(nullptr), [&] {

@@ -127,7 +127,7 @@ class Filling {
 
   void begin(std::size_t kind) { to_.jobs[kind] = {job_ / kJob, 0}; }
 
-  // What it is about comes next.
+  // Writes a job's head. The caller appends the job's list next.
   void put_job(std::size_t kind, const Listed& l, std::size_t lights) {
     std::uint32_t* job = to_.lists.data() + job_;
     job[0] = static_cast<std::uint32_t>(l.record);

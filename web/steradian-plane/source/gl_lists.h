@@ -1,4 +1,4 @@
-// What the shaders of a picture by WebGL2 read: the words of the Vulkan back end's shaders, as the pixels of textures.
+// The data that the shaders of a picture by WebGL2 read: the words of the Vulkan back end's shaders, as the pixels of textures.
 #pragma once
 
 #include <cstdint>

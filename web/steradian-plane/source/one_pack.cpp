@@ -14,7 +14,7 @@ Simd active_simd() { return Simd::sse2; }
 
 }  // namespace steradian
 
-// Where the library of C++ would say why it ends the program, on a terminal that a page has not: its words bring printf along.
+// The library of C++ would print why it ends the program. A page has no terminal, and the message brings printf along.
 extern "C" [[noreturn]] void abort_message(const char*, ...) { __builtin_trap(); }
 _LIBCPP_BEGIN_NAMESPACE_STD
 [[noreturn]] void __throw_system_error(int, const char*) { __builtin_trap(); }

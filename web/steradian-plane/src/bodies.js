@@ -1,4 +1,4 @@
-// What shines and what blocks: descriptions as a page writes them, and the lists of numbers that the module reads
+// Lights and blockers: descriptions as a page writes them, and the lists of numbers that the module reads
 // (source/body_numbers.h has the same order).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 import { PlaneError } from "./wasm.js";

@@ -116,5 +116,5 @@ class Machine {
   }
 }
 
-// Those whose null means that they failed.
+// The functions whose null means that they failed.
 const POINTERS = new Set(["plane_from_svg", "plane_empty", "plane_body", "plane_body_name", "plane_query", "plane_draw", "plane_gl_lists", "plane_light", "plane_svg"]);

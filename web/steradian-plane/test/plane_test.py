@@ -157,13 +157,13 @@ def check_page(package, chromium):
         before = r["svg"]
         bounced = ["--bounces", "all"] if r["what"] == "all bounces" else []
         box = [float(x) for x in re.search(r'viewBox="([^"]*)"', r["svg"]).group(1).split()]
-        # What is under the pointer, with the digits that the page shows.
+        # The irradiance under the pointer, with the digits that the page shows.
         place = [float(x) for x in r["at"].split(",")]
         if not bounced:
             want = eval_plane(scene, [place])[0]
             said = [float(x) for x in r["value"].split()]
             assert distance(said, want) < 0.6e-5, (r["what"], said, want)
-        # What is shown, in codes of the display.
+        # The shown pixels, in codes of the display.
         s = max(box[2] / r["width"], box[3] / r["height"])  # all of the scene, in the middle
         left, top = box[0] + (box[2] - s * r["width"]) / 2, box[1] + (box[3] - s * r["height"]) / 2
         half = r["what"] == "half by rays"

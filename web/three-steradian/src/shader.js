@@ -94,7 +94,7 @@ vec2 steradian_three_closed_form( const in SteradianOutline light, const in mat3
 
 #ifdef USE_SHEEN
 
-// What fibres of colour 1 send to the view: Charlie's lobe by its cubature. The outline may be one about a mirror's lobe.
+// The radiance that fibres of colour 1 send to the view: Charlie's lobe by its cubature. The outline may be one about a mirror's lobe.
 float steradian_three_sheen( const in SteradianOutline light, const in mat3 frame, const in vec3 view, const in float roughness ) {
 	float facing = light.reversed ? - 1.0 : 1.0;
 	steradian_three_edges( light, frame );
@@ -106,7 +106,7 @@ float steradian_three_sheen( const in SteradianOutline light, const in mat3 fram
 	return steradian_charlie_cubature_finish( c );
 }
 
-// What is left for the surface below the fibres.
+// The fraction that reaches the surface below the fibres.
 float steradian_three_below_sheen( const in PhysicalMaterial material, const in vec3 view ) {
 	vec3 turned = vec3( sqrt( max( 1.0 - view.z * view.z, 0.0 ) ), 0.0, view.z );
 	vec2 place = steradian_ltc_coordinates( material.sheenRoughness, view.z );

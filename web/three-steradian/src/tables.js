@@ -1,4 +1,4 @@
-// Of GGX, for the formula of three's RectAreaLight: a matrix and two magnitudes an entry, as half floats. Made by fit_tables.py.
+// GGX tables for the formula of three's RectAreaLight: a matrix and two magnitudes an entry, as half floats. Made by fit_tables.py.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 import { DataUtils } from 'three';
 
@@ -13,7 +13,7 @@ function decoded( text ) {
 
 }
 
-// What three's textures hold: four numbers an entry.
+// The contents of three's textures: four numbers an entry.
 export function ltcTables() {
 
 	const size = 64, pairs = decoded( MAGNITUDE ), magnitude = new Float32Array( 4 * size * size );

@@ -1,4 +1,4 @@
-// What a light node computes, as a function of GLSL or of WGSL: one text, whose declarations alone differ.
+// The computation of a light node, as a function of GLSL or of WGSL: one text, whose declarations alone differ.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 const GLSL = {

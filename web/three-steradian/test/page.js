@@ -52,7 +52,7 @@ async function pixelsBy( method, c ) {
 
 	if ( method === 'compact' || method === 'closed-form' )
 		useSteradian( material, { method, lights: new AreaLightSet( lights.filter( ( l ) => ! l.isRectAreaLight ) ) } );
-	// Of small triangles: SwiftShader places the fragments of large ones up to a pixel off.
+	// Made of small triangles: SwiftShader places the fragments of large ones up to a pixel off.
 	const floor = new THREE.Mesh( new THREE.PlaneGeometry( 40, 40, 80, 80 ), material );
 	floor.rotation.x = - Math.PI / 2;
 	scene.add( floor );

@@ -143,7 +143,7 @@ FRAME = {"type": "polygon", "place": placed([0.1, 1.0, -0.4], [0, -1, 0.4]), "ou
          "holes": [[[-0.6, -0.3], [-0.1, -0.3], [-0.1, 0.3], [-0.6, 0.3]], [[0.2, -0.3], [0.6, -0.3], [0.4, 0.3]]], "radiance": [5, 5, 4]}
 BEHIND = ([0.9, 0.8, -0.5], [-0.3, 1, 0.3])
 AWAY = {**DISK, "place": placed(*BEHIND), "two_sided": True}  # its back to the floor
-# Of a glTF file, with their nodes' place, rotation and scale: -z shines. What they are is said by the library's reader of the same file.
+# The lights of a glTF file, with their nodes' place, rotation and scale: -z shines. What they are is said by the library's reader of the same file.
 LIGHTS_OF_A_FILE = [
     ({"type": "rect", "size": 0.5, "rect": {"aspect": 2}, "color": [1, 0.8, 0.6], "intensity": 6}, [-0.7, 1, -0.4], [0.3, -1, 0.3], [1, 1, 1]),
     ({"type": "disk", "size": 0.7, "intensity": 5, "extras": {"steradian": {"two_sided": True}}}, *BEHIND, [1, 1, 1]),
@@ -180,7 +180,7 @@ CASES = [  # name, lights, material, roughness
     ("panel on brushed metal", [PANEL], BRUSHED, 0.4),
 ]
 WITH_THREE_S_OWN = ("panel on gold", "half below, gold", "panel on plastic")  # half the error is asked of the first two
-# Of each method: how far the mean may be off, and by how much of white the pixels that are not among the best 99.5 %.
+# The bounds of each method: how far the mean may be off, and by how much of white the pixels that are not among the best 99.5 %.
 BOUNDS = {"closed-form": (0.005, 2 / 255), "compact": (0.03, 0.06)}
 
 
@@ -250,7 +250,7 @@ def judged(seen, material, roughness, eye):
         return below
     cloth = {"brdf": "charlie", "alpha": material["sheenRoughness"] ** 2}
     fibres = steradian.radiance(seen, point, [0, 1, 0], -ray, cloth)
-    # What fibres of colour 1 reflect of a sky of radiance 1, all but the last degree above the horizon.
+    # The reflection by fibres of colour 1 of a sky of radiance 1, all but the last degree above the horizon.
     sky = {"type": "rect", "center": [0, 1, 0], "x": [60, 0, 0], "y": [0, 0, 60], "radiance": 1}
     cosines = np.linspace(0.05, 1, 60)
     at = [steradian.radiance([sky], [0, 0, 0], [0, 1, 0], [math.sqrt(1 - c * c), c, 0], cloth).flatten()[0] for c in cosines]
