@@ -59,7 +59,7 @@ def mirrors(texts):
     for path, text in texts.items():
         if path.parts[0] == "shaders":
             for number, line in enumerate(text.split("\n"), 1):
-                if re.search(r"\bas source/", line):
+                if re.search(r"\b(as|as in|as there|[Mm]irrors)\b.*(source/|\.h\b|\.cpp\b)", line):
                     yield path, number, line.strip()[:80]
 
 
