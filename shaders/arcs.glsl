@@ -1,4 +1,4 @@
-// Arcs of great circles in half vectors' space, and the slivers between them and an edge's image. Mirrors source/integrals/half_vector.h.
+// Arcs of great circles in half vectors' space, and the slivers between them and an edge's image. Mirrors source/integrals/ggx/half_vector.h.
 //
 // A shader defines before: ARC_SUM, the type of the sums, share_of_arc(view, a, b), and share_at(view, h) for each steradian.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.

@@ -1,4 +1,4 @@
-// Beckmann's and Blinn-Phong's lobes by arcs of half vectors. Mirrors source/integrals/half_vector.h.
+// Beckmann's and Blinn-Phong's lobes by arcs of half vectors. Mirrors source/integrals/ggx/half_vector.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 const bool BECKMANN = LOBE_FORM == 1;

@@ -21,7 +21,7 @@ layout(push_constant) uniform Push { uint step; };
 
 int parameter(int place) { return int(parameters[place]); }
 
-// Pixel of a tile's receiver (source/render/indirect/receivers.h, Layout). x is negative outside of the picture.
+// Pixel of a tile's receiver (source/render/bounce/receivers/receivers.h, Layout). x is negative outside of the picture.
 ivec2 pixel_of(int set, int tile, int receiver) {
     int block = receiver / 16;
     int tiles_x = parameter(kTilesX);

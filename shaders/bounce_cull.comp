@@ -1,5 +1,5 @@
 // Finds the virtual lights that can matter to a tile's blocks. A thread tests 32 of the tile's set against the tile, then against its
-// blocks. The tests are those of source/render/indirect/cull_pack.cpp.
+// blocks. The tests are those of source/render/bounce/cull_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
 // Filter that joins the results of a pattern's pixels, along rows (step 0), then along columns (step 1); a thread a pixel.
-// Mirrors source/render/indirect/filter_pack.cpp.
+// Mirrors source/render/bounce/receivers/filter_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,7 +1,7 @@
 // Algorithm 2 of Xia et al. 2023, second pass: light from virtual lights at each pixel. A thread handles a receiver and its block's lights.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
-// Mirrors source/render/indirect/lighting_pack.cpp, which runs on packs; light is demodulated as there.
+// Mirrors source/render/bounce/lighting_pack.cpp, which runs on packs; light is demodulated as there.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "bounce.glsl"

@@ -1,4 +1,4 @@
-// Lobes from the compact table (source/render/indirect/lobe_pack.h). `tables` holds its nodes: matrices, then magnitudes.
+// Lobes from the compact table (source/render/bounce/lobe_pack.h). `tables` holds its nodes: matrices, then magnitudes.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 layout(constant_id = 0) const int MATRIX_SIZE = 2;

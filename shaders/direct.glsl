@@ -9,7 +9,7 @@
 #include "layout.glsl"
 #include "shadow_layout.glsl"
 
-// A pipeline is one choice of these (source/render/vulkan/direct_light.cpp).
+// A pipeline is one choice of these (source/device/direct/direct_light.cpp).
 layout(constant_id = 0) const int KIND = 0;
 layout(constant_id = 1) const int WITH_DIFFUSE = 0;        // transformed cosines only: 1: one walk for both lobes
 layout(constant_id = 2) const int COMPACT_TABLE = 0;       // transformed cosines only

@@ -1,5 +1,5 @@
 // Layers that glTF puts over the metallic-roughness surface, and effects that spread its lobe: sheen, coats, brushing, light between
-// facets. Names and order are those of source/render/cpu/surface.cpp.
+// facets. Names and order are those of source/render/surface/surface.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Widens the lobe along a direction. Returns the direction's cosine and sine, measured from the tangent.

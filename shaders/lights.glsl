@@ -1,4 +1,4 @@
-// Lights as the host wrote them (source/render/vulkan/light_records.cpp), and how a point sees them. This text mirrors source/shapes for
+// Lights as the host wrote them (source/device/direct/light_records.cpp), and how a point sees them. This text mirrors source/shapes for
 // packs; the parity of frames holds the two together.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 

@@ -1,5 +1,5 @@
 // Phong's lobe about the mirrored view, times the light's cosine where the material asks for it, and the product of two as one matched
-// lobe. Mirrors source/integrals/phong.h, foreshortened_phong.h and matched_lobe.h.
+// lobe. Mirrors source/integrals/phong/phong.h, foreshortened_phong.h and matched_lobe.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "lobe/lobe_product.glsl"
 #include "phong_front.glsl"

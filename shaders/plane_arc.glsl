@@ -1,5 +1,5 @@
 // Arcs of ellipses. The visible part of an arc is an interval. Where emission changes along it or with distance, Gauss-Kronrod quadrature
-// integrates it, halved until its two rules agree (source/plane/frame/tile_arc.h).
+// integrates it, halved until its two rules agree (source/plane/frame/tiles/tile_arc.h).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Gauss-Kronrod, 7 and 15 nodes; Piessens et al., QUADPACK, 1983. A row: a node, its weight, its weight in Gauss' rule, and in a rule that

@@ -1,4 +1,4 @@
-// Blockers of the general rules: intervals of slopes from an axis that they occlude (source/plane/frame/tile_cut.h).
+// Blockers of the general rules: intervals of slopes from an axis that they occlude (source/plane/frame/tiles/tile_cut.h).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Components of v along the axis and across it.

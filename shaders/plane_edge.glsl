@@ -1,4 +1,4 @@
-// Disks, edges and runs of edges by the general rules (source/plane/frame/tile_pack.cpp).
+// Disks, edges and runs of edges by the general rules (source/plane/frame/tiles/tile_pack.cpp).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 vec3 disk_light(uint at) {

@@ -1,4 +1,4 @@
-// A round light's blockers by event lines (source/plane/frame/event_lines.h).
+// A round light's blockers by event lines (source/plane/frame/events/event_lines.h).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 float number_of_pair(uint pair, int line, int i) { return uintBitsToFloat(pairs[pair + uint(line * 3 + i)]); }

@@ -1,5 +1,5 @@
 // Lists of the plane: the blockers that matter to a round light in a tile, found by the event lines of each pair
-// (source/plane/frame/event_pack.cpp). A thread handles a tile and a light.
+// (source/plane/frame/events/event_pack.cpp). A thread handles a tile and a light.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

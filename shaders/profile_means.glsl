@@ -1,14 +1,14 @@
 // Mean radiance of a rect or disk with a measured profile, as a lobe sees it: Gauss's rule of 3 x 3 points in cells. Cells are as fine as
-// lobe and profile need. Mirrors source/integrals/profiled_light.cpp; the parity of frames holds the two together.
+// lobe and profile need. Mirrors source/integrals/textured/profiled_light.cpp; the parity of frames holds the two together.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The surface's lobe: 0 the diffuse one, 1 the base's, 2 the coat's, 3 sheen.
 const int OF_LOBE = WHICH_LOBE;
 
-// Fraction of the lobe's width that a cell may span, as in source/integrals/profiled_light.cpp.
+// Fraction of the lobe's width that a cell may span, as in source/integrals/textured/profiled_light.cpp.
 const float kProfileLobeShare = 0.6;
 
-// A profiled light as the host wrote it (source/render/vulkan/light_details.cpp): kProfileHead vectors.
+// A profiled light as the host wrote it (source/device/direct/light_details.cpp): kProfileHead vectors.
 struct ProfiledLight {
     vec3 center;
     bool round;

@@ -1,4 +1,4 @@
-// Finds the triangles that a ray meets, in a hierarchy of boxes in a buffer (source/render/vulkan/ray_hierarchy.h). The traversal needs no
+// Finds the triangles that a ray meets, in a hierarchy of boxes in a buffer (source/device/shadow/ray_hierarchy.h). The traversal needs no
 // stack: nodes stand in its order, and each has the number of the node past all that is below it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 

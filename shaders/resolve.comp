@@ -1,4 +1,4 @@
-// Computes the surfaces at the pixels of tiles, from the visible triangles. Mirrors source/render/cpu/surface.h.
+// Computes the surfaces at the pixels of tiles, from the visible triangles. Mirrors source/render/surface/surface.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require

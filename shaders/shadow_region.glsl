@@ -1,4 +1,4 @@
-// The region that the pieces bound: tests if it is thin, and finds a place well inside it. Mirrors source/shadow/lanes_region_pack.cpp.
+// The region that the pieces bound: tests if it is thin, and finds a place well inside it. Mirrors source/shadow/lanes/lanes_region_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 const float kCellSize = 1.0 / 4194304.0;      // in half sides of the box

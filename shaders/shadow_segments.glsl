@@ -1,5 +1,5 @@
 // A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells. Mirrors
-// source/shadow/edge_arrays.cpp and lanes_see_pack.cpp.
+// source/shadow/edges/edge_arrays.cpp and lanes_see_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 SHARED ivec4 cells[SEGMENT_SPACE];  // start, end
@@ -8,7 +8,7 @@ SHARED int weights[SEGMENT_SPACE];
 int segment_count;
 bool too_much;  // the capacity is exceeded
 
-const int kHidden = 1048576;  // source/shadow/segments.h
+const int kHidden = 1048576;  // source/shadow/edges/segments.h
 
 ivec4 displacements(uvec2 named) { return ivec4(displacement(named.x), displacement(named.y)); }
 

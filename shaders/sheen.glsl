@@ -1,4 +1,4 @@
-// Sheen, Charlie's lobe, by its cubature. Mirrors source/integrals/charlie.h.
+// Sheen, Charlie's lobe, by its cubature. Mirrors source/integrals/ggx/charlie.h.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Walks over the edges twice. If the edges exceed their space, the second turn clips the outline again.

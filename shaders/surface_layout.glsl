@@ -1,4 +1,4 @@
-// Layout of a scene for the shaders that find surfaces (source/render/vulkan/scene_buffers.cpp). This text is C++ and GLSL at once.
+// Layout of a scene for the shaders that find surfaces (source/device/surface/scene_buffers.cpp). This text is C++ and GLSL at once.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Vertices: vectors of four each.

@@ -11,7 +11,7 @@
 
 #include "core/test_memory.h"
 #include "program.h"
-#include "scene/gltf_test_file.h"
+#include "scene/gltf/gltf_test_file.h"
 #include "steradian/load_scene.h"
 #include "steradian/picture.h"
 #include "steradian/render.h"

@@ -1,6 +1,6 @@
 // `steradian render SCENE.glb --frames`: the pictures of an animation, as a process.
 #include "program.h"
-#include "scene/gltf_animation.h"
+#include "scene/gltf/gltf_animation.h"
 #include "steradian/load_scene.h"
 #include "steradian/picture.h"
 #include "steradian/render.h"

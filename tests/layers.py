@@ -19,8 +19,19 @@ ROWS = [
     ["apps/steradian"],
     ["apps/bench"],
     ["apps/steradian/eval", "apps/viewer", "apps/command_line"],
-    ["source/plane_vulkan"],
-    ["source/render"],
+    ["source/device/plane"],
+    ["source/device"],
+    ["source/device/frame"],
+    ["source/device/surface", "source/device/bounce"],
+    ["source/device/shadow"],
+    ["source/device/direct"],
+    ["source/device/vulkan"],
+    ["source/render/frame"],
+    ["source/render/bounce", "source/render/shadow", "source/render/many", "source/render/batch"],
+    ["source/render/sampled", "source/render/direct"],
+    ["source/render/environment", "source/render/lights"],
+    ["source/render/surface"],
+    ["source/render/tile"],
     ["source/plane", "source/fit"],
     ["source/scene", "source/shadow"],
     ["source/integrals", "source/image"],
@@ -127,10 +138,10 @@ def picture(pairs):
 
 
 def self_test():
-    up = (Path("source/core/a.h"), Path("source/render/b.h"))
+    up = (Path("source/core/a.h"), Path("source/render/frame/b.h"))
     circle = [(Path("source/plane/a.h"), Path("source/fit/b.h")), (Path("source/fit/c.h"), Path("source/plane/d.h"))]
     nowhere = (Path("source/core/a.h"), Path("source/attic/b.h"))
-    down = (Path("source/render/b.h"), Path("source/core/a.h"))
+    down = (Path("source/render/frame/b.h"), Path("source/core/a.h"))
     found = [bool(wrong([up])), bool(wrong(circle)), bool(wrong([nowhere])), not wrong([down])]
     print(f"upward, circle, unknown folder found, downward allowed: {found}")
     sys.exit(not all(found))

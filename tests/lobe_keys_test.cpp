@@ -6,7 +6,7 @@
 
 #include "eval/query.h"
 #include "lobes/lobe.h"
-#include "scene/gltf_materials.h"
+#include "scene/gltf/gltf_materials.h"
 
 namespace steradian::lobe_keys_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "program.h"
-#include "render/vulkan/device.h"
+#include "device/vulkan/device.h"
 
 namespace steradian::lost_device_test {
 namespace {

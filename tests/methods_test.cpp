@@ -10,8 +10,8 @@
 #include <set>
 
 #include "paths.h"
-#include "render/cpu/camera_rays.h"
-#include "render/cpu/methods.h"
+#include "render/surface/camera_rays.h"
+#include "render/frame/methods.h"
 #include "scene/test_meshes.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"

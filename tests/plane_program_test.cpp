@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "program.h"
-#include "render/vulkan/device.h"
+#include "device/vulkan/device.h"
 #include "steradian/picture.h"
 
 namespace steradian::plane_program_test {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
-#include "render/vulkan/device.h"
+#include "device/vulkan/device.h"
 #include "steradian/compare.h"
 #include "steradian/picture.h"
 

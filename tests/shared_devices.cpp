@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "render/vulkan/device.h"
+#include "device/vulkan/device.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // Columns: roughness 0.1, 0.3, 0.5, 1; above by transformed cosines, below by GGX.
 #include <cstdio>
 
-#include "render/indirect/point_light_plane.h"
+#include "render/bounce/point_light_plane.h"
 #include "steradian/picture.h"
 
 using namespace steradian;

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "shadow/visible_part.h"
+#include "shadow/region/visible_part.h"
 #include "steradian/polygon_light.h"
 
 using namespace steradian;

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "render/cpu/camera_rays.h"
-#include "render/cpu/ray_scene.h"
+#include "render/surface/camera_rays.h"
+#include "render/surface/ray_scene.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 

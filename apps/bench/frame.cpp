@@ -22,7 +22,7 @@
 #include "floor.h"
 #include "frame.h"
 #include "core/float_mode.h"
-#include "render/cpu/gbuffer.h"
+#include "render/surface/gbuffer.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 #include "steradian/render_cache.h"

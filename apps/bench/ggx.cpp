@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "benches.h"
-#include "render/cpu/closed_form.h"
-#include "render/cpu/comparison.h"
-#include "render/cpu/half_vector.h"
+#include "render/direct/closed_form.h"
+#include "render/direct/comparison.h"
+#include "render/direct/half_vector.h"
 
 namespace steradian::bench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "benches.h"
 #include "frame.h"
-#include "render/indirect/pairs.h"
+#include "render/bounce/pairs.h"
 #include "core/random.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"

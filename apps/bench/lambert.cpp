@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benches.h"
-#include "render/cpu/irradiance.h"
+#include "render/direct/irradiance.h"
 
 namespace steradian::bench {
 namespace {

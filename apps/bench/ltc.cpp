@@ -7,7 +7,7 @@
 
 #include "benches.h"
 #include "fit/fit.h"
-#include "render/cpu/ltc_points.h"
+#include "render/direct/ltc_points.h"
 
 namespace steradian::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bench/phong_methods.h"
 #include "core/float_mode.h"
-#include "render/vulkan/device.h"
+#include "device/vulkan/device.h"
 
 namespace steradian::bench::phong_on_device_test {
 namespace {

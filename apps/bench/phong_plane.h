@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/cpu/phong.h"
+#include "render/direct/phong.h"
 
 namespace steradian::moment {
 

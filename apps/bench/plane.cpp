@@ -18,8 +18,8 @@
 #include <memory>
 
 #include "benches.h"
-#include "plane/frame/drawing.h"
-#include "plane/frame/light_field.h"
+#include "plane/stage/drawing.h"
+#include "plane/stage/light_field.h"
 #include "steradian/plane_bounce.h"
 #include "steradian/plane_device.h"
 #include "steradian/plane_stage.h"

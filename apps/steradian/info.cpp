@@ -9,7 +9,7 @@
 #include "core/budget.h"
 #include "core/simd.h"
 #include "info_scene.h"
-#include "render/vulkan/device.h"
+#include "device/vulkan/device.h"
 #include "steradian/version.h"
 #include "verbs.h"
 

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "lobes/lobe.h"
-#include "render/cpu/methods.h"
+#include "render/frame/methods.h"
 #include "steradian/load_scene.h"
 
 namespace steradian::app {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "scene/gltf_animation.h"
+#include "scene/gltf/gltf_animation.h"
 #include "steradian/error.h"
 #include "steradian/picture.h"
 #include "steradian/version.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf_file.h"
+#include "scene/gltf/gltf_file.h"
 
 namespace steradian::view {
 

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "core/atomic_file.h"
-#include "plane/frame/tiles.h"
+#include "plane/frame/tiles/tiles.h"
 #include "steradian/error.h"
 
 namespace steradian::view {

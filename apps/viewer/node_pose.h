@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "document.h"
-#include "scene/gltf_nodes.h"
+#include "scene/gltf/gltf_nodes.h"
 
 namespace steradian::view {
 

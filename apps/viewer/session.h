@@ -10,7 +10,7 @@
 #include "gizmo.h"
 #include "outline.h"
 #include "pick.h"
-#include "scene/gltf_animation.h"
+#include "scene/gltf/gltf_animation.h"
 #include "stage.h"
 #include "worker.h"
 

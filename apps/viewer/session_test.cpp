@@ -6,7 +6,7 @@
 
 #include "core/test_memory.h"
 #include "player.h"
-#include "scene/gltf_test_file.h"
+#include "scene/gltf/gltf_test_file.h"
 #include "test_session.h"
 #include "steradian/error.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "document.h"
-#include "scene/gltf_nodes.h"
+#include "scene/gltf/gltf_nodes.h"
 #include "steradian/scene.h"
 #include "steradian/vector2.h"
 

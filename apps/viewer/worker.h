@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "accumulation.h"
-#include "scene/gltf_file.h"
+#include "scene/gltf/gltf_file.h"
 #include "steradian/load_scene.h"
 #include "steradian/render_cache.h"
 

@@ -1,7 +1,7 @@
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides moment_quadrature_piece until it converges (source/integrals/exact_moment.cpp); moment_quadrature_front
+// subdivides moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.

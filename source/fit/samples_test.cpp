@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "fit/fit.h"
-#include "integrals/ltc/ltc_shape.h"
+#include "integrals/ggx/ltc_shape.h"
 #include "steradian/error.h"
 
 namespace steradian::fit::samples_test {

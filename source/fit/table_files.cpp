@@ -14,7 +14,7 @@
 
 #include "core/atomic_file.h"
 #include "fit/lobe.h"
-#include "integrals/ltc/half.h"
+#include "integrals/tables/half.h"
 #include "steradian/error.h"
 
 namespace steradian::fit {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "integrals/ltc/table.h"
+#include "integrals/tables/table.h"
 
 namespace steradian::fit {
 

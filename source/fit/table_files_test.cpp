@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/tables_of_fit.h"
-#include "integrals/ltc/ggx_tables.h"
-#include "integrals/ltc/half.h"
+#include "integrals/tables/ggx_tables.h"
+#include "integrals/tables/half.h"
 #include "steradian/error.h"
 #include "paths.h"
 

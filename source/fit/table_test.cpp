@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fit/fit_report.h"
-#include "integrals/ltc/ggx_tables.h"
+#include "integrals/tables/ggx_tables.h"
 
 namespace steradian::fit::table_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fit/clipped_sphere.h"
-#include "integrals/ltc/half.h"
-#include "integrals/ltc/table_lookup.h"
+#include "integrals/tables/half.h"
+#include "integrals/tables/table_lookup.h"
 
 namespace steradian::fit {
 namespace {

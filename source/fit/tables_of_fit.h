@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fit/fit.h"
-#include "integrals/ltc/table.h"
+#include "integrals/tables/table.h"
 
 namespace steradian::fit {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/lobe.h"
-#include "integrals/ltc/ltc_shape.h"
+#include "integrals/ggx/ltc_shape.h"
 
 namespace steradian::fit {
 

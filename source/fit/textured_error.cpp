@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "integrals/ltc/textured_light.h"
+#include "integrals/textured/textured_light.h"
 #include "lobes/lobe.h"
 #include "core/random.h"
 

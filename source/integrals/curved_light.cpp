@@ -7,7 +7,7 @@
 
 #include "integrals/outline_answer.h"
 #include "integrals/point_light.h"
-#include "integrals/profiled_light.h"
+#include "integrals/textured/profiled_light.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/error.h"

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <random>
 
-#include "integrals/ggx.h"
+#include "integrals/ggx/ggx.h"
 #include "integrals/irradiance.h"
-#include "integrals/ltc.h"
-#include "integrals/phong.h"
+#include "integrals/ggx/ltc.h"
+#include "integrals/phong/phong.h"
 
 namespace steradian::integrate_test {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrals/charlie.h"
-#include "integrals/ltc/table.h"
-#include "integrals/matched_lobe.h"
+#include "integrals/ggx/charlie.h"
+#include "integrals/tables/table.h"
+#include "integrals/phong/matched_lobe.h"
 #include "shapes/polygon.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "integrals/ggx.h"
+#include "integrals/ggx/ggx.h"
 #include "integrals/irradiance.h"
-#include "integrals/phong.h"
-#include "integrals/ltc/shipped_lobe.h"
+#include "integrals/phong/phong.h"
+#include "integrals/tables/shipped_lobe.h"
 #include "shapes/polygon.h"
 #include "steradian/dual.h"
 #include "steradian/albedo.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "scene/gltf_test_file.h"
+#include "scene/gltf/gltf_test_file.h"
 #include "scene/test_meshes.h"
 #include "steradian/error.h"
 

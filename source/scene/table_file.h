@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "integrals/ltc/table.h"
+#include "integrals/tables/table.h"
 
 namespace steradian::scene {
 

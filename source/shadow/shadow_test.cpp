@@ -6,18 +6,18 @@
 #include <numeric>
 
 #include "core/random.h"
-#include "integrals/ltc/ggx_tables.h"
-#include "integrals/ltc/table.h"
+#include "integrals/tables/ggx_tables.h"
+#include "integrals/tables/table.h"
 #include "lobes/lobe.h"
-#include "shadow/edge_arrays.h"
-#include "shadow/point_lanes.h"
-#include "shadow/round_light.h"
+#include "shadow/edges/edge_arrays.h"
+#include "shadow/lanes/point_lanes.h"
+#include "shadow/region/round_light.h"
 #include "shadow/shadow_kernels.h"
 #include "shadow/test_families.h"
 #include "shadow/test_rays_integral.h"
-#include "shadow/triangle_rays.h"
-#include "shadow/visible.h"
-#include "shadow/visible_part.h"
+#include "shadow/rays/triangle_rays.h"
+#include "shadow/region/visible.h"
+#include "shadow/region/visible_part.h"
 #include "steradian/kernels.h"
 
 namespace steradian::shadow::shadow_test {

@@ -11,8 +11,8 @@
 
 #include "core/random.h"
 #include "reference/random_configurations.h"
-#include "shadow/edges.h"
-#include "shadow/segments.h"
+#include "shadow/edges/edges.h"
+#include "shadow/edges/segments.h"
 #include "steradian/polygon_light.h"
 
 namespace steradian::shadow::families {

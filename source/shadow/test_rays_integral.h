@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "shadow/light_frame.h"
-#include "shadow/segments.h"
-#include "shadow/visible.h"
+#include "shadow/region/light_frame.h"
+#include "shadow/edges/segments.h"
+#include "shadow/region/visible.h"
 
 namespace steradian::shadow {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "integrals/random_rectangles.h"
-#include "integrals/representative_point.h"
+#include "integrals/ggx/representative_point.h"
 #include "sections.h"
 #include "shapes/polygon.h"
 #include "steradian/closed_form.h"

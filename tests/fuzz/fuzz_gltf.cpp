@@ -1,4 +1,4 @@
-#include "scene/gltf_animation.h"
+#include "scene/gltf/gltf_animation.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "targets.h"

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "render/vulkan/compute_program.h"
+#include "device/vulkan/compute_program.h"
 #include "steradian/error.h"
 
 namespace steradian::parity {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "compare.h"
-#include "render/vulkan/device.h"
+#include "device/vulkan/device.h"
 
 namespace steradian::parity {
 

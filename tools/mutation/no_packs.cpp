@@ -2,10 +2,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "render/cpu/closed_form.h"
-#include "render/cpu/ltc_points.h"
-#include "render/cpu/phong.h"
-#include "render/cpu/sheen.h"
+#include "render/direct/closed_form.h"
+#include "render/direct/ltc_points.h"
+#include "render/direct/phong.h"
+#include "render/direct/sheen.h"
 #include "bench/studies/table2.h"
 
 namespace steradian {

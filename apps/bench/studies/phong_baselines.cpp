@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "integrals/phong.h"
+#include "integrals/phong/phong.h"
 
 namespace steradian::moment {
 namespace {

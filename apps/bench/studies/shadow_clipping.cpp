@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadow/light_frame.h"
+#include "shadow/region/light_frame.h"
 
 namespace steradian::studies {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "shadow/edges.h"
-#include "shadow/segments.h"
+#include "shadow/edges/edges.h"
+#include "shadow/edges/segments.h"
 #include "steradian/polygon_light.h"
 
 namespace steradian::studies {

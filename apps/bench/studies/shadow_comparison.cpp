@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 
-#include "render/cpu/ray_scene.h"
-#include "shadow/edge_arrays.h"
+#include "render/surface/ray_scene.h"
+#include "shadow/edges/edge_arrays.h"
 #include "shadow/test_families.h"
 #include "shadow/test_rays_integral.h"
-#include "shadow/visible_part.h"
+#include "shadow/region/visible_part.h"
 #include "steradian/ltc.h"
 #include "steradian/polygon_derivatives.h"
 #include "bench/studies/shadow_clipping.h"

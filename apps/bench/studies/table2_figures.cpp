@@ -5,7 +5,7 @@
 
 #include "core/atomic_file.h"
 #include "core/float_mode.h"
-#include "integrals/phong.h"
+#include "integrals/phong/phong.h"
 #include "bench/studies/line_plot.h"
 #include "bench/phong_plane.h"
 #include "bench/studies/table2.h"

@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "integrals/ltc/table.h"
+#include "integrals/tables/table.h"
 #include "integrals/methods.h"
-#include "shadow/visible_part.h"
+#include "shadow/region/visible_part.h"
 #include "shapes/shape.h"
 #include "steradian/material.h"
 #include "steradian/area_light.h"

@@ -5,10 +5,10 @@
 
 #include "integrals/curved_light.h"
 #include "integrals/point_light.h"
-#include "integrals/profiled_light.h"
+#include "integrals/textured/profiled_light.h"
 #include "reference/sampled.h"
-#include "shadow/round_light.h"
-#include "shadow/visible_part.h"
+#include "shadow/region/round_light.h"
+#include "shadow/region/visible_part.h"
 #include "steradian/capsule_light.h"
 #include "steradian/error.h"
 

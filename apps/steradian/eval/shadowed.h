@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "eval/query.h"
-#include "shadow/derivatives.h"
+#include "shadow/region/derivatives.h"
 
 namespace steradian::eval {
 

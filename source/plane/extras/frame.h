@@ -3,7 +3,7 @@
 
 #include "core/budget.h"
 #include "plane/exact/world.h"
-#include "plane/frame/tiles.h"
+#include "plane/frame/tiles/tiles.h"
 #include "steradian/picture.h"
 
 namespace steradian::plane {

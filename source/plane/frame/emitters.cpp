@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/frame/runs.h"
+#include "plane/frame/runs/runs.h"
 
 namespace steradian::plane {
 namespace {

@@ -11,7 +11,7 @@
 #include "plane/extras/extras.h"
 #include "plane/extras/frame.h"
 #include "plane/frame/frame.h"
-#include "plane/frame/lattice.h"
+#include "plane/frame/tiles/lattice.h"
 #include "plane/frame/wall_emitters.h"
 #include "steradian/error.h"
 

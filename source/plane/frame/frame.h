@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "plane/frame/scene.h"
-#include "plane/frame/tiles.h"
+#include "plane/frame/tiles/tiles.h"
 #include "steradian/picture.h"
 
 namespace steradian::plane {

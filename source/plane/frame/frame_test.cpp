@@ -12,8 +12,8 @@
 #include "plane/exact/families.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
-#include "plane/frame/drawing.h"
-#include "plane/frame/light_field.h"
+#include "plane/stage/drawing.h"
+#include "plane/stage/light_field.h"
 #include "plane/frame/scene.h"
 
 namespace steradian::plane::frame_test {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/frame/chains.h"
+#include "plane/frame/runs/chains.h"
 #include "plane/frame/emitters.h"
-#include "plane/frame/preparation.h"
-#include "plane/frame/reaching.h"
-#include "plane/frame/runs.h"
+#include "plane/stage/preparation.h"
+#include "plane/frame/runs/reaching.h"
+#include "plane/frame/runs/runs.h"
 
 namespace steradian::plane {
 namespace {

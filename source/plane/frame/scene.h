@@ -8,10 +8,10 @@
 #include <functional>
 #include <vector>
 
-#include "plane/frame/cull.h"
-#include "plane/frame/events.h"
-#include "plane/frame/interior.h"
-#include "plane/frame/silhouette.h"
+#include "plane/frame/tiles/cull.h"
+#include "plane/frame/events/events.h"
+#include "plane/frame/tiles/interior.h"
+#include "plane/frame/runs/silhouette.h"
 #include "core/budget.h"
 #include "plane/exact/world.h"
 

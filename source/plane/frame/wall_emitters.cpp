@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "plane/frame/emitters.h"
-#include "plane/frame/runs.h"
+#include "plane/frame/runs/runs.h"
 
 namespace steradian::plane {
 namespace {

@@ -14,7 +14,7 @@
 #include "plane/svg/document.h"
 #include "plane/svg/path.h"
 #include "plane/svg/timing.h"
-#include "plane/svg/values.h"
+#include "plane/svg/style/values.h"
 #include "steradian/error.h"
 #include "steradian/plane_animation.h"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "plane/svg/timing.h"
-#include "plane/svg/values.h"
+#include "plane/svg/style/values.h"
 #include "steradian/plane_animation.h"
 
 namespace steradian::plane::svg::animate_test {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "plane/svg/text.h"
+#include "plane/svg/text/text.h"
 
 namespace steradian::plane::svg {
 

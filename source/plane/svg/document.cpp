@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "plane/svg/text.h"
+#include "plane/svg/text/text.h"
 #include "steradian/error.h"
 
 namespace steradian::plane::svg {

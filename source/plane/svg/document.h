@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "plane/svg/css.h"
+#include "plane/svg/style/css.h"
 #include "steradian/limits.h"
 #include "steradian/vector.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "plane/svg/style.h"
+#include "plane/svg/style/style.h"
 #include "steradian/plane.h"
 
 namespace steradian::plane::svg {

@@ -1,7 +1,7 @@
 // Emission of a light from an element.
 #pragma once
 
-#include "plane/svg/style.h"
+#include "plane/svg/style/style.h"
 #include "steradian/plane.h"
 
 namespace steradian::plane::svg {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "plane/svg/text.h"
+#include "plane/svg/text/text.h"
 
 namespace steradian::plane::svg {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "plane/svg/document.h"
-#include "plane/svg/text.h"
+#include "plane/svg/text/text.h"
 #include "steradian/plane.h"
 
 namespace steradian::plane::svg {

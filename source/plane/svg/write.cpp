@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/svg/text.h"
+#include "plane/svg/text/text.h"
 #include "steradian/plane.h"
 
 namespace steradian::plane::svg {

@@ -6,7 +6,7 @@
 #include "render/environment/environment_sampler.h"
 #include "render/environment/filtered_map.h"
 #include "render/environment/harmonics.h"
-#include "render/cpu/surface.h"
+#include "render/surface/surface.h"
 
 namespace steradian::environment {
 

@@ -3,11 +3,11 @@
 #include <bit>
 #include <span>
 
-#include "plane/frame/event_walk.h"
+#include "plane/frame/events/event_walk.h"
 #include "plane/frame/frame.h"
-#include "plane_vulkan/listed_disks.h"
-#include "plane_vulkan/pair_words.h"
-#include "plane_vulkan/recorded_tiles.h"
+#include "device/plane/listed_disks.h"
+#include "device/plane/pair_words.h"
+#include "device/plane/recorded_tiles.h"
 
 namespace steradian::plane {
 namespace {

@@ -1,5 +1,5 @@
 // A page's WebAssembly sees no fonts: <text> is left out with a warning, as on a machine without any.
-#include "plane/svg/fonts.h"
+#include "plane/svg/text/fonts.h"
 
 namespace steradian::plane::svg {
 

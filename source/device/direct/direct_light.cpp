@@ -1,0 +1,500 @@
+#include "device/direct/direct_light.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "render/lights/light_bounds.h"
+#include "render/direct/ltc_points.h"
+#include "device/vulkan/shaders.h"
+#include "scene/table_file.h"
+#include "shapes/small_light.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/layout.glsl"
+
+constexpr std::size_t kTexels = 6, kBuffers = 5;                // as bound in run
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
+constexpr std::size_t kTilesOfBatch = 256;
+constexpr std::size_t kSlotsOfSquare = static_cast<std::size_t>(kGroupsOfSquare * kGroup);
+constexpr int kCornersNearRim = 32;
+constexpr int kMostEdges = 48;  // that a thread stores; longer outlines are walked in pieces
+constexpr float kPushed =
+    3.25f;  // a round light's corners may be this much farther from its centre than itself (ellipse_pushed_corner: 2.25)
+
+constexpr auto bytes_of_planes(int planes) {
+  return static_cast<std::size_t>(planes) * static_cast<std::size_t>(kSlots) * sizeof(Vec4Floats);
+}
+
+static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
+static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
+
+// In the order in which they run: lobes need the means of textured and profiled lights; kShares uses the results of all lobes.
+enum Shader : std::size_t {
+  kTextureMeans,
+  kProfileMeans,
+  kDiffuse,
+  kLtc,
+  kClosedForm,
+  kRepresentativePoint,
+  kCharlie,
+  kLtcClipless,
+  kHalfVector,
+  kPhong,
+  kArcs,
+  kShares
+};
+
+// Shader of the specular lobe; kDiffuse: none.
+Shader shader_of(const DirectMethod& method) {
+  switch (method.ggx) {
+    case Method::closed_form: return kClosedForm;
+    case Method::ltc:
+    case Method::ltc_compact: return kLtc;
+    case Method::ltc_clipless: return kLtcClipless;
+    case Method::representative_point: return kRepresentativePoint;
+    case Method::half_vector: return kHalfVector;
+    default: return kDiffuse;
+  }
+}
+
+// Shader of a lobe of extras.steradian.
+Shader shader_of(const OwnLobes::Lobe& lobe) {
+  switch (lobe.material.brdf) {
+    case Brdf::phong:
+    case Brdf::lobe_product: return kPhong;
+    case Brdf::beckmann:
+    case Brdf::blinn_phong: return kArcs;
+    case Brdf::charlie: return kCharlie;
+    default: break;
+  }
+  DirectMethod by;
+  by.ggx = lobe.method == Method::exact ? Method::closed_form : lobe.method;
+  return shader_of(by);
+}
+
+LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
+  if (!table.empty()) return ltc_pack_tables(scene::read_classic_table(table));
+  if (method.ggx == Method::ltc_clipless) return ltc_classic_pack_tables();
+  if (method.ggx == Method::ltc) return method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables();
+  return method.ggx == Method::ltc_compact ? ltc_compact_pack_tables() : LtcPackTables{};
+}
+
+void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TilePlane& beside) {
+  Vec4Floats* to = planes + number * kSlots;
+  for (std::size_t i = 0; i < kTilePixels; ++i) to[i] = {v.x[i], v.y[i], v.z[i], beside[i]};
+}
+
+// Capacity in bytes; the limit of texels counts, too.
+std::size_t most_of_buffer(const DeviceInfo& device, BufferForm form = BufferForm::texels) {
+  const std::size_t texel = form == BufferForm::numbers ? sizeof(std::uint32_t) : sizeof(Vec4Floats);
+  return std::min({kLargestBuffer, device.storage_buffer, device.texel_buffer * texel});
+}
+
+// Squared distances of a point from a box.
+struct Distances {
+  float nearest = 0, farthest = 0;
+};
+Distances distances(Vec3f p, Vec3f low, Vec3f high) {
+  Distances d;
+  const auto add = [&](float at, float from, float to) {
+    const float outside = std::max({from - at, at - to, 0.0f}), across = std::max(at - from, to - at);
+    d.nearest += outside * outside;
+    d.farthest += across * across;
+  };
+  add(p.x, low.x, high.x);
+  add(p.y, low.y, high.y);
+  add(p.z, low.z, high.z);
+  return d;
+}
+
+}  // namespace
+
+void check_device(const DeviceInfo& device) {
+  const std::string who = "Vulkan device '" + device.name + "'";
+  if (device.storage_buffer < kLargestBuffer)
+    throw Error(who, "has no storage buffers of 128 MiB", "choose another --device, or --backend cpu");
+  if (!device.broadcasts) throw Error(who, "has no subgroup ballots in compute shaders", "choose another --device, or --backend cpu");
+}
+
+struct DirectLight::Pass {
+  std::size_t shader = kDiffuse;
+  bool coat = false;
+  const OwnLobes::Lobe* own = nullptr;
+  bool with_diffuse = false;  // true: one walk serves both
+  bool over_lobe() const { return shader != kDiffuse; }
+  // The other lobes use the mean radiance of textured lights.
+  bool asks_for_mean(const LightRecord& light) const {
+    return light.mean == kProfileMean || (light.mean == kTextureMean && shader != kCharlie && shader != kPhong && shader != kArcs);
+  }
+  const char* name() const {
+    return own != nullptr       ? "lobes"
+           : shader == kDiffuse ? "direct"
+           : shader == kCharlie ? "sheen"
+           : shader == kShares  ? "shares"
+           : coat               ? "coat"
+                                : "specular";
+  }
+};
+
+// Lists of a batch: for each pipeline, tiles with their lights.
+struct DirectLight::Work {
+  struct Entry {
+    std::uint32_t square, count, own;
+    std::vector<std::uint32_t> lights;  // numbers; of shadowed lights each with its states, of textured or profiled ones with its means
+  };
+  struct Key {
+    std::size_t shader;
+    std::vector<std::int32_t> constants;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Group {
+    std::string name;
+    std::vector<Entry> entries;
+  };
+  std::map<Key, Group> groups;
+  std::uint32_t means = 0;  // vectors that the means take
+
+  // Adds a light of a square: its numbers in the list.
+  void add(const Key& key, const Pass& pass, std::uint32_t square, const std::vector<std::uint32_t>& light) {
+    Group& group = groups[key];
+    group.name = pass.name();
+    const std::uint32_t own = pass.own != nullptr ? pass.own->first : 0;
+    const bool long_loops = pass.own != nullptr && pass.own->method == Method::arvo;  // software devices limit loop turns
+    if (group.entries.empty() || group.entries.back().square != square || group.entries.back().own != own || long_loops)
+      group.entries.push_back({square, 0, own, {}});
+    ++group.entries.back().count;
+    std::vector<std::uint32_t>& numbers = group.entries.back().lights;
+    numbers.insert(numbers.end(), light.begin(), light.end());
+  }
+};
+
+DirectLight::Kept::Kept(const Device& d)
+    : device(d),
+      tiles((check_device(d.info()), std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
+      program(d,
+              {texture_means_shader(), profile_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(),
+               representative_point_shader(), sheen_shader(), ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(),
+               arcs_lobe_shader(), shadow_shares_shader()},
+              kBuffers, kTexels),
+      surfaces(d, BufferUse::host_writes, BufferForm::texels),
+      radiance(d, BufferUse::host_reads, BufferForm::texels),
+      tables(d, BufferUse::host_writes, BufferForm::texels),
+      details(d, BufferUse::host_writes, BufferForm::texels),
+      lights(d, BufferUse::host_writes, BufferForm::texels),
+      vertices(d, BufferUse::host_writes, BufferForm::texels),
+      lists(d, BufferUse::host_writes, BufferForm::numbers),
+      means(d, BufferUse::host_writes, BufferForm::texels) {
+  surfaces.fit(tiles * bytes_of_planes(kPlanes));
+  radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
+}
+
+DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::string& table,
+                         const std::vector<PackLight>& lights)
+    : kept_(kept),
+      method_(method),
+      specular_shader_(shader_of(method)),
+      light_details_(lights, most_of_buffer(kept.device.info()) / sizeof(Vec4Floats) - OwnLobes::most_vectors(scene)),
+      own_lobes_(scene, method, light_details_.values().size()) {
+  for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
+  scene_lights_ = records_.lights.size();
+  scene_vertices_ = records_.vertices.size();
+  for (const LightRecord& light : records_.lights)
+    if (light.edges <= kMostEdges) most_edges_ = std::max(most_edges_, light.edges);
+
+  const LtcPackTables tables = tables_of(method, table);
+  std::vector<float> nodes;
+  for (const PackTable* t : {&tables.matrix, &tables.magnitude, &tables.fresnel_matrix, &tables.fresnel_magnitude})
+    nodes.insert(nodes.end(), t->nodes.begin(), t->nodes.end());
+  if (std::any_of(lights.begin(), lights.end(), [](const PackLight& light) { return light.textured != nullptr; })) {
+    const LtcPackTables compact = ltc_compact_pack_tables();
+    compact_first_ = static_cast<int>(nodes.size() / 4);
+    compact_size_ = compact.matrix.size;
+    nodes.insert(nodes.end(), compact.matrix.nodes.begin(), compact.matrix.nodes.end());
+  }
+  std::vector<Vec4Floats> details = light_details_.values();
+  details.insert(details.end(), own_lobes_.values().begin(), own_lobes_.values().end());
+  kept.details.hold(details);
+  matrix_size_ = std::max(tables.matrix.size, 2);
+  magnitude_size_ = std::max(tables.magnitude.size, 2);
+  fresnel_table_ = tables.fresnel_matrix.size > 0;
+  kept.tables.hold(nodes);
+}
+
+bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
+
+bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != kDiffuse; }
+
+bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
+
+Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form) const {
+  const std::size_t most = most_of_buffer(kept_.device.info(), form);
+  if (bytes > most)
+    throw Error("Vulkan",
+                "the lights' lists take " + std::to_string(bytes) + " bytes, more than the " + std::to_string(most) + " of a buffer",
+                "use fewer --max-lights, or --backend cpu");
+  return buffer.fit_with_room(bytes, most);
+}
+
+Vec4Floats* DirectLight::planes_of(std::size_t place) {
+  return static_cast<Vec4Floats*>(kept_.surfaces.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
+}
+
+void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
+  Vec4Floats* planes = planes_of(place);
+  put_vector(planes, kPosition, tile.position, tile.alpha_x);
+  put_vector(planes, kNormal, tile.normal, tile.alpha_y);
+  put_vector(planes, kView, tile.view, tile.fresnel_loss);
+  if (tile.any_diffuse) put_vector(planes, kAlbedo, tile.albedo, tile.coat);
+  if (tile.any_specular || tile.any_coat || tile.any_override) put_vector(planes, kTangent, tile.tangent, tile.coat);
+  if (tile.any_specular || tile.any_override) {
+    TilePlane numbers;
+    for (std::size_t i = 0; i < kTilePixels; ++i) numbers[i] = static_cast<float>(own_lobes_.number_of(tile.material[i]));
+    put_vector(planes, kF0, tile.f0, numbers);
+    put_vector(planes, kF90, tile.f90, tile.coat);
+  }
+  if (tile.any_sheen) put_vector(planes, kSheen, tile.sheen, tile.sheen_alpha);
+  if (tile.any_coat) put_vector(planes, kCoatNormal, tile.coat_normal, tile.coat_alpha);
+  put_radiance(place, tile);
+}
+
+void DirectLight::put_radiance(std::size_t place, const SurfaceTile& tile) {
+  put_vector(static_cast<Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance), 0, tile.radiance,
+             tile.coat);
+}
+
+void DirectLight::put_what_is_left(std::size_t place, const SurfaceTile& tile) {
+  if (tile.any_coat) put_vector(planes_of(place), kTangent, tile.tangent, tile.coat);
+  put_radiance(place, tile);
+}
+
+void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
+  const Vec4Floats* from = static_cast<const Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance);
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    radiance.x[i] = from[i][0];
+    radiance.y[i] = from[i][1];
+    radiance.z[i] = from[i][2];
+  }
+}
+
+// Like SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
+bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) const {
+  return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon() && light.is_even();
+}
+
+// Least squared distance for a lobe's integral, in the light's mean square deviations.
+double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
+  if (pass.own != nullptr) return pass.own->least_distance2;
+  switch (pass.shader) {
+    case kDiffuse: return light.kind == kPolygon ? integrals::kAlongEdges.least_distance2 : integrals::kAlongArcs.least_distance2;
+    case kClosedForm: return integrals::kAlongArcs.least_distance2;
+    case kHalfVector: return integrals::kHalfVectorsLeastDistance2;
+    default: return integrals::kTransformed.least_distance2;
+  }
+}
+
+// Returns true if some point of a box may see the light as small, or may be near its rim. Otherwise the shaders skip both tests.
+bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
+  if (light.kind == kPunctual) return false;
+  const double least = least_distance2(light, pass);
+  const Distances d = distances(light.middle, where.low, where.high);
+  // Parts may be small at points where the whole light is not: kNeverSmall.
+  const auto small = static_cast<float>(shadowed ? std::min(least, 100.0) : least);
+  return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
+}
+
+std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
+                                               const Tile::Shadowed* shadowed) const {
+  // An uncut polygon has only its own edges, half of `edges`, and no arcs (light_records.cpp).
+  const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
+  const int most = std::max(own(most_edges_), 1);
+  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
+  const bool by_arcs = pass.shader == kClosedForm || pass.shader == kHalfVector;
+  const bool by_points = pass.own != nullptr && pass.own->by_points;
+  const bool fine = (by_arcs || pass.shader == kArcs || by_points) && method_.quality == Quality::high;
+  const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
+  const int edges = chunked || shadowed != nullptr ? kMostEdges : light.kind == kPolygon ? most : space + 2;
+  const int arcs = by_arcs && !chunked ? edges : 1;
+  const bool specular = pass.over_lobe();
+  return {light.kind,
+          pass.with_diffuse ? 1 : 0,
+          specular && method_.ggx == Method::ltc_compact ? 1 : 0,
+          specular ? static_cast<int>(method_.quality) : 1,
+          pass.own != nullptr ? 2
+          : pass.coat         ? 1
+                              : 0,
+          careful ? 1 : 0,
+          specular && chunked ? 1 : 0,
+          specular && fresnel_table_ ? 1 : 0,
+          light.ball ? 1 : 0,
+          corners,
+          specular ? space : 1,
+          specular ? edges : 1,
+          specular ? arcs : 1,
+          matrix_size_,
+          magnitude_size_,
+          shadowed != nullptr ? 1 : 0,
+          whole ? 1 : 0,
+          pass.asks_for_mean(light) ? light.mean : 0,
+          0,
+          light.profiled ? 1 : 0,
+          pass.own != nullptr ? pass.own->form : 0,
+          pass.own != nullptr ? pass.own->phong : 0,
+          pass.own != nullptr ? pass.own->low : 0};
+}
+
+// Lists the mean of a textured or profiled light for a lobe. It is an entry of its own, since software devices limit a thread's loop
+// turns.
+void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
+  std::vector<std::int32_t> constants = choices({}, {}, false, false, nullptr);
+  constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
+  constants[13] = compact_size_;
+  constants[18] = compact_first_;
+  const bool profiled = records_.lights[light].mean == kProfileMean;
+  if (profiled) {
+    constants[0] = records_.lights[light].kind;
+    if (pass.shader == kCharlie) constants[4] = 3;
+  }
+  Work::Group& group = work.groups[{profiled ? kProfileMeans : kTextureMeans, constants}];
+  group.name = profiled ? "profiles" : "textures";
+  group.entries.push_back({place, 1, pass.own != nullptr ? pass.own->first : 0, {light, work.means}});
+}
+
+void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) const {
+  constexpr auto kGroupSlots = static_cast<std::size_t>(kGroup);
+  const auto any = [](const TileVector& v, std::size_t first) {
+    const auto some = [&](const TilePlane& p) { return std::any_of(&p[first], &p[first] + kGroupSlots, [](float x) { return x > 0; }); };
+    return some(v.x) || some(v.y) || some(v.z);
+  };
+  for (std::size_t group = 0; group < static_cast<std::size_t>(kGroupsOfTile); ++group) {
+    Square& square = tile.squares[square_of_group(group)];
+    const std::size_t first = group * kGroupSlots;
+    add(square.bounds, surfaces, first, kGroupSlots);
+    square.any_diffuse |= surfaces.any_diffuse && any(surfaces.albedo, first);
+    square.any_specular |= surfaces.any_specular && (any(surfaces.f0, first) || any(surfaces.f90, first));
+    square.any_sheen |= surfaces.any_sheen && any(surfaces.sheen, first);
+    square.any_coat |=
+        surfaces.any_coat && std::any_of(&surfaces.coat[first], &surfaces.coat[first] + kGroupSlots, [](float c) { return c > 0; });
+    for (std::size_t i = first; surfaces.any_override && i < first + kGroupSlots; ++i) {
+      const std::size_t number = own_lobes_.number_of(surfaces.material[i]);
+      if (number > 0 && std::find(square.own.begin(), square.own.end(), number) == square.own.end()) square.own.push_back(number);
+    }
+  }
+}
+
+bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
+  return std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& cut) { return cut.get() == &light; });
+}
+
+void DirectLight::list_lights(Tile& tile) const {
+  const bool leaks = method_.ggx == Method::ltc_clipless;  // lights that reach the tile, also from below the horizon
+  for (Square& square : tile.squares) {
+    if (!any_surface(square.bounds)) continue;
+    for (const PackLight* light : tile.lights.lights) {
+      if (!leaks && !reaches(*light, square.bounds)) continue;
+      square.lights.push_back({light, is_cut(tile, *light), sees_whole(*light, square.bounds), sees_whole(*light, square.bounds, kPushed)});
+    }
+  }
+}
+
+std::uint32_t DirectLight::number_of(const PackLight& light, bool cut) {
+  return cut ? records_.add(light, light_details_.first_of(light)) : static_cast<std::uint32_t>(light.index);
+}
+
+void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass) {
+  for (const Square::Listed& listed : square.lights) list(work, place, square, pass, listed, nullptr);
+  for (const Tile::Shadowed& shadowed : tile.shadowed)
+    if (reaches(*shadowed.light, square.bounds))
+      list(work, place, square, pass, {shadowed.light, is_cut(tile, *shadowed.light), false, false}, &shadowed);
+}
+
+void DirectLight::list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square) {
+  for (const Tile::Shadowed& shadowed : tile.shadowed)
+    if (shadowed.shares && reaches(*shadowed.light, square.bounds)) work.add({kShares, {}}, Pass{kShares}, place, {0, shadowed.states});
+}
+
+void DirectLight::list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
+                       const Tile::Shadowed* shadowed) {
+  const bool together = brings_diffuse(square, *listed.light);
+  if (pass.shader == kDiffuse && together) return;
+  Pass own = pass;
+  own.with_diffuse = together && pass.shader == kLtc && !pass.coat && pass.own == nullptr;
+  const std::uint32_t number = number_of(*listed.light, listed.cut_for_tile);
+  const LightRecord& record = records_.lights[number];
+  // The irradiance of tubes and balls has the same formula in both cases.
+  const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
+  const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
+  const Work::Key key = {own.shader, choices(record, own, careful, whole, shadowed)};
+  std::vector<std::uint32_t> numbers = {number};
+  if (shadowed != nullptr) numbers.push_back(shadowed->states);
+  if (own.asks_for_mean(record)) {
+    list_means(work, place, own, number);
+    numbers.push_back(work.means);
+    work.means += static_cast<std::uint32_t>(kSlotsOfSquare);
+  }
+  work.add(key, own, place, numbers);
+}
+
+void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
+  records_.keep(scene_lights_, scene_vertices_);
+  Work work;
+  for (std::size_t i = first_tile; i < end; ++i) {
+    for (std::size_t s = 0; s < tiles[i].squares.size(); ++s) {
+      const Square& square = tiles[i].squares[s];
+      const auto place = static_cast<std::uint32_t>(i * tiles[i].squares.size() + s);
+      if (square.any_diffuse) list(work, place, tiles[i], square, {});
+      if (square.any_specular) list(work, place, tiles[i], square, {specular_shader_});
+      if (square.any_sheen) list(work, place, tiles[i], square, {kCharlie});
+      if (square.any_coat) list(work, place, tiles[i], square, {specular_shader_, true});
+      for (const std::size_t number : square.own)
+        for (const OwnLobes::Lobe& lobe : own_lobes_.of(number)) list(work, place, tiles[i], square, {shader_of(lobe), false, &lobe});
+      if (any_surface(square.bounds)) list_shares(work, place, tiles[i], square);
+    }
+  }
+  if (work.groups.empty()) return;
+  if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
+    const std::size_t middle = (first_tile + end) / 2;
+    run(tiles, first_tile, middle, states, parts);
+    run(tiles, middle, end, states, parts);
+    return;
+  }
+  fitting(kept_.means, work.means * sizeof(Vec4Floats));
+
+  std::vector<std::uint32_t> entries, numbers;
+  std::vector<ComputeProgram::Dispatch> dispatches;
+  std::size_t count = 0;
+  for (const auto& [key, group] : work.groups) count += group.entries.size();
+  const std::size_t after_entries = count * static_cast<std::size_t>(kEntry);
+  for (const auto& [key, group] : work.groups) {
+    dispatches.push_back({kept_.program.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
+                          static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
+    for (const Work::Entry& entry : group.entries) {
+      entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count, entry.own});
+      numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());
+    }
+  }
+  entries.insert(entries.end(), numbers.begin(), numbers.end());
+
+  const auto write = [&](KeptBuffer& buffer, const auto& values) {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    const std::size_t bytes = values.size() * sizeof(Value);
+    Buffer& to = fitting(buffer, bytes, std::is_same_v<Value, std::uint32_t> ? BufferForm::numbers : BufferForm::texels);
+    to.write(values.data(), bytes);
+    return &to;
+  };
+  const Buffer* lists = write(kept_.lists, entries);
+  const Buffer* lights = write(kept_.lights, records_.values);
+  const Buffer* vertices = write(kept_.vertices, records_.vertices);
+  const Buffer *radiance = &kept_.radiance.get(), *none = lists;
+  const std::vector<double> ms =
+      kept_.program.run({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance,
+                         states != nullptr ? states : none, parts != nullptr ? parts : none, &kept_.means.get(), &kept_.details.get()},
+                        dispatches);
+  std::size_t i = 0;
+  for (const auto& [key, group] : work.groups)
+    if (i < ms.size()) times_[group.name] += ms[i++];
+}
+
+}  // namespace steradian::vulkan

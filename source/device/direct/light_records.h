@@ -1,0 +1,37 @@
+// Lights in the layout of shaders: shaders/lights.glsl.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/lights/light_list.h"
+
+namespace steradian::vulkan {
+
+using Vec4Floats = std::array<float, 4>;
+
+// Properties of the light with a number.
+struct LightRecord {
+  int kind = 0;              // constant of shaders/layout.glsl
+  bool ball = false;         // an ellipsoid of three equal axes
+  int mean = 0;              // mean that its lobes need: kTextureMean, kProfileMean
+  bool profiled = false;     // by direction alone
+  int edges = 0;             // most edges of a polygon after the horizon's cut; 0 for other lights
+  float deviation2 = 0;      // as in the shaders
+  Vec3f middle{};            // reference point of their distances to a light
+  float near_distance2 = 0;  // beyond it, a point is not near the rim; 0: a light without one
+};
+
+inline constexpr std::ptrdiff_t kNoDetails = -1;
+
+struct LightRecords {
+  std::vector<LightRecord> lights;
+  std::vector<Vec4Floats> values;    // kRecord each
+  std::vector<Vec4Floats> vertices;  // w: 1 if the vertex continues a contour, which begins with its last vertex
+
+  std::uint32_t add(const PackLight& light, std::ptrdiff_t details);  // returns its number; details: first vector (LightDetails)
+  void keep(std::size_t lights, std::size_t vertices);                // keeps the first ones
+};
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,124 @@
+#include "device/direct/own_lobes.h"
+
+#include <algorithm>
+
+#include "integrals/ggx/half_vector.h"
+#include "shapes/small_light.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/layout.glsl"
+#include "shaders/phong_methods.glsl"
+
+// Limit of Arvo's recurrence: llvmpipe ends a thread's loops after 65,535 turns in all. Half of this limit per edge allows 500 edges.
+constexpr double kMostOfRecurrence = 256;
+
+Vec4Floats with(Vec3d v, double w) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
+OwnLobes::Lobe lobe_by(const Material& m, Method method, Quality quality, std::size_t first) {
+  OwnLobes::Lobe lobe{m, method, static_cast<std::uint32_t>(first), 0, 0, 0, true, 0};
+  switch (m.brdf) {
+    case Brdf::phong:
+      lobe.phong = phong_method({method, quality});
+      lobe.form = m.foreshortening ? 1 : 0;
+      lobe.low = m.foreshortening ? integrals::cosine_series_range(m.exponent) : m.exponent < 1 ? 2 : 0;
+      lobe.by_points = m.foreshortening;
+      lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
+      break;
+    case Brdf::lobe_product:
+      lobe.phong = phong_method({Method::series, quality});
+      lobe.form = 2;
+      lobe.low = m.exponent + m.axis_exponent < 1 ? 3 : 0;  // the matched exponent is at least the sum
+      lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent + m.axis_exponent, true);
+      break;
+    case Brdf::beckmann:
+    case Brdf::blinn_phong:
+      lobe.form = m.brdf == Brdf::beckmann ? 1 : 0;
+      lobe.low = m.brdf == Brdf::beckmann ? 0 : integrals::cosine_series_range(m.exponent);
+      lobe.by_points = false;
+      lobe.least_distance2 = integrals::kHalfVectorsLeastDistance2;
+      break;
+    case Brdf::ggx:
+      lobe.form = method == Method::exact ? 2 : m.shadowing ? 0 : 1;
+      lobe.least_distance2 = method == Method::half_vector                              ? integrals::kHalfVectorsLeastDistance2
+                             : method == Method::closed_form || method == Method::exact ? integrals::kAlongArcs.least_distance2
+                                                                                        : integrals::kTransformed.least_distance2;
+      break;
+    default: lobe.least_distance2 = integrals::kTransformed.least_distance2; break;  // charlie
+  }
+  return lobe;
+}
+
+}  // namespace
+
+int phong_method(const PhongOptions& options) {
+  switch (options.method) {
+    case Method::exact: return kPhongExact;
+    case Method::arvo: return kPhongArvo;
+    case Method::lorentzian: return kPhongLorentzian;
+    case Method::pearson: return kPhongPearson;
+    case Method::ellipsoid: return kPhongEllipsoid;
+    case Method::series: return options.quality == Quality::high ? kPhongSeriesHigh : kPhongSeries;
+    default: throw Error("method", std::string("no shader has Phong lobes by ") + name_of(options.method));
+  }
+}
+
+std::size_t OwnLobes::most_vectors(const Scene& scene) {
+  std::size_t count = 0;
+  for (const SurfaceMaterial& m : scene.materials) count += m.specular_override.size() * static_cast<std::size_t>(kOwnLobe);
+  return count;
+}
+
+OwnLobes::OwnLobes(const Scene& scene, const DirectMethod& method, std::size_t first) : scene_(scene), method_(method) {
+  for (const SurfaceMaterial& surface : scene.materials) {
+    std::vector<Lobe>& lobes = lobes_.emplace_back();
+    for (const Material& m : surface.specular_override) {
+      if (m.brdf == Brdf::lambert || !has(m)) continue;
+      const Method by = method_.row_for(m).method;
+      Lobe lobe = lobe_by(m, by, method_.quality, first + values_.size());
+      // Like SpecularPass::add_ggx_override.
+      if (m.brdf == Brdf::ggx) lobe.by_points = !m.shadowing || m.tangent != Vec3d{} || by != method_.ggx;
+      const bool product = m.brdf == Brdf::lobe_product;
+      const auto number = static_cast<double>(lobes_.size());
+      values_.insert(values_.end(),
+                     {with(m.brdf == Brdf::ggx                                       ? m.f0
+                           : m.brdf == Brdf::beckmann || m.brdf == Brdf::blinn_phong ? Vec3d{1, 1, 1}
+                                                                                     : m.albedo,
+                           number),
+                      with(m.f90, m.exponent), with(product ? m.axis : m.tangent, m.axis_exponent), with({m.alpha_x, m.alpha_y, 0}, 0)});
+      lobes.push_back(lobe);
+    }
+  }
+}
+
+bool OwnLobes::has(const Material& m) const {
+  if (m.brdf == Brdf::lambert) return true;
+  const Method by = method_.row_for(m).method;
+  if (m.brdf == Brdf::phong) return by != Method::arvo || m.exponent <= kMostOfRecurrence;
+  if (m.brdf != Brdf::ggx) return true;
+  const bool has_table = by == method_.ggx, needs_none = by == Method::exact || by == Method::closed_form || by == Method::half_vector ||
+                                                         by == Method::representative_point;
+  return !m.multiple_scattering && (has_table || needs_none);
+}
+
+std::size_t OwnLobes::number_of(const SurfaceMaterial* material) const {
+  if (material == nullptr || material->unlit || material->specular_override.empty()) return 0;
+  return static_cast<std::size_t>(material - scene_.materials.data()) + 1;
+}
+
+bool OwnLobes::has_all(const SurfaceTile& tile) const {
+  const SurfaceMaterial* last = nullptr;
+  for (const SurfaceMaterial* surface : tile.material) {
+    if (surface == nullptr || surface == last) continue;
+    last = surface;
+    if (!std::all_of(surface->specular_override.begin(), surface->specular_override.end(), [&](const Material& m) { return has(m); }))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace steradian::vulkan

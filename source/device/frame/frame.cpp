@@ -1,0 +1,403 @@
+#include "device/frame/frame.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/float_mode.h"
+#include "render/frame/frame_surfaces.h"
+#include "render/lights/light_bounds.h"
+#include "render/frame/methods.h"
+#include "render/frame/tile_lighting.h"
+#include "render/bounce/pipeline.h"
+#include "device/frame/kept_on_device.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+namespace {
+
+// Returns true for bounce features that only the CPU supports.
+bool bounce_on_host(const IndirectOptions& options) { return options.mode == IndirectMode::path || options.shadow_rays > 0; }
+
+bool has_own_lobes(const Scene& scene) {
+  return std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                     [&](const Mesh& mesh) { return !scene.materials[static_cast<std::size_t>(mesh.material)].specular_override.empty(); });
+}
+
+// Features that the shaders do not have, so that the host lights them: one sentence each.
+std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
+                                     const std::vector<PackLight>& lights, const DirectLight& direct) {
+  std::vector<std::string> sentences;
+  const auto say = [&](const std::string& what) {
+    const std::string sentence = "the CPU lights " + what + ": the shaders do not have that yet";
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
+  };
+  if (options.indirect.mode != IndirectMode::off && bounce_on_host(options.indirect))
+    say(options.indirect.mode == IndirectMode::path ? "the bounce by paths" : "the bounce behind its shadow rays");
+  if (!DirectLight::has(method)) say(std::string("lobes by the method ") + name_of(method.ggx));
+  for (const PackLight& light : lights) {
+    if (direct.has(light)) {
+      if (light.profiled != nullptr && has_own_lobes(scene))
+        say("tiles with lobes of extras.steradian by the measured lamp '" + light.area->name + "'");
+    } else
+      sentences.push_back("the CPU lights by " +
+                          (light.area == nullptr
+                               ? std::string("a measured lamp")
+                               : (light.textured != nullptr ? "the textured light '" : "the measured lamp '") + light.area->name + "'") +
+                          ": too much for the device's buffers or loops");
+  }
+  for (const Mesh& mesh : scene.meshes) {
+    const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+    if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
+    const std::string of = " of material '" + m.name + "'";
+    for (const Material& lobe : m.specular_override)
+      if (!direct.own_lobes().has(lobe)) say(std::string("the ") + name_of(lobe.brdf) + " lobe" + of);
+  }
+  return sentences;
+}
+
+DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
+  if (runs_on_host_alone(scene, options)) throw UsageError("--backend vulkan", "has no part in this picture", "use --backend cpu");
+  return choose_method(scene, options);
+}
+
+// The cache's objects, created anew if the cached ones are on another device.
+std::shared_ptr<KeptOnDevice> kept_of(std::shared_ptr<const Device> device, const std::string& name, RenderCache* cache) {
+  const auto make = [&] { return std::make_shared<KeptOnDevice>(device != nullptr ? std::move(device) : open_device({name, false})); };
+  if (cache == nullptr) return make();
+  auto& [kept, kept_name] = cache->parts().on_device;
+  if (kept == nullptr || (device != nullptr ? kept->device != device : kept_name != name)) {
+    kept.reset();
+    kept = make();
+    kept_name = name;
+  }
+  return kept;
+}
+
+SceneParts parts_of(const Scene& scene, const RenderOptions& options, RenderCache* cache) {
+  const Sorted sorted = options.shadows != steradian::Shadows::off ? Sorted::for_rays_and_edges : Sorted::for_rays;
+  return cache != nullptr ? cache->parts().follow(scene, sorted) : SceneParts::of(scene, sorted);
+}
+
+// Returns null if they exceed a buffer.
+std::shared_ptr<const SceneRays> rays_of(const Scene& scene, const std::shared_ptr<const Device>& device, RenderCache* cache) {
+  if (cache == nullptr) return SceneRays::of(device, scene);
+  auto& kept = cache->parts().device_rays;
+  if (kept == nullptr || &kept->device() != device.get()) kept = SceneRays::of(device, scene);
+  return kept;
+}
+
+// The view through one primary sample of a tile, past as many surfaces as `layer` says.
+struct Job {
+  int tile;
+  std::unique_ptr<TileVector> shares;  // fraction of the light from there; null in front of the first surface that light passes
+  TilePlane behind;                    // position of those surfaces
+  bool passing = false;                // light also passes the surfaces found
+};
+
+}  // namespace
+
+bool runs_on_host_alone(const Scene& scene, const RenderOptions& options) {
+  return options.lights == LightSum::tree || choose_method(scene, options).estimates();
+}
+
+struct Frame::Parts {
+  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays, RenderCache* cache,
+        ManyEdgesBy many)
+      : scene(s),
+        options(o),
+        threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
+        method(chosen(s, o)),
+        kept(kept_of(std::move(d), o.device, cache)),
+        device(kept->device),
+        parts(parts_of(s, o, cache)),
+        surfaces(s, o, parts),
+        lights(prepare_lights(s, surfaces.environment_spots())),
+        host(s, o, method, lights, parts, nullptr),
+        direct(kept->direct, s, method, o.table, lights),
+        arena(threads),
+        many_edges(Shadows::finds_many_edges(device->info()) &&
+                   (many == ManyEdgesBy::device || (many == ManyEdgesBy::automatic && !device->info().software))) {
+    for (const PackLight& light : lights) light_pointers.push_back(&light);
+    const bool bounces = has_bounce() && !bounce_on_host(o.indirect), maps = bounces && all_cast_exactly(s);
+    if ((maps || host.has_shadows()) && (rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)))
+      device_rays = rays_of(s, device, cache);
+    if (bounces) {
+      bounce = &made(kept->bounce, *device);
+      bounce->find_first_hits_by(maps ? device_rays : nullptr);
+    }
+    kept_on_host = keeps_surfaces_on_host();
+    if (by == SurfacesBy::device && !kept_on_host.empty())
+      throw UsageError("--backend vulkan", "the device cannot find the surfaces (" + kept_on_host + ")");
+    if (by == SurfacesBy::device || (by == SurfacesBy::automatic && kept_on_host.empty() && !device->info().software))
+      raster.emplace(made(kept->raster, *device), s, *parts.maps, surfaces.camera(), o, direct.tiles_of_batch(), host_adds());
+    build_ms = ms_since(start);
+  }
+
+  bool has_bounce() const { return options.indirect.mode != IndirectMode::off; }
+  bool stopped() const { return options.stop != nullptr && options.stop->load(std::memory_order_relaxed); }
+
+  template <class Work>
+  void each(std::size_t count, Work work) {
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        const FlushDenormals flush;
+        work(i);
+      });
+    });
+  }
+
+  // Lights on the host: (1) lights that the device cannot evaluate, and (2) occluded lights, except for those left to the device. Both
+  // leave the list. (3) Some lobes under the other lights; these lobes leave the tile.
+  void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching, TileShadows& left) {
+    left.clear();
+    const bool own = tile.any_override && direct.own_lobes().has_all(tile);
+    const bool all_lobes = DirectLight::has(method) && (own || !tile.any_override);
+    const auto unknown = std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) {
+      return direct.has(*light) && !(own && light->profiled != nullptr);  // no shader evaluates a profile for those lobes
+    });
+    if (unknown != reaching.end())
+      host.has_shadows() ? host.add_shadowed(tile, {unknown, reaching.end()}) : host.add(tile, {unknown, reaching.end()});
+    reaching.erase(unknown, reaching.end());
+    reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
+
+    const bool diffuse = std::exchange(tile.any_diffuse, false), sheen = std::exchange(tile.any_sheen, false);
+    const bool layers = DirectLight::has(method);
+    const bool specular = tile.any_specular, coat = tile.any_coat;
+    if (layers) tile.any_specular = tile.any_coat = false;
+    if (own) tile.any_override = false;
+    if (tile.any_specular || tile.any_coat || tile.any_override) host.add(tile, reaching);
+    tile.any_diffuse = diffuse;
+    tile.any_sheen = sheen;
+    tile.any_specular = layers && specular;
+    tile.any_coat = layers && coat;
+    tile.any_override = own;
+  }
+
+  // Returns true if the host adds light to surfaces that the device finds, and so needs them.
+  bool host_adds() const {
+    return host.has_shadows() || has_bounce() || surfaces.environment() != nullptr || !DirectLight::has(method) ||
+           !std::all_of(lights.begin(), lights.end(), [&](const PackLight& light) { return direct.has(light); });
+  }
+
+  // Lists the lights that may reach a tile whose surfaces the device has found and the host does not need.
+  void list_found(std::size_t place, DirectLight::Tile& tile) {
+    RasterSurfaces::find_squares(direct.radiance(), place, tile);
+    SurfaceBounds all;
+    for (const DirectLight::Square& square : tile.squares) add(all, square.bounds);
+    if (any_surface(all)) tile.lights = lights_reaching(light_pointers, all);
+    direct.list_lights(tile);
+  }
+
+  // Finds the surfaces of the jobs, puts them on the device, and lists the lights that may reach them.
+  std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
+    std::vector<DirectLight::Tile> tiles(jobs.size());
+    if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size(), TileShadows(many_edges));
+    const bool drawn = raster && layer == 0;
+    if (drawn)
+      device_clock.run([&] { raster->find(jobs.front().tile, static_cast<int>(jobs.size()), direct.surfaces(), direct.radiance()); });
+    each(jobs.size(), [&](std::size_t i) {
+      Job& job = jobs[i];
+      const bool found = drawn && !RasterSurfaces::is_for_host(direct.radiance(), i);
+      if (found && !host_adds()) {
+        shadowed[i].clear();
+        return lists_clock.run([&] { list_found(i, tiles[i]); });
+      }
+      SurfaceTile& tile = *workspaces.local();
+      TilePlane distances{};
+      if (found)
+        upload_clock.run([&] {
+          raster->take(direct.radiance(), i, tile);
+          tile.seed = surfaces.seed(job.tile, sample);
+          surfaces.add_background(job.tile, sample, tile);
+        });
+      else
+        distances = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
+      if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
+      surfaces.add_environment(tile);
+      lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
+      light_on_host(tile, tiles[i].lights.lights, shadowed[i]);
+      lists_clock.run([&] {
+        direct.find_squares(tile, tiles[i]);
+        direct.list_lights(tiles[i]);
+      });
+      upload_clock.run([&] { found ? direct.put_what_is_left(i, tile) : direct.put(i, tile); });
+      job.passing = tile.any_passing && layer + 1 < kMostLayers;
+      if (!job.passing) return;
+      // The fractions of this layer are still needed; those of the next one are stored beside them.
+      job.behind = distances;
+      next_shares[i] = job.shares ? std::make_unique<TileVector>(*job.shares) : std::make_unique<TileVector>();
+      if (!job.shares)
+        for (TilePlane* plane : {&next_shares[i]->x, &next_shares[i]->y, &next_shares[i]->z}) plane->fill(1);
+      look_through(tile, *next_shares[i], job.behind);
+    });
+    return tiles;
+  }
+
+  // Lights as many tiles at once as there is capacity for their shadows' data.
+  void light_tiles(std::vector<DirectLight::Tile>& tiles) {
+    const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
+    if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
+      return direct.run(tiles);
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, device_rays.get(), many_edges);
+    for (std::size_t first = 0; first < tiles.size();) {
+      const std::size_t count =
+          shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
+      std::uint32_t states = 0;
+      for (std::size_t i = first; i < first + count; ++i)
+        for (const TileShadows::Light& light : shadowed[i].by_light) {
+          tiles[i].shadowed.push_back({light.light, states, light.edges, light.shares});
+          states += static_cast<std::uint32_t>(kTilePixels);
+        }
+      direct.run(tiles, first, first + count, &shadows->states(), &shadows->parts());
+      first += count;
+    }
+  }
+
+  // Lights the jobs and adds them to the picture; returns those that may have more surfaces behind.
+  std::vector<Job> light(std::vector<Job> jobs, int sample, int layer, Picture& picture) {
+    next_shares.clear();
+    next_shares.resize(jobs.size());
+    std::vector<DirectLight::Tile> tiles = find_surfaces(jobs, sample, layer);
+    device_clock.run([&] { light_tiles(tiles); });
+    const float weight = 1.0f / static_cast<float>(options.aa);
+    each(jobs.size(), [&](std::size_t i) {
+      resolve_clock.run([&] {
+        TileVector& radiance = *radiances.local();
+        direct.take_radiance(i, radiance);
+        add_to_picture(radiance, surfaces.area(jobs[i].tile), jobs[i].shares.get(), weight, picture.pixels, options.width);
+      });
+    });
+    std::vector<Job> next;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      if (!jobs[i].passing) continue;
+      next.push_back(std::move(jobs[i]));
+      next.back().shares = std::move(next_shares[i]);
+    }
+    return next;
+  }
+
+  // Reason why the device does not find the surfaces; empty: it does.
+  std::string keeps_surfaces_on_host() const {
+    if (host.has_shadows() && options.terminator == Terminator::smooth) return "shadows on smooth surfaces";
+    if (static_cast<std::size_t>(std::max(options.width, options.height)) > device->info().picture)
+      return "a picture larger than the device draws";
+    return what_keeps_on_host(scene, device->info());
+  }
+
+  Picture render() {
+    Picture picture(options.width, options.height);
+    if (has_bounce()) bounced.emplace(scene, surfaces.rays(), options, threads, bounce);
+    const int count = surfaces.tile_count(), batch = static_cast<int>(direct.tiles_of_batch()), batches = (count + batch - 1) / batch;
+    std::uint64_t done = 0;
+    // A device that finds the surfaces draws the whole picture for each sample. The host's rays can start at any tile.
+    for (int step = 0; step < batches * options.aa && !stopped(); ++step) {
+      const int sample = raster ? step / batches : step % options.aa, first = (raster ? step % batches : step / options.aa) * batch;
+      if (raster && first == 0) device_clock.run([&] { raster->look(sample); });
+      std::vector<Job> jobs;
+      for (int tile = first; tile < std::min(first + batch, count); ++tile) jobs.push_back({tile, nullptr, {}, false});
+      const std::uint64_t now_done = done + jobs.size();
+      for (int layer = 0; !jobs.empty(); ++layer) jobs = light(std::move(jobs), sample, layer, picture);
+      while (options.progress && done < now_done)
+        options.progress(++done, static_cast<std::uint64_t>(count) * static_cast<std::uint64_t>(options.aa));
+    }
+    if (bounced && !stopped()) arena.execute([&] { bounced->add_to(picture); });
+    return picture;
+  }
+
+  void report(RenderStats& stats) {
+    stats.passes = {{"build", build_ms},        surfaces.rays_time(threads), surfaces.gbuffer_time(threads), lists_clock.time(threads),
+                    upload_clock.time(threads), device_clock.time(1),        resolve_clock.time(threads)};
+    if (raster)
+      for (const auto& [name, ms] : raster->times()) stats.passes.push_back({"device: " + name, ms});
+    for (const auto& [name, ms] : direct.times()) stats.passes.push_back({"device: " + name, ms});
+    if (host.has_shadows()) {
+      stats.passes.push_back(host.shadow_time(threads));
+      const ShadowCounts counts = host.shadow_counts();
+      const std::uint64_t found = shadows ? shadows->found() : 0, points = counts.points + (shadows ? shadows->points() : 0);
+      const auto share = [](std::uint64_t some, std::uint64_t all) {
+        return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0;
+      };
+      stats.shadow_fallback = share(counts.fallback, points);
+      stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
+      if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
+      if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
+    }
+    for (PassTime pass : {host.direct_time(threads), host.specular_time(threads)}) stats.passes.push_back({"host: " + pass.name, pass.ms});
+    if (const auto* environment = surfaces.environment()) {
+      stats.passes.front().ms -= surfaces.environment_build_ms();
+      stats.passes.push_back({"environment: maps", surfaces.environment_build_ms()});
+      stats.passes.push_back(surfaces.environment_time(threads));
+      stats.environment_spots = environment->share_of_spots();
+      stats.diffuse_residual = environment->diffuse_residual();
+    }
+    if (bounced) stats.passes.push_back(capture_clock.time(threads));
+    for (PassTime& pass : stats.passes) pass.ms -= std::exchange(reported[pass.name], pass.ms);
+    if (bounced)  // passes of this frame alone
+      for (const PassTime& pass : bounced->passes()) stats.passes.push_back({"indirect: " + pass.name, pass.ms});
+    stats.threads = threads;
+    stats.lights = lights.size();
+    stats.triangles = scene.triangle_count();
+    stats.method = method.name;
+    stats.device = device->info().name;
+    stats.warnings = lobes_under_means(scene, method);
+    if (raster)
+      for (std::string& sentence : materials_for_host(scene)) stats.warnings.push_back(std::move(sentence));
+    else if (!device->info().software)
+      stats.warnings.push_back("the CPU finds the surfaces (" + kept_on_host + ")");
+    for (std::string& sentence : lit_by_host(scene, options, method, lights, direct)) stats.warnings.push_back(std::move(sentence));
+  }
+
+  const Clock::time_point start = Clock::now();
+  const Scene& scene;
+  const RenderOptions& options;
+  const int threads;
+  const DirectMethod method;
+  const std::shared_ptr<KeptOnDevice> kept;
+  const std::shared_ptr<const Device> device;
+  const SceneParts parts;
+  FrameSurfaces surfaces;
+  const std::vector<PackLight> lights;
+  std::vector<const PackLight*> light_pointers;
+  TileLighting host;
+  DirectLight direct;
+  std::shared_ptr<const SceneRays> device_rays;  // null: the host's rays
+  std::string kept_on_host;
+  std::optional<Shadows> shadows;             // created on first use
+  std::vector<TileShadows> shadowed;          // by job
+  std::optional<RasterSurfaces> raster;       // none if the host finds the surfaces
+  Bounce* bounce = nullptr;                   // null without a bounce, or if the host computes it
+  std::optional<indirect::Pipeline> bounced;  // bounce of one frame
+  tbb::task_arena arena;
+  const bool many_edges;  // the device finds the visible parts behind many edges
+  double build_ms = 0;
+  PassClock lists_clock{"lists"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
+      capture_clock{"indirect: surfaces"};
+  std::vector<std::unique_ptr<TileVector>> next_shares;  // by job
+  tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> workspaces{[] { return std::make_unique<SurfaceTile>(); }};
+  tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> radiances{[] { return std::make_unique<TileVector>(); }};
+  std::map<std::string, double> reported;  // milliseconds of passes up to the last report
+};
+
+Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces, RaysBy rays,
+             RenderCache* cache, ManyEdgesBy many_edges)
+    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache, many_edges)) {}
+Frame::~Frame() = default;
+
+Picture Frame::render(RenderStats* stats) {
+  const auto start = Clock::now();
+  Picture picture = parts_->render();
+  if (stats != nullptr) {
+    parts_->report(*stats);
+    stats->total_ms = ms_since(start);
+  }
+  return picture;
+}
+
+}  // namespace steradian::vulkan

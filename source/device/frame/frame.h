@@ -1,0 +1,48 @@
+// Frames on a Vulkan device. As for the CPU, the host finds the surfaces, the lights that may reach them, and their occluders. The device
+// adds the light of unoccluded lights.
+#pragma once
+
+#include <memory>
+
+#include "device/vulkan/device.h"
+#include "steradian/render.h"
+#include "steradian/render_cache.h"
+
+namespace steradian::vulkan {
+
+// Returns true if the device would have nothing to do: estimates by samples, and many lights summed together.
+bool runs_on_host_alone(const Scene& scene, const RenderOptions& options);
+
+// Choice of who finds the surfaces that pixels see. automatic: the device, unless it is software (slower at that than the host) or
+// something keeps the host at it.
+enum class SurfacesBy { automatic, host, device };
+
+// Choice of who tests the ways to visible parts of lights, and who traces the rays of the bounce's shadow map. automatic: the device,
+// unless it is software, slower at that than the host.
+enum class RaysBy { automatic, host, device };
+
+// Choice of who finds the visible parts of lights behind more edges than one thread handles. automatic: the device, with a subgroup per
+// point, unless it is software: its threads are the host's, whose search is not quadratic.
+enum class ManyEdgesBy { automatic, host, device };
+
+// Buffers and pipelines are created once, for any number of frames of a scene.
+class Frame {
+ public:
+  // Scene and options must outlive the frame. surfaces: `device` is a UsageError if something keeps the host at it. device: null for the
+  // one that the options name. cache: stores sorted data and objects on that device for the next frame; null: nothing is stored. Throws
+  // UsageError for pictures that the host renders alone, and for options that this back end does not support yet. Throws Error if there is
+  // no such device.
+  Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
+        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr,
+        ManyEdgesBy many_edges = ManyEdgesBy::automatic);
+  ~Frame();
+
+  // Sets stats of this frame alone. Returns early, with an unfinished picture, when options.stop becomes true.
+  Picture render(RenderStats* stats = nullptr);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace steradian::vulkan

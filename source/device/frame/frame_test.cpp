@@ -1,0 +1,328 @@
+// The CPU is the reference for the device: whole frames, every method, all kinds of lights.
+#include "device/frame/frame.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <tuple>
+
+#include "core/test_memory.h"
+#include "night.h"
+#include "device/frame/test_frames.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan::frame_test {
+namespace {
+
+// A circle of corners about a centre, in a plane z = constant, with the lit side along z.
+std::vector<Vec3d> ring(Vec3d center, double radius, int corners) {
+  std::vector<Vec3d> vertices;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    vertices.push_back(center + Vec3d{radius * std::cos(angle), radius * std::sin(angle), 0});
+  }
+  return vertices;
+}
+
+// Every kind of light, and surfaces of every lobe that the device has: a floor, a wall behind it, a cloth, and a pane in front of them.
+// Lights touch the surfaces' horizons, stand next to them and far away.
+Scene everything() {
+  Scene scene;
+  SurfaceMaterial floor, wall, pane, cloth;
+  floor.name = "floor";
+  floor.metallic = 0.3f;
+  floor.roughness = 0.35f;
+  floor.base_color = {0.7f, 0.6f, 0.5f, 1};
+  floor.clearcoat = 0.5f;
+  floor.clearcoat_roughness = 0.3f;
+  wall.name = "wall";
+  wall.metallic = 0;
+  wall.roughness = 0.6f;
+  pane.name = "pane";
+  pane.alpha_mode = AlphaMode::blend;
+  pane.base_color = {0.2f, 0.4f, 0.5f, 0.4f};
+  pane.roughness = 0.2f;
+  cloth.name = "cloth";
+  cloth.metallic = 0;
+  cloth.specular = 0;
+  cloth.sheen_color = {0.4f, 0.1f, 0.1f};
+  cloth.sheen_roughness = 0.5f;
+  scene.materials = {floor, wall, pane, cloth};
+  scene.meshes = {scene::quad_mesh({-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}, 0),
+                  scene::quad_mesh({-4, 0, -4}, {4, 0, -4}, {4, 4, -4}, {-4, 4, -4}, 1),
+                  scene::quad_mesh({-2, 0.2f, 1}, {0, 0.2f, 1}, {0, 2, 1}, {-2, 2, 1}, 2),
+                  scene::quad_mesh({1, 0, 0}, {3, 0, 0}, {3, 1, -1}, {1, 1, -1}, 3)};
+  Camera camera;
+  camera.position = {0, 2, 7};
+  scene.cameras = {camera};
+  scene.area_lights = {
+      light_of(Polygon{{{-2, -0.5, -1}, {0, -0.5, -1}, {0, 1.5, -1}, {-2, 1.5, -1}}, {}}, {3, 2, 1}, true),
+      light_of(Polygon{ring({1, 2, -3.5}, 0.8, 6), {ring({1, 2, -3.5}, 0.4, 5)}}, {2, 3, 2}),
+      light_of(Polygon{ring({-3, 2.5, -3}, 0.5, 100), {}}, {4, 4, 2}),
+      light_of(Polygon{{{-40, 30, -60}, {-39, 30, -60}, {-39, 31, -60}, {-40, 31, -60}}, {}}, {900, 800, 700}),
+      light_of(Ellipse{{2, 0.6, -3.9}, {0.9, 0, 0}, {0.1, 0.5, 0}}, {2, 1, 3}),
+      light_of(Ellipsoid{{0.5, 0.5, -2}, {0.3, 0, 0}, {0, 0.5, 0}, {0, 0, 0.2}}, {5, 1, 1}),
+      light_of(Ellipsoid{{-3, 0.4, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}}, {1, 5, 1}),
+      light_of(Capsule{{-1, 3, -1}, {1, 2.5, -2}, 0.05}, {20, 20, 30}),
+  };
+  scene.punctual_lights = {punctual(PunctualKind::point, {0, 1, 2}, {0, 0, -1}), punctual(PunctualKind::spot, {2, 3, 2}, {-1, -2, -1}),
+                           punctual(PunctualKind::directional, {}, {1, -2, -2})};
+  return scene;
+}
+
+// Profile of a lamp that shines most to the side.
+std::shared_ptr<const LightProfile> lamp_profile() {
+  LightProfile p;
+  p.vertical = {0, 30, 60, 90, 180};
+  p.horizontal = {0, 90, 180};
+  p.candela = {5, 8, 4, 1, 0, 5, 6, 2, 1, 0, 5, 9, 3, 0, 0};
+  return std::make_shared<const LightProfile>(p);
+}
+
+// A leak of two hundred bytes in each of ten thousand frames would be detected. A software device uses the process's own memory.
+void expect_no_growth(const Scene& scene, SurfacesBy surfaces, int frames, Shadows shadows = Shadows::off) {
+  RenderOptions options = small("ltc-compact");
+  options.width = options.height = 8;
+  options.shadows = shadows;
+  Frame frame(scene, options, nullptr, surfaces);
+  for (int i = 0; i < 100; ++i) frame.render();
+  const double before = test::resident_mib();
+  for (int i = 0; i < frames; ++i) frame.render();
+  const double after = test::resident_mib();
+  std::printf("resident: %.1f MiB after 100 frames, %.1f MiB after %d\n", before, after, frames + 100);
+  EXPECT_LE(after, before + 2);
+}
+
+}  // namespace
+
+TEST_F(VulkanFrame, AgreesWithTheCpuByEveryMethod) {
+  const Scene gallery = scene_of("gallery");
+  for (const char* method : {"auto", "half-vector", "ltc", "ltc-compact", "ltc-clipless", "representative-point"})
+    expect_same("gallery", gallery, small(method));
+}
+
+TEST_F(VulkanFrame, AgreesWithTheCpuByEveryQuality) {
+  const Scene gallery = scene_of("gallery");
+  for (const auto& [method, quality] : {std::pair{"closed-form", Quality::draft},
+                                        {"closed-form", Quality::high},
+                                        {"half-vector", Quality::draft},
+                                        {"half-vector", Quality::high},
+                                        {"ltc", Quality::high},
+                                        {"representative-point", Quality::high}}) {
+    RenderOptions options = small(method);
+    options.width = 80;  // as by every method: a quality only changes numbers
+    options.height = 45;
+    options.quality = quality;
+    expect_same(quality == Quality::high ? "gallery, high" : "gallery, draft", gallery, options);
+  }
+}
+
+TEST_F(VulkanFrame, AgreesWithTheCpuInEveryScene) {
+  for (const char* name : {"plane", "ring", "tubes", "textured_floor"}) {
+    const Scene scene = scene_of(name);
+    for (const char* method : {"auto", "ltc-compact"}) expect_same(name, scene, small(method));
+  }
+}
+
+TEST_F(VulkanFrame, AgreesWithTheCpuUnderEveryKindOfLight) {
+  Scene scene = everything();
+  constexpr int kOutliers = 160 * 90 / 1000;
+  for (const char* method : {"ltc-compact", "ltc-clipless", "half-vector"}) expect_same("everything", scene, small(method), kOutliers);
+  scene.materials[0].anisotropy = 0.6f;
+  RenderOptions options = small("auto");
+  options.aa = 2;
+  expect_same("everything", scene, options, kOutliers);
+}
+
+// Points with a profile, of both types of angles, next to one without.
+TEST_F(VulkanFrame, AgreesWithTheCpuUnderMeasuredPoints) {
+  Scene scene = everything();
+  scene.area_lights.clear();
+  const auto type_c = lamp_profile();
+  LightProfile type_b = *type_c;
+  type_b.type = LightProfile::Type::b;
+  type_b.vertical = {-90, -40, 0, 50, 90};
+  type_b.horizontal = {-90, 0, 90};
+  PunctualLight lamp = punctual(PunctualKind::point, {1, 2, 1}, {0, -1, 0});
+  lamp.profile = type_c;
+  lamp.profile_axes = profile_axes({-0.2, -1, -0.3}, {1, 0.5, 0});
+  scene.punctual_lights.push_back(lamp);
+  lamp.profile = std::make_shared<const LightProfile>(type_b);
+  lamp.position = {-2, 2, -1};
+  scene.punctual_lights.push_back(lamp);
+  for (const char* method : {"auto", "ltc-compact"}) expect_same("measured points", scene, small(method));
+  RenderOptions shadowed = small("ltc-compact");
+  shadowed.shadows = Shadows::on;
+  expect_same("measured points, shadows", scene, shadowed);
+  EXPECT_EQ(warnings_of(scene, small("auto")), std::vector<std::string>());
+}
+
+TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
+  RenderOptions options = small("auto");
+  options.shadows = Shadows::on;
+  for (const char* name : {"gallery", "textured_floor", "lamp_shade", "tubes"}) {
+    const Scene scene = scene_of(name);
+    const double share = expect_same(std::string(name) + ", shadows", scene, options);
+    std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
+    EXPECT_LE(share, 0.15) << name;
+  }
+  // Coats under bumps see other parts of lights than the layers below them.
+  Scene scene = everything();
+  scene.images.push_back({"", 1, 1, {150, 110, 240, 255}});
+  scene.materials[0].normal_texture.image = 0;
+  scene.meshes[0].texcoords[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const char* method : {"auto", "ltc-compact"}) {
+    options.method = method;
+    expect_same("everything, shadows", scene, options);
+  }
+}
+
+// Covers every method and lobe.
+TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
+  RenderOptions options = small("auto");
+  options.shadows = Shadows::on;
+  for (const char* method : {"auto", "half-vector", "ltc-compact", "ltc-clipless", "representative-point"}) {
+    options.method = method;
+    EXPECT_EQ(expect_same("12 triangles", under_triangles(12), options), 0);
+  }
+  options.method = "ltc-compact";
+  // A few points see thin regions.
+  EXPECT_LE(expect_same("40 triangles", under_triangles(40), options), 0.01);
+  EXPECT_GE(expect_same("200 triangles", under_triangles(200), options), 0.5);
+  // The light crosses the triangles, which leave sections in its plane.
+  const Scene crossed = under_triangles(12, Polygon{{{-1, 0.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 0.5, 1}}, {}});
+  EXPECT_EQ(expect_same("12 across", crossed, options), 0);
+  const double share = expect_same("room, shadows", scene_of("room"), options);
+  std::printf("room: %.1f %% of the parts by the host\n", 100 * share);
+  EXPECT_LE(share, 0.02);
+}
+
+// Each point sees four segments of the light and three of every triangle, none of which crosses another. A thread has capacity for 256, a
+// subgroup for 640, the host for any number.
+TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
+  RenderOptions options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  options.width = 64;
+  options.height = 36;
+  const auto by_host = [&](int triangles, ManyEdgesBy many) {
+    return expect_same(std::to_string(triangles) + " apart", under_triangles(triangles, kSquare, kFlatBeforeSquare), options, 0, many);
+  };
+  EXPECT_EQ(by_host(84, ManyEdgesBy::host), 0);
+  EXPECT_EQ(by_host(85, ManyEdgesBy::host), 1);
+  EXPECT_EQ(by_host(85, ManyEdgesBy::device), 0);
+  EXPECT_EQ(by_host(212, ManyEdgesBy::device), 0);
+  EXPECT_EQ(by_host(213, ManyEdgesBy::device), 1);
+  // Triangles overlap: their crossings do or do not fit a thread's loop turns.
+  for (const int triangles : {80, 200}) {
+    const std::string name = std::to_string(triangles) + " triangles";
+    const double without = expect_same(name, under_triangles(triangles), options, 0, ManyEdgesBy::host);
+    const double with = expect_same(name, under_triangles(triangles), options, 0, ManyEdgesBy::device);
+    std::printf("%s: %.2f %% of the parts by the host, %.2f %% with subgroups\n", name.c_str(), 100 * without, 100 * with);
+    EXPECT_LE(with, without);
+  }
+}
+
+// Lights of every shape: fractions of polygons, frames of the points' own, sections of triangles by the light's plane. Some groups have
+// more edges than a thread handles.
+TEST_F(VulkanFrame, FindsPartsBehindManyEdgesBySubgroups) {
+  RenderOptions options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  options.width = 64;
+  options.height = 36;
+  const std::tuple<const char*, Shape, Spread> lights[] = {
+      {"90 before a disk", Ellipse{{0, 2.5, 0}, {1, 0, 0}, {0.2, 0.1, 0.8}}, kFlatBeforeSquare},
+      {"90 before a ball", Ellipsoid{{0, 2.9, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}}, {0.3, 0.02, 2.4, 0.02}},
+      {"90 across", Polygon{{{-1, 0.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 0.5, 1}}, {}}, {}},
+  };
+  for (const auto& [name, light, spread] : lights) {
+    const Scene scene = under_triangles(90, light, spread);
+    const double without = expect_same(name, scene, options, 0, ManyEdgesBy::host);
+    const double with = expect_same(name, scene, options, 0, ManyEdgesBy::device);
+    std::printf("%s: %.2f %% of the parts by the host, %.2f %% with subgroups\n", name, 100 * without, 100 * with);
+    EXPECT_LE(with, without / 2) << name;
+    EXPECT_GT(without, 0) << name;
+  }
+  options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  for (const char* name : {"gallery", "tubes"}) {
+    const double share = expect_same(std::string(name) + ", shadows", scene_of(name), options, 0, ManyEdgesBy::device);
+    std::printf("%s: %.2f %% of the parts by the host\n", name, 100 * share);
+    EXPECT_LE(share, 0.01) << name;
+  }
+}
+
+// Covers every lobe: for round lights, the fraction of a polygon's light counts.
+TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
+  RenderOptions options = small("auto");
+  options.shadows = Shadows::on;
+  const std::pair<const char*, Shape> lights[] = {
+      {"under a disk", Ellipse{{0, 2.5, 0}, {1, 0, 0}, {0.2, 0.1, 0.8}}},
+      {"under a ball", Ellipsoid{{0, 2.7, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}}},
+      {"under an ellipsoid", Ellipsoid{{0, 2.9, 0}, {0.6, 0.1, 0}, {-0.05, 0.3, 0}, {0, 0, 0.4}}},
+      {"under a tube", Capsule{{-0.9, 2.4, 0.2}, {0.8, 2.6, 0}, 0.1}},
+  };
+  for (const auto& [name, light] : lights) {
+    const Scene scene = under_triangles(12, light);
+    for (const char* method : {"auto", "ltc-compact", "representative-point"}) {
+      options.method = method;
+      // One pixel was counted. A single point for the whole light jumps from edge to edge, and fractions divide two such lights: likely
+      // its cause.
+      EXPECT_EQ(expect_same(name, scene, options, std::string(method) == "representative-point" ? 2 : 0), 0);
+    }
+  }
+}
+
+// One more or fewer blocked ray takes a light from a pixel.
+TEST_F(VulkanFrame, AsksTheDevicesRaysAsTheHosts) {
+  RenderOptions options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  options.width = 96;
+  options.height = 54;
+  for (const auto& [name, scene] :
+       {std::pair{"12 triangles", under_triangles(12)}, {"room", scene_of("room")}, {"tubes", scene_of("tubes")}}) {
+    RenderStats stats;
+    const Picture host = Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::host).render();
+    const Picture device = Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device).render(&stats);
+    const auto rays = std::find_if(stats.passes.begin(), stats.passes.end(), [](const auto& p) { return p.name == "device: shadow rays"; });
+    EXPECT_EQ(rays != stats.passes.end(), list_devices().front().timestamps) << name;
+    int others = 0;
+    for (std::size_t i = 0; i < host.pixels.size(); ++i) others += !(host.pixels[i] == device.pixels[i]);
+    EXPECT_EQ(others, 0) << name;
+  }
+}
+
+TEST_F(VulkanFrame, RefusesWhatItDoesNotHave) {
+  const Scene scene = scene_of("glossy_floor");
+  const auto refused = [&](auto change) {
+    RenderOptions options = small("auto");
+    change(options);
+    EXPECT_THROW(Frame(scene, options), Error);
+  };
+  refused([](RenderOptions& o) { o.method = "sampled"; });
+  refused([](RenderOptions& o) { o.lights = LightSum::tree; });
+  refused([](RenderOptions& o) { o.device = "no such device"; });
+  refused([](RenderOptions& o) { o.device = "99"; });
+}
+
+TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
+  const auto device = std::make_shared<Device>(DeviceOptions{"", true});
+  const Scene scene = everything();
+  for (const auto& [method, shadows] : {std::pair{"closed-form", Shadows::off}, {"ltc-compact", Shadows::on}}) {
+    RenderOptions options = small(method);
+    options.width = 48;  // the layer checks the calls, not their results
+    options.height = 27;
+    options.shadows = shadows;
+    Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device, nullptr, ManyEdgesBy::device);
+    for (int i = 0; i < 2; ++i) frame.render();
+  }
+  EXPECT_TRUE(device->validation_messages().empty())
+      << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
+}
+
+TEST_F(VulkanFrame, TenThousandFramesLeaveMemoryWhereItWas) {
+  for (const SurfacesBy surfaces : {SurfacesBy::host, SurfacesBy::device}) expect_no_growth(scene_of("glossy_floor"), surfaces, 10000);
+}
+
+TEST_F(VulkanFrame, FramesWithShadowsLeaveMemoryWhereItWas) { expect_no_growth(under_triangles(12), SurfacesBy::host, 300, Shadows::on); }
+
+}  // namespace steradian::vulkan::frame_test

@@ -1,0 +1,198 @@
+// The CPU is the reference for the device: textured lights, rects and disks with a measured profile, and their occluded parts.
+#include "device/frame/test_frames.h"
+
+namespace steradian::vulkan::frame_uneven_test {
+namespace {
+
+// Profile of a lamp that shines most to the side, and a little upwards.
+std::shared_ptr<const LightProfile> lamp_profile() {
+  LightProfile p;
+  p.vertical = {0, 30, 60, 90, 180};
+  p.horizontal = {0, 90, 180};
+  p.candela = {5, 8, 4, 1, 0.5, 5, 6, 2, 1, 0, 5, 9, 3, 0, 0};
+  return std::make_shared<const LightProfile>(p);
+}
+
+AreaLight lamp(Shape shape, Vec3d intensity) {
+  AreaLight light = light_of(std::move(shape), {});
+  light.name = "lamp";
+  set_emission(light, lamp_profile(), {1, 0, 0}, intensity);
+  return light;
+}
+
+// Strips of roughness 0.05 to 1, one with a coat, one of cloth.
+Scene under_lamps() {
+  Scene scene;
+  for (int i = 0; i < 6; ++i) {
+    SurfaceMaterial strip;
+    strip.name = "strip";
+    strip.metallic = i % 2 == 0 ? 1.0f : 0.2f;
+    strip.roughness = std::array{0.05f, 0.15f, 0.3f, 0.5f, 0.7f, 1.0f}[static_cast<std::size_t>(i)];
+    if (i == 4) strip.clearcoat = 1, strip.clearcoat_roughness = 0.3f;
+    if (i == 5) strip.sheen_color = {0.4f, 0.2f, 0.1f}, strip.sheen_roughness = 0.5f;
+    scene.materials.push_back(strip);
+    const float x = static_cast<float>(i) - 3;
+    scene.meshes.push_back(scene::quad_mesh({x, 0, 2}, {x + 1, 0, 2}, {x + 1, 0, -2}, {x, 0, -2}, i));
+  }
+  Camera camera;
+  camera.position = {0, 2.5, 5};
+  camera.z = normalized(Vec3d{0, 0.4, 1});
+  camera.y = {0, camera.z.z, -camera.z.y};
+  scene.cameras = {camera};
+  scene.area_lights = {lamp(Polygon{{{-1.5, 1, -2}, {-1.5, 1, -1}, {-0.5, 1, -1}, {-0.5, 1, -2}}, {}}, {0.3, 0.2, 0.1}),
+                       lamp(Ellipse{{1.5, 0.8, -1}, {0.4, 0, 0.2}, {0.1, -0.3, -0.4}}, {0.1, 0.2, 0.3})};
+  return scene;
+}
+
+// Checkers in three colours.
+Image checkers() {
+  Image image{"", 32, 32, {}};
+  for (int i = 0; i < 32 * 32; ++i)
+    for (int c = 0; c < 4; ++c) image.rgba.push_back(c == 3 || ((i % 32) / 4 + i / 128 + c) % 3 == 0 ? 255 : 20);
+  return image;
+}
+
+AreaLight textured(Polygon shape, Vec3d origin, Vec3d du, Vec3d dv, bool two_sided) {
+  AreaLight light = light_of(std::move(shape), {1, 1, 1}, two_sided);
+  LightTexture t;
+  t.use.image = 0;
+  t.origin = origin;
+  t.du = du;
+  t.dv = dv;
+  t.factor = {3, 3, 3};
+  light.texture = t;
+  return light;
+}
+
+// Renders 12 triangles under the light; pictures are 96 x 54.
+double expect_same_shadows(const std::string& name, AreaLight light, const char* method) {
+  Scene scene = under_triangles(12);
+  scene.images = {checkers()};
+  scene.area_lights = {std::move(light)};
+  RenderOptions options = small(method);
+  options.shadows = Shadows::on;
+  options.width = 96;
+  options.height = 54;
+  for (const std::string& warning : warnings_of(scene, options)) EXPECT_EQ(warning.find("the CPU lights"), std::string::npos) << warning;
+  return expect_same(name + ", shadows", scene, options);
+}
+
+}  // namespace
+
+// Surfaces of every roughness under checkers in three colours: cells, halves below the smallest of them, and look-ups in mirrors. There
+// are also a coat, a diffuse lobe and a two-sided triangle that the horizon cuts. One light is too long for a direction between its ends.
+TEST_F(VulkanFrame, AgreesWithTheCpuUnderTexturedLights) {
+  Scene scene;
+  scene.images = {checkers()};
+  for (int i = 0; i < 6; ++i) {
+    SurfaceMaterial strip;
+    strip.metallic = i % 2 == 0 ? 1.0f : 0.2f;
+    strip.roughness = std::array{0.01f, 0.1f, 0.2f, 0.35f, 0.6f, 1.0f}[static_cast<std::size_t>(i)];
+    if (i == 4) strip.clearcoat = 1, strip.clearcoat_roughness = 0.2f;
+    scene.materials.push_back(strip);
+    const float x = static_cast<float>(i) - 3;
+    scene.meshes.push_back(scene::quad_mesh({x, 0, 2}, {x + 1, 0, 2}, {x + 1, 0, -2}, {x, 0, -2}, i));
+  }
+  Camera camera;
+  camera.position = {0, 2.5, 5};
+  camera.z = normalized(Vec3d{0, 0.4, 1});
+  camera.y = {0, camera.z.z, -camera.z.y};
+  scene.cameras = {camera};
+  scene.area_lights = {
+      textured({{{-1, 0.2, -2}, {1, 0.2, -2}, {1, 2.2, -2}, {-1, 2.2, -2}}, {}}, {-1, 2.2, -2}, {0.5, 0, 0}, {0, -0.5, 0}, false),
+      textured({{{2, -0.5, 0}, {2, 1.5, 1}, {2, 1, -1}}, {}}, {2, 0, 0}, {0, 0.7, 0.7}, {0, -0.7, 0.7}, true),
+      textured({{{-3000, 3, -1}, {3000, 3, -1}, {3000, 3, 0}, {-3000, 3, 0}}, {}}, {0, 3, 0}, {0.1, 0, 0}, {0, 0, 1}, true)};
+  for (const char* method : {"auto", "ltc-compact"}) expect_same("textured lights", scene, small(method));
+  EXPECT_EQ(warnings_of(scene, small("auto")), std::vector<std::string>());
+}
+
+TEST_F(VulkanFrame, AgreesWithTheCpuUnderMeasuredLamps) {
+  RenderOptions options = small("ltc-compact");
+  options.width = 96;
+  options.height = 54;
+  const Scene scene = under_lamps();
+  expect_same("measured lamps", scene, options);
+  options.method = "auto";
+  expect_same("measured lamps", scene, options);
+  EXPECT_EQ(warnings_of(scene, options), std::vector<std::string>());
+}
+
+// The profile is as fine as EULUMDAT allows, so that a thread's loops have the most turns.
+TEST_F(VulkanFrame, AgreesWithTheCpuUnderFinelyMeasuredLamps) {
+  const auto fine = std::make_shared<LightProfile>();
+  for (int v = 0; v <= 360; ++v) fine->vertical.push_back(v * 0.5);
+  for (int h = 0; h <= 720; ++h) fine->horizontal.push_back(h * 0.5);
+  for (const double h : fine->horizontal)
+    for (const double v : fine->vertical)
+      fine->candela.push_back(5 + 4 * std::cos(v / 20) * (1 + 0.5 * std::sin(v / 58) * std::sin(h / 58)));
+  Scene scene = under_lamps();
+  for (AreaLight& light : scene.area_lights) set_emission(light, fine, {1, 0, 0}, {0.3, 0.2, 0.1});
+  RenderOptions options = small("ltc-compact");
+  options.width = 48;
+  options.height = 27;
+  expect_same("fine profile", scene, options);
+}
+
+TEST_F(VulkanFrame, SaysThatTheHostLightsOwnLobesByMeasuredLamps) {
+  Scene scene = under_lamps();
+  scene.area_lights.pop_back();
+  Material phong;
+  phong.brdf = Brdf::phong;
+  phong.exponent = 20;
+  scene.materials[0].specular_override = {phong};
+  RenderOptions options = small("auto");
+  options.width = 48;
+  options.height = 27;
+  const std::vector<std::string> warnings = warnings_of(scene, options);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("by the measured lamp 'lamp'"), std::string::npos) << warnings[0];
+  expect_same("own lobes", scene, options);
+}
+
+TEST_F(VulkanFrame, SaysThatTheHostLightsByLampsOfTooManyAngles) {
+  const auto fine = std::make_shared<LightProfile>();
+  for (int v = 0; v < 1024; ++v) fine->vertical.push_back(v * 180 / 1023.0);
+  for (int h = 0; h < 1024; ++h) fine->horizontal.push_back(h * 360 / 1023.0);
+  fine->candela.assign(1024 * 1024, 5);
+  Scene scene = under_lamps();
+  set_emission(scene.area_lights[0], fine, {1, 0, 0});
+  const std::vector<std::string> warnings = warnings_of(scene, small("ltc-compact"));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("by the measured lamp 'lamp': too much for the device's buffers or loops"), std::string::npos) << warnings[0];
+}
+
+// The parts are found as for lights of uniform radiance. Every lobe lights them as a fraction of the whole light.
+TEST_F(VulkanFrame, FindsTheVisiblePartsOfTexturedLights) {
+  const AreaLight square = textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true);
+  for (const char* method : {"auto", "ltc-compact"}) EXPECT_EQ(expect_same_shadows("textured", square, method), 0);
+  // The light has two contours: the host finds the visible part, and the device lights by it.
+  Polygon frame = kSquare;
+  frame.holes = {{{-0.5, 2.5, -0.5}, {-0.5, 2.5, 0.5}, {0.5, 2.5, 0.5}, {0.5, 2.5, -0.5}}};
+  EXPECT_EQ(expect_same_shadows("textured frame", textured(frame, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true), "ltc-compact"), 1);
+}
+
+TEST_F(VulkanFrame, FindsTheVisiblePartsOfMeasuredLamps) {
+  for (const char* method : {"auto", "ltc-compact"})
+    EXPECT_EQ(expect_same_shadows("measured rect", lamp(kSquare, {0.3, 0.2, 0.1}), method), 0);
+  EXPECT_EQ(expect_same_shadows("measured disk", lamp(Ellipse{{0, 2.5, 0}, {1, 0, 0}, {0.2, 0.1, 0.8}}, {0.3, 0.2, 0.1}), "ltc-compact"),
+            0);
+}
+
+TEST_F(VulkanFrame, TheValidationLayerFindsNothingUnderUnevenLights) {
+  const auto device = std::make_shared<Device>(DeviceOptions{"", true});
+  Scene scene = under_triangles(12);
+  scene.images = {checkers()};
+  scene.area_lights = {textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true),
+                       lamp(Ellipse{{0, 2.7, 0}, {1, 0, 0}, {0, 0, -1}}, {1, 1, 1})};
+  for (const Shadows shadows : {Shadows::off, Shadows::on}) {
+    RenderOptions options = small("ltc-compact");
+    options.width = 48;
+    options.height = 27;
+    options.shadows = shadows;
+    Frame(scene, options, device).render();
+  }
+  EXPECT_TRUE(device->validation_messages().empty())
+      << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
+}
+
+}  // namespace steradian::vulkan::frame_uneven_test

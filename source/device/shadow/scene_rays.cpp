@@ -1,0 +1,53 @@
+#include "device/shadow/scene_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "device/shadow/ray_hierarchy.h"
+
+namespace steradian::vulkan {
+namespace {
+
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
+
+bool casts(const Mesh& mesh) { return !mesh.is_light_shape && mesh.casts_shadow && !mesh.indices.empty(); }
+bool is_cut_out(const Scene& scene, const Mesh& mesh) {
+  return scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
+}
+bool is_finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+}  // namespace
+
+SceneRays::SceneRays(std::shared_ptr<const Device> device, std::size_t bytes, std::vector<Triangle> triangles)
+    : device_(std::move(device)), hierarchy_(*device_, bytes, BufferUse::host_writes), triangles_(std::move(triangles)) {}
+
+std::shared_ptr<const SceneRays> SceneRays::of(std::shared_ptr<const Device> device, const Scene& scene) {
+  std::vector<RayTriangle> sorted;
+  std::vector<Triangle> triangles;
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    if (!casts(mesh) || is_cut_out(scene, mesh)) continue;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      RayTriangle triangle{{}, static_cast<std::uint32_t>(triangles.size())};
+      for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = static_cast<Vec3d>(mesh.positions[mesh.indices[3 * t + c]]);
+      if (!std::all_of(triangle.corners.begin(), triangle.corners.end(), is_finite)) continue;
+      sorted.push_back(triangle);
+      triangles.push_back({static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t)});
+    }
+  }
+  const std::size_t most = std::min<std::size_t>(kLargestBuffer, device->info().storage_buffer);
+  if (least_of_hierarchy(sorted.size()) > most / (4 * sizeof(std::uint32_t))) return nullptr;
+  const auto vectors = ray_hierarchy(sorted);
+  const std::size_t bytes = vectors.size() * sizeof vectors[0];
+  if (bytes > most) return nullptr;
+  std::shared_ptr<SceneRays> rays(new SceneRays(std::move(device), bytes, std::move(triangles)));
+  rays->hierarchy_.write(vectors.data(), bytes);
+  return rays;
+}
+
+bool all_cast_exactly(const Scene& scene) {
+  return std::none_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) { return casts(mesh) && is_cut_out(scene, mesh); });
+}
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,270 @@
+#include "device/shadow/shadows.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/budget.h"
+#include "device/vulkan/shaders.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+namespace {
+
+#include "shaders/shadow_layout.glsl"
+
+constexpr std::size_t kVector = 4 * sizeof(std::uint32_t);
+constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
+// Limits of one search: work groups in a row, points whose parts fill a quarter of a buffer, lights and groups whose values fill half of
+// one.
+constexpr std::size_t kMostGroups = 65535, kMostPoints = 65536, kMostLights = 16384,
+                      kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
+constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
+constexpr int kMorePieces = 16;             // than segments
+// Limits of a subgroup for one point: segments, and pieces of them; bytes of one of each in shared memory (shaders/shadow_lanes.glsl).
+constexpr std::size_t kManySegments = 640, kSegmentBytes = 48;
+
+// Layout of Answers in shaders/shadow_parts.comp.
+struct AnswersHead {
+  std::uint32_t parts_begin, parts_used, parts_room, first_many, many_groups[3], many;
+};
+struct Answer {
+  Vec3f origin;
+  std::uint32_t edges;
+  Vec3f way;
+  std::uint32_t sees;
+};
+static_assert(sizeof(AnswersHead) == 2 * kVector && sizeof(Answer) == kShadowAnswer * kVector);
+
+constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow_rays.comp
+
+std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
+std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
+
+// First places of a tile's data among those of a batch.
+struct Begin {
+  std::size_t light = 0, point = 0, record = 0, row = 0, group = 0;
+};
+
+}  // namespace
+
+struct Shadows::Batch {
+  explicit Batch(std::span<TileShadows> t) : tiles(t), begins(t.size() + 1) {
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      const TileShadows& tile = tiles[i];
+      const Begin& b = begins[i];
+      begins[i + 1] = {b.light + tile.by_light.size(), b.point + tile.points.size(), 0, b.row + tile.values.size() / 4,
+                       b.group + tile.groups.size()};
+    }
+  }
+  const Begin& all() const { return begins.back(); }
+
+  std::span<TileShadows> tiles;
+  std::vector<Begin> begins;
+  std::vector<std::uint32_t> many;  // numbers of points behind so many edges that no thread tries them
+  Answer* answers = nullptr;        // by point
+};
+
+Shadows::Kept::Kept(const Device& d)
+    : device(d), program(d, shadow_shaders(), 4), groups(d), answers(d, BufferUse::host_reads), parts(d), states(d) {}
+
+bool Shadows::finds_many_edges(const DeviceInfo& device) {
+  return device.adds && device.subgroup > 0 && device.shared_memory >= static_cast<std::size_t>(kMostSpace) * kSegmentBytes;
+}
+
+Shadows::Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays, bool many_edges)
+    : kept_(kept), rays_(*parts.rays), device_rays_(rays), many_edges_(many_edges), host_(host) {}
+
+std::size_t Shadows::most_of_buffer() const { return std::min<std::size_t>(kLargestBuffer, kept_.device.info().storage_buffer); }
+
+Buffer& Shadows::fitting(KeptBuffer& buffer, std::size_t bytes, const char* what) const {
+  const std::size_t most = most_of_buffer();
+  if (bytes > most)
+    throw Error(
+        "Vulkan",
+        std::string(what) + " of one tile take " + readable_bytes(bytes) + ", more than the " + readable_bytes(most) + " of a buffer",
+        "use --backend cpu");
+  return buffer.fit_with_room(bytes, most);
+}
+
+void Shadows::upload(Batch& batch) {
+  constexpr std::size_t kHeader = static_cast<std::size_t>(kShadowHeader);
+  const std::size_t headers = batch.all().group * kHeader;
+  auto* to = static_cast<std::uint32_t*>(fitting(kept_.groups, (headers + batch.all().row) * kVector, "the edges before lights").mapped());
+  std::size_t row = 0;
+  for (const int space : kSpaces)
+    for (std::size_t i = 0; i < batch.tiles.size(); ++i)
+      for (const TileShadows::Search& group : batch.tiles[i].groups) {
+        if (group.space != space) continue;
+        for (std::size_t k = 0; space == kManyEdges && k < group.points; ++k)
+          batch.many.push_back(number(row / kHeader * static_cast<std::size_t>(kGroupPoints) + k));
+        auto header = group.header;
+        for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + batch.begins[i].row);
+        header[9] += number(batch.begins[i].point);
+        std::memcpy(to + 4 * row, header.data(), sizeof header);
+        row += kHeader;
+      }
+  for (std::size_t i = 0; i < batch.tiles.size(); ++i)
+    std::memcpy(to + 4 * (headers + batch.begins[i].row), batch.tiles[i].values.data(),
+                batch.tiles[i].values.size() * sizeof(std::uint32_t));
+}
+
+// Returns the number of vectors that the parts' records need.
+std::size_t Shadows::search(Batch& batch) {
+  const std::size_t count = batch.all().point, many = std::min(batch.many.size(), static_cast<std::size_t>(kMostMany));
+  AnswersHead head{0, 0, number(parts().bytes() / kVector), number(count) * kShadowAnswer, {number(many), 1, 1}, number(many)};
+  const std::size_t list = sizeof head + count * sizeof(Answer);
+  Buffer& answers = fitting(kept_.answers, list + (count + 3) / 4 * kVector, "points before lights");
+  answers.write(&head, sizeof head);
+  batch.answers = reinterpret_cast<Answer*>(static_cast<char*>(answers.mapped()) + sizeof head);
+  for (std::size_t i = 0; i < batch.tiles.size(); ++i)
+    for (std::size_t k = 0; k < batch.tiles[i].points.size(); ++k)
+      batch.answers[batch.begins[i].point + k] = {static_cast<Vec3f>(batch.tiles[i].points[k].at.position), 0, {}, kAskHost};
+  std::memcpy(static_cast<char*>(answers.mapped()) + list, batch.many.data(), many * sizeof(std::uint32_t));
+  std::vector<ComputeProgram::Dispatch> dispatches;
+  std::uint32_t first = 0;
+  for (const int space : kSpaces) {
+    if (space == kManyEdges) continue;
+    std::uint32_t groups = 0;
+    for (const TileShadows& tile : batch.tiles)
+      groups += number(
+          static_cast<std::size_t>(std::count_if(tile.groups.begin(), tile.groups.end(), [&](const auto& g) { return g.space == space; })));
+    if (groups > 0) dispatches.push_back({kept_.program.pipeline(0, {space, space + kMorePieces}), groups, 1, first});
+    first += groups;
+  }
+  if (many_edges_ && count > 0) {
+    const DeviceInfo& device = kept_.device.info();
+    const std::size_t space = std::min(device.shared_memory / kSegmentBytes, kManySegments);
+    dispatches.push_back({kept_.program.pipeline(1, {static_cast<int>(space), static_cast<int>(space), static_cast<int>(device.subgroup)}),
+                          0, 0, 0, &answers, offsetof(AnswersHead, many_groups)});
+  }
+  if (device_rays_ != nullptr && count > 0)
+    dispatches.push_back({kept_.program.pipeline(2), number((count + kThreads - 1) / kThreads), 1, number(count)});
+  const std::vector<double> times = kept_.program.run(
+      {&kept_.groups.get(), &kept_.parts.get(), &answers, device_rays_ != nullptr ? &device_rays_->hierarchy() : &answers}, dispatches);
+  for (std::size_t i = 0; i < times.size(); ++i) (device_rays_ != nullptr && i + 1 == times.size() ? rays_time_ : time_) += times[i];
+  std::memcpy(&head, answers.mapped(), sizeof head);
+  return head.parts_used;
+}
+
+// Traces on the host the rays that the device left undecided.
+void Shadows::trace(Batch& batch, const Each& each) {
+  each(batch.tiles.size(), [&](std::size_t i) {
+    constexpr std::size_t kRays = 16;
+    const std::size_t end = batch.begins[i + 1].point;
+    RayScene::Sixteen rays;
+    for (std::size_t first = batch.begins[i].point; first < end; first += kRays) {
+      std::uint32_t asked = 0;
+      for (std::size_t k = 0; k < std::min(kRays, end - first); ++k) {
+        const Answer& answer = batch.answers[first + k];
+        if ((answer.edges & flag(kAskRay)) == 0) continue;
+        rays.set(k, static_cast<Vec3d>(answer.origin), static_cast<Vec3d>(answer.way));
+        asked |= 1u << k;
+      }
+      const std::uint32_t blocked = rays_.blocked_among(rays, asked);
+      for (std::size_t k = 0; k < kRays; ++k) {
+        if ((asked >> k & 1) == 0) continue;
+        Answer& answer = batch.answers[first + k];
+        answer.edges -= flag(kAskRay);
+        if ((blocked >> k & 1) != 0) answer.sees = flag(kSeesNone);
+      }
+    }
+  });
+}
+
+void Shadows::ask_host(Batch& batch, const Each& each) {
+  each(batch.tiles.size(), [&](std::size_t i) {
+    TileShadows& tile = batch.tiles[i];
+    const std::size_t begin = batch.begins[i].point;
+    TilePoints points;
+    points.points.resize(kTilePixels);
+    std::vector<std::uint32_t> slots;
+    for (std::size_t g = 0; g < tile.groups.size(); ++g) {
+      const std::size_t first = tile.groups[g].header[9], count = tile.groups[g].points;
+      const std::uint32_t light = tile.points[first].light;
+      points.groups.groups.emplace_back();
+      for (std::size_t k = first; k < first + count; ++k) {
+        if (batch.answers[begin + k].sees != kAskHost) continue;
+        const std::uint32_t slot = tile.points[k].slot;
+        points.points[slot] = tile.points[k].at;
+        points.groups.groups.back().push_back(slot);
+        slots.push_back(slot);
+      }
+      if (points.groups.groups.back().empty())
+        points.groups.groups.pop_back();
+      else
+        points.groups.clusters.push_back({number(points.groups.groups.size() - 1)});
+      const bool last = g + 1 == tile.groups.size() || tile.points[tile.groups[g + 1].header[9]].light != light;
+      if (!last || slots.empty()) continue;
+      tile.set(light, slots, host_.find_at(points, *tile.by_light[light].light));
+      points.groups = {};
+      slots.clear();
+    }
+  });
+}
+
+void Shadows::write_states(Batch& batch, const Each& each) {
+  auto* states = static_cast<std::uint32_t*>(
+      fitting(kept_.states, batch.all().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
+  auto* records = static_cast<Vec4Floats*>(kept_.parts.get().mapped());
+  each(batch.tiles.size(), [&](std::size_t i) {
+    TileShadows& tile = batch.tiles[i];
+    const Begin& begin = batch.begins[i];
+    std::copy(tile.records.begin(), tile.records.end(), records + begin.record);
+    std::uint32_t* to = states + begin.light * kTilePixels;
+    for (std::size_t l = 0; l < tile.by_light.size(); ++l)
+      for (std::size_t slot = 0; slot < kTilePixels; ++slot) {
+        const std::uint32_t state = tile.by_light[l].states[slot];
+        to[l * kTilePixels + slot] = state < kSeesPart ? state : state + number(begin.record);
+      }
+    for (std::size_t k = 0; k < tile.points.size(); ++k) {
+      const Answer& answer = batch.answers[begin.point + k];
+      if (answer.sees == flag(kSeesNone) || answer.sees == flag(kAskHost)) continue;
+      const TileShadows::Point& point = tile.points[k];
+      to[point.light * kTilePixels + point.slot] = answer.sees;
+      TileShadows::Light& light = tile.by_light[point.light];
+      light.edges = std::max(light.edges, static_cast<int>(answer.edges));
+      light.shares |= point.shares && answer.sees >= kSeesPart;
+    }
+  });
+}
+
+std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
+  const Batch all(tiles);
+  std::size_t count = 1;
+  const auto fits = [&](const Begin& b) {
+    return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues;
+  };
+  while (count < tiles.size() && fits(all.begins[count + 1])) ++count;
+  bool asked = false;
+  while (true) {
+    Batch batch(tiles.first(count));
+    fitting(kept_.parts, batch.all().point * kVectorsOfPart * kVector, "parts of lights");
+    upload(batch);
+    std::size_t wanted = search(batch);
+    if (!asked && wanted * kVector <= parts().bytes()) {
+      ask_host(batch, each);
+      asked = true;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      batch.begins[i].record = wanted;
+      wanted += batch.tiles[i].records.size();
+    }
+    if (wanted * kVector > parts().bytes()) {
+      // Try again with more capacity or fewer tiles.
+      if (wanted * kVector > kLargestBuffer && count > 1)
+        count /= 2;
+      else
+        fitting(kept_.parts, wanted * kVector, "parts of lights");
+      continue;
+    }
+    trace(batch, each);
+    write_states(batch, each);
+    for (std::size_t k = 0; k < batch.all().point; ++k) {
+      points_ += batch.answers[k].sees != kAskHost;
+      found_ += batch.answers[k].sees >= kSeesPart;
+    }
+    return count;
+  }
+}
+
+}  // namespace steradian::vulkan

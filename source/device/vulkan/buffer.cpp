@@ -1,0 +1,80 @@
+#include "device/vulkan/buffer.h"
+
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "core/budget.h"
+#include "device/vulkan/buffer_handles.h"
+
+namespace steradian::vulkan {
+namespace {
+
+std::optional<std::uint32_t> memory_type(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, vk::MemoryPropertyFlags wanted) {
+  const auto properties = device.getMemoryProperties();
+  for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i)
+    if ((allowed >> i & 1u) != 0 && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+  return {};
+}
+
+// Type of memory that the host can map, of the kind that suits the use if there is one.
+std::uint32_t memory_type_for(const vk::raii::PhysicalDevice& device, std::uint32_t allowed, BufferUse use) {
+  using Flag = vk::MemoryPropertyFlagBits;
+  const vk::MemoryPropertyFlags needed = Flag::eHostVisible | Flag::eHostCoherent;
+  if (const auto best = memory_type(device, allowed, needed | (use == BufferUse::host_reads ? Flag::eHostCached : Flag::eDeviceLocal)))
+    return *best;
+  if (const auto any = memory_type(device, allowed, needed)) return *any;
+  throw Error("Vulkan", "the device has no memory that the host can read");
+}
+
+void check_size(std::size_t bytes, std::size_t available) {
+  if (bytes > available) throw Error("Vulkan", std::to_string(bytes) + " bytes do not fit a buffer of " + std::to_string(available));
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferForm form)
+    : bytes_(bytes), handles_(std::make_unique<Handles>()) {
+  checked(device, "make a buffer of " + readable_bytes(bytes), [&] {
+    const Device::Handles& d = device.handles();
+    Handles& h = *handles_;
+    h.device = &d;
+    using Usage = vk::BufferUsageFlagBits;
+    vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferDst | Usage::eIndirectBuffer;
+    if (form != BufferForm::storage) usage |= Usage::eUniformTexelBuffer;
+    h.buffer = d.device.createBuffer({{}, bytes, usage});
+    const auto needed = h.buffer.getMemoryRequirements();
+    h.memory = d.allocate({needed.size, memory_type_for(d.physical, needed.memoryTypeBits, use)});
+    h.buffer.bindMemory(*h.memory, 0);
+    h.mapped = h.memory.mapMemory(0, bytes);
+    if (form == BufferForm::storage) return;
+    const vk::Format format = form == BufferForm::texels    ? vk::Format::eR32G32B32A32Sfloat
+                              : form == BufferForm::numbers ? vk::Format::eR32Uint
+                                                            : vk::Format::eR8G8B8A8Unorm;
+    h.texels = d.device.createBufferView({{}, *h.buffer, format, 0, VK_WHOLE_SIZE});
+  });
+}
+
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(bytes_, other.bytes_);
+  std::swap(handles_, other.handles_);
+  return *this;
+}
+Buffer::~Buffer() {
+  if (handles_ != nullptr && handles_->device != nullptr) handles_->device->leave(handles_);
+}
+
+void Buffer::write(const void* data, std::size_t bytes) {
+  check_size(bytes, bytes_);
+  std::memcpy(handles_->mapped, data, bytes);
+}
+
+void Buffer::read(void* data, std::size_t bytes) const {
+  check_size(bytes, bytes_);
+  std::memcpy(data, handles_->mapped, bytes);
+}
+
+void* Buffer::mapped() const { return handles_->mapped; }
+
+}  // namespace steradian::vulkan

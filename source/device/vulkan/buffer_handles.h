@@ -1,0 +1,17 @@
+// The Vulkan objects behind Buffer, for this folder only.
+#pragma once
+
+#include "device/vulkan/buffer.h"
+#include "device/vulkan/handles.h"
+
+namespace steradian::vulkan {
+
+struct Buffer::Handles {
+  vk::raii::Buffer buffer = nullptr;
+  vk::raii::DeviceMemory memory = nullptr;
+  vk::raii::BufferView texels = nullptr;
+  void* mapped = nullptr;
+  const Device::Handles* device = nullptr;
+};
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,134 @@
+#include "device/vulkan/compute_program.h"
+
+#include <utility>
+
+#include "device/vulkan/buffer_handles.h"
+
+namespace steradian::vulkan {
+
+struct ComputeProgram::Handles {
+  std::uint32_t texels = 0;
+  vk::DescriptorType type(std::uint32_t binding) const {
+    return binding < texels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
+  }
+
+  Pipelines* pipelines = nullptr;  // the device's
+  vk::raii::DescriptorPool pool = nullptr;
+  vk::raii::DescriptorSet set = nullptr;
+  vk::raii::CommandBuffer commands = nullptr;
+  vk::raii::Fence done = nullptr;
+  vk::raii::QueryPool queries = nullptr;
+  std::size_t query_count = 0;
+};
+
+namespace {
+
+// The device's pipelines for these shaders, created if it has none yet. type(i): type of binding i.
+template <class Type>
+Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::uint32_t buffers,
+                        std::uint32_t texels, Type type) {
+  const Device::Handles& d = device.handles();
+  std::vector<std::uint32_t> key = {buffers, texels};
+  for (const auto& spirv : shaders) {
+    key.push_back(static_cast<std::uint32_t>(spirv.size()));
+    key.insert(key.end(), spirv.begin(), spirv.end());
+  }
+  if (const auto found = d.pipelines.find(key); found != d.pipelines.end()) return found->second;
+  Pipelines p;
+  for (const auto& spirv : shaders) p.shaders.push_back(module_of(d.device, spirv));
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (std::uint32_t i = 0; i < buffers + texels; ++i) bindings.emplace_back(i, type(i), 1, vk::ShaderStageFlagBits::eCompute);
+  p.set_layout = d.device.createDescriptorSetLayout({{}, bindings});
+  const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
+  p.layout = d.device.createPipelineLayout({{}, *p.set_layout, push});
+  return d.pipelines.emplace(std::move(key), std::move(p)).first->second;
+}
+
+}  // namespace
+
+ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers,
+                               std::size_t texels)
+    : device_(device), handles_(std::make_unique<Handles>()) {
+  checked(device, "make a compute program", [&] {
+    const vk::raii::Device& d = device.handles().device;
+    Handles& h = *handles_;
+    h.texels = static_cast<std::uint32_t>(texels);
+    h.pipelines = &pipelines_of(device, shaders, static_cast<std::uint32_t>(buffers), h.texels, [&](std::uint32_t i) { return h.type(i); });
+    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, static_cast<std::uint32_t>(buffers)}};
+    if (texels > 0) sizes.emplace_back(vk::DescriptorType::eUniformTexelBuffer, h.texels);
+    h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+    h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.pipelines->set_layout}).front());
+    h.commands = std::move(d.allocateCommandBuffers({*device.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
+    h.done = d.createFence({});
+  });
+}
+
+ComputeProgram::~ComputeProgram() { device_.handles().leave(handles_); }
+
+std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::int32_t>& constants) {
+  Pipelines& p = *handles_->pipelines;
+  if (const auto found = p.numbers.find({shader, constants}); found != p.numbers.end()) return found->second;
+  checked(device_, "make a compute pipeline", [&] {
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, i * 4u, sizeof(std::int32_t));
+    const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                                constants.size() * sizeof(std::int32_t), constants.data());
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *p.shaders.at(shader), "main", &specialization);
+    p.made.push_back(device_.handles().device.createComputePipeline(device_.handles().pipeline_cache, {{}, stage, *p.layout}));
+  });
+  return p.numbers.emplace(std::pair(shader, constants), p.made.size() - 1).first->second;
+}
+
+std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches) {
+  return checked(device_, "run a compute shader", [&] {
+    const Device::Handles& d = device_.handles();
+    Handles& h = *handles_;
+    for (std::uint32_t i = 0; i < buffers.size(); ++i) {
+      const Buffer::Handles& buffer = buffers[i]->handles();
+      const vk::DescriptorBufferInfo info(*buffer.buffer, 0, VK_WHOLE_SIZE);
+      vk::WriteDescriptorSet write(*h.set, i, 0, 1, h.type(i), nullptr, &info, &*buffer.texels);
+      d.device.updateDescriptorSets(write, nullptr);
+    }
+    const bool timed = device_.info().timestamps;
+    const auto stamps = static_cast<std::uint32_t>(dispatches.size() + 1);
+    if (timed && h.query_count < stamps) {
+      h.queries = d.device.createQueryPool({{}, vk::QueryType::eTimestamp, stamps});
+      h.query_count = stamps;
+    }
+
+    // Writes of a dispatch become visible to the next one, and to the host. Once llvmpipe has drawn something, it takes a timestamp only
+    // at its next flush, which a barrier causes. So a barrier follows every timestamp.
+    using Stage = vk::PipelineStageFlagBits;
+    using Access = vk::AccessFlagBits;
+    const vk::MemoryBarrier written(Access::eShaderWrite,
+                                    Access::eShaderRead | Access::eShaderWrite | Access::eIndirectCommandRead | Access::eHostRead);
+    const auto wait = [&] {
+      h.commands.pipelineBarrier(Stage::eComputeShader, Stage::eComputeShader | Stage::eDrawIndirect | Stage::eHost, {}, written, nullptr,
+                                 nullptr);
+    };
+    h.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    if (timed) {
+      h.commands.resetQueryPool(*h.queries, 0, stamps);
+      h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 0);
+      wait();
+    }
+    h.commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *h.pipelines->layout, 0, *h.set, nullptr);
+    for (std::uint32_t i = 0; i < dispatches.size(); ++i) {
+      const Dispatch& one = dispatches[i];
+      h.commands.bindPipeline(vk::PipelineBindPoint::eCompute, *h.pipelines->made.at(one.pipeline));
+      h.commands.pushConstants<std::uint32_t>(*h.pipelines->layout, vk::ShaderStageFlagBits::eCompute, 0, one.push);
+      if (one.groups != nullptr)
+        h.commands.dispatchIndirect(*one.groups->handles().buffer, one.groups_at);
+      else
+        h.commands.dispatch(one.groups_x, one.groups_y, 1);
+      if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, i + 1);
+      wait();
+    }
+    h.commands.end();
+
+    submit_and_wait(device_, h.commands, h.done, "a compute shader");
+    return timed ? times_between(device_, h.queries, stamps) : std::vector<double>{};
+  });
+}
+
+}  // namespace steradian::vulkan

@@ -1,0 +1,233 @@
+#include "device/vulkan/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "core/atomic_file.h"
+#include "device/vulkan/handles.h"
+
+namespace steradian::vulkan {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+  static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
+  return VK_FALSE;
+}
+
+bool has_validation_layer(const vk::raii::Context& context) {
+  for (const auto& layer : context.enumerateInstanceLayerProperties())
+    if (std::string(layer.layerName.data()) == kValidationLayer) return true;
+  return false;
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation) {
+  const vk::ApplicationInfo application("steradian", 0, "steradian", 0, VK_API_VERSION_1_2);
+  std::vector<const char*> layers, extensions;
+  if (validation) {
+    if (!has_validation_layer(context))
+      throw Error("Vulkan", std::string("the layer ") + kValidationLayer + " is not installed", "install vulkan-validationlayers");
+    layers.push_back(kValidationLayer);
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  }
+  return vk::raii::Instance(context, vk::InstanceCreateInfo({}, &application, layers, extensions));
+}
+
+// A queue family that can also draw, if there is one.
+std::optional<std::uint32_t> compute_queue_family(const vk::raii::PhysicalDevice& device) {
+  const auto families = device.getQueueFamilyProperties();
+  const vk::QueueFlags compute = vk::QueueFlagBits::eCompute, both = compute | vk::QueueFlagBits::eGraphics;
+  for (const vk::QueueFlags wanted : {both, compute})
+    for (std::uint32_t i = 0; i < families.size(); ++i)
+      if ((families[i].queueFlags & wanted) == wanted) return i;
+  return {};
+}
+
+std::string version_text(std::uint32_t version) {
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+std::size_t own_memory(const vk::raii::PhysicalDevice& device) {
+  const auto properties = device.getMemoryProperties();
+  std::size_t largest = 0;
+  for (std::uint32_t i = 0; i < properties.memoryHeapCount; ++i)
+    if (properties.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+      largest = std::max(largest, static_cast<std::size_t>(properties.memoryHeaps[i].size));
+  return largest;
+}
+
+DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_family) {
+  const auto chain =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties, vk::PhysicalDeviceSubgroupProperties>();
+  const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+  const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+  DeviceInfo info;
+  info.name = properties.deviceName.data();
+  info.driver = std::string(driver.driverName.data()) + ", " + driver.driverInfo.data();
+  info.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+  info.vulkan = version_text(properties.apiVersion);
+  info.memory = own_memory(device);
+  info.storage_buffer = properties.limits.maxStorageBufferRange;
+  info.graphics = static_cast<bool>(device.getQueueFamilyProperties()[queue_family].queueFlags & vk::QueueFlagBits::eGraphics);
+  info.picture =
+      std::min({properties.limits.maxFramebufferWidth, properties.limits.maxFramebufferHeight, properties.limits.maxViewportDimensions[0],
+                properties.limits.maxViewportDimensions[1], properties.limits.maxImageDimension2D});
+  info.storage_buffers = properties.limits.maxPerStageDescriptorStorageBuffers;
+  info.texel_buffer = properties.limits.maxTexelBufferElements;
+  const auto& subgroups = chain.get<vk::PhysicalDeviceSubgroupProperties>();
+  info.subgroup = subgroups.subgroupSize;
+  info.broadcasts = static_cast<bool>(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eBallot) &&
+                    static_cast<bool>(subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute);
+  info.adds = info.broadcasts && static_cast<bool>(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic);
+  info.shared_memory = properties.limits.maxComputeSharedMemorySize;
+  info.timestamps = device.getQueueFamilyProperties()[queue_family].timestampValidBits > 0 && properties.limits.timestampPeriod > 0;
+  return info;
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+struct Candidate {
+  vk::raii::PhysicalDevice device;
+  std::uint32_t queue_family;
+  DeviceInfo info;
+};
+
+std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
+  std::vector<Candidate> found;
+  for (const auto& device : vk::raii::PhysicalDevices(instance)) {
+    if (device.getProperties().apiVersion < VK_API_VERSION_1_2) continue;
+    if (const auto family = compute_queue_family(device)) found.push_back({device, *family, describe(device, *family)});
+  }
+  std::stable_partition(found.begin(), found.end(), [](const Candidate& c) { return !c.info.software; });
+  return found;
+}
+
+const char* pipeline_cache_file() {
+  const char* path = std::getenv("STERADIAN_PIPELINE_CACHE");
+  return path != nullptr && *path != '\0' ? path : nullptr;
+}
+
+// The file's bytes if this driver wrote them for this device, else none: drivers may not survive the bytes of others.
+std::vector<char> read_pipeline_cache(const vk::raii::PhysicalDevice& device) {
+  if (pipeline_cache_file() == nullptr) return {};
+  std::ifstream file(pipeline_cache_file(), std::ios::binary);
+  std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
+  const vk::PhysicalDeviceProperties properties = device.getProperties();
+  VkPipelineCacheHeaderVersionOne header{};
+  if (bytes.size() < sizeof header) return {};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  const bool ours =
+      header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
+      header.deviceID == properties.deviceID &&
+      std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), properties.pipelineCacheUUID.begin());
+  return ours ? bytes : std::vector<char>{};
+}
+
+// A cache that cannot be written costs time in the next run, and nothing else.
+void write_pipeline_cache(const vk::raii::PipelineCache& cache) noexcept {
+  if (pipeline_cache_file() == nullptr || !*cache) return;
+  try {
+    const auto bytes = cache.getData();
+    write_file(pipeline_cache_file(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  } catch (const std::exception&) {
+  }
+}
+
+std::mutex shared_mutex;
+int shared_users = 0;
+std::map<std::pair<std::string, bool>, std::shared_ptr<const Device>> shared_devices;
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices() {
+  std::vector<DeviceInfo> infos;
+  try {
+    const vk::raii::Context context;
+    for (const Candidate& c : candidates(make_instance(context, false))) infos.push_back(c.info);
+  } catch (const std::exception&) {
+    // No loader or no driver: an expected absence, not an error.
+    infos.clear();
+  }
+  return infos;
+}
+
+Device::Device(const DeviceOptions& options) {
+  try {
+    handles_ = std::make_unique<Handles>();
+  } catch (const std::exception& e) {  // vulkan.hpp's own exception if there is no library to load
+    throw Error("Vulkan", e.what(), "install libvulkan1 and a driver, such as mesa-vulkan-drivers");
+  }
+  Handles& h = *handles_;
+  checked("Vulkan", "open a device", [&] {
+    h.instance = make_instance(h.context, options.validation);
+    if (options.validation) {
+      using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+      using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+      h.messenger = h.instance.createDebugUtilsMessengerEXT(
+          {{}, Severity::eWarning | Severity::eError, Type::eGeneral | Type::eValidation | Type::ePerformance, keep_message, &h.messages});
+    }
+    std::string seen;
+    std::size_t place = 0;
+    for (const Candidate& c : candidates(h.instance)) {
+      seen += (seen.empty() ? "" : ", ") + std::to_string(place) + " " + c.info.name;
+      const bool is_place = options.name == std::to_string(place++);
+      if (!is_place && (is_number(options.name) || c.info.name.find(options.name) == std::string::npos)) continue;
+      info_ = c.info;
+      h.physical = c.device;
+      h.queue_family = c.queue_family;
+      h.timestamp_period = h.physical.getProperties().limits.timestampPeriod;
+      const float priority = 1.0f;
+      const vk::DeviceQueueCreateInfo queue({}, h.queue_family, 1, &priority);
+      h.device = h.physical.createDevice({{}, queue});
+      h.queue = h.device.getQueue(h.queue_family, 0);
+      const std::vector<char> cached = read_pipeline_cache(h.physical);
+      h.pipeline_cache = h.device.createPipelineCache({{}, cached.size(), cached.data()});
+      h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, h.queue_family});
+      return;
+    }
+    if (seen.empty()) throw Error("Vulkan", "no device with Vulkan 1.2", "install a driver, such as mesa-vulkan-drivers");
+    throw Error("Vulkan", "no device has the number or the name '" + options.name + "'", "here are: " + seen);
+  });
+}
+
+Device::~Device() {
+  const Handles& h = *handles_;
+  if (!h.hangs) write_pipeline_cache(h.pipeline_cache);
+  h.leave(handles_);
+}
+
+const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
+
+std::size_t Device::allocations() const { return handles_->allocations; }
+
+std::shared_ptr<const Device> open_device(const DeviceOptions& options) {
+  const std::lock_guard lock(shared_mutex);
+  if (shared_users == 0) return std::make_shared<const Device>(options);
+  std::shared_ptr<const Device>& device = shared_devices[{options.name, options.validation}];
+  if (device == nullptr) device = std::make_shared<const Device>(options);
+  return device;
+}
+
+SharedDevices::SharedDevices() {
+  const std::lock_guard lock(shared_mutex);
+  ++shared_users;
+}
+
+SharedDevices::~SharedDevices() {
+  const std::lock_guard lock(shared_mutex);
+  if (--shared_users == 0) shared_devices.clear();
+}
+
+}  // namespace steradian::vulkan

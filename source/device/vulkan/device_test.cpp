@@ -1,0 +1,99 @@
+#include "device/vulkan/device.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/budget.h"
+#include "device/vulkan/buffer.h"
+#include "device/vulkan/compute_program.h"
+#include "device/direct/direct_light.h"
+#include "device/vulkan/handles.h"
+#include "device/vulkan/shaders.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan::device_test {
+
+TEST(VulkanDevice, UnknownNameIsRefusedWithTheNamesThereAre) {
+  const auto devices = list_devices();
+  try {
+    Device device({"no such device", false});
+    FAIL() << "opened " << device.info().name;
+  } catch (const Error& e) {
+    for (const DeviceInfo& d : devices) EXPECT_NE(std::string(e.what()).find(d.name), std::string::npos) << e.what();
+  }
+}
+
+// Hardware devices come before software ones, so that the first one is the one to use.
+TEST(VulkanDevice, SoftwareDevicesComeLast) {
+  bool software = false;
+  for (const DeviceInfo& d : list_devices()) {
+    EXPECT_FALSE(software && !d.software) << d.name;
+    software = d.software;
+  }
+}
+
+TEST(VulkanDevice, IsFoundByItsNumberAndByAPartOfItsName) {
+  const auto devices = list_devices();
+  if (devices.empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  EXPECT_EQ(Device({std::to_string(devices.size() - 1), false}).info().name, devices.back().name);
+  EXPECT_EQ(Device({devices.front().name.substr(0, 4), false}).info().name, devices.front().name);
+  EXPECT_GT(devices.front().memory, std::size_t{1} << 20);
+}
+
+TEST(VulkanDevice, MoreMemoryThanThereIsIsRefusedWithItsSize) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const Device device;
+  const std::size_t bytes = std::size_t{1} << 46;
+  try {
+    Buffer buffer(device, bytes);
+    FAIL() << "made a buffer of " << buffer.bytes();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find(readable_bytes(bytes)), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("memory"), std::string::npos) << e.what();
+  }
+}
+
+TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
+  DeviceInfo info;
+  info.name = "Small One";
+  info.storage_buffer = std::size_t{64} << 20;
+  info.texel_buffer = 65536;
+  try {
+    check_device(info);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("'Small One'"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("128 MiB"), std::string::npos) << e.what();
+  }
+  info.storage_buffer = std::size_t{128} << 20;
+  EXPECT_THROW(check_device(info), Error) << "without ballots";
+  info.broadcasts = true;
+  EXPECT_NO_THROW(check_device(info));
+}
+
+// Programs are cached: a later one may occupy the memory of an earlier one's words.
+TEST(VulkanDevice, TellsProgramsApartByTheirWords) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const Device device;
+  const auto one = diffuse_shader(), other = sheen_shader();
+  std::vector<std::uint32_t> words(std::max(one.size(), other.size()));
+  for (const auto& spirv : {one, other, one}) {
+    std::copy(spirv.begin(), spirv.end(), words.begin());
+    const ComputeProgram program(device, {std::span(words).first(spirv.size())}, 5, 6);
+  }
+  EXPECT_EQ(device.handles().pipelines.size(), 2u);
+}
+
+TEST(VulkanDevice, ItsLossIsAnErrorThatSaysWhatWasBeingDone) {
+  try {
+    checked("Vulkan", "run a compute shader", []() -> int { throw vk::DeviceLostError("gone"); });
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("run a compute shader: the device was lost"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace steradian::vulkan::device_test

@@ -1,0 +1,107 @@
+// The Vulkan objects behind Device. Only files of this folder include it: vulkan.hpp takes seconds to compile.
+#pragma once
+
+#define VK_NO_PROTOTYPES  // every function comes from the loader at run time
+#include <vulkan/vulkan_raii.hpp>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/vulkan/device.h"
+#include "steradian/error.h"
+
+namespace steradian::vulkan {
+
+// Shaders over the same buffers, and the pipelines created from them so far.
+struct Pipelines {
+  std::vector<vk::raii::ShaderModule> shaders;
+  vk::raii::DescriptorSetLayout set_layout = nullptr;
+  vk::raii::PipelineLayout layout = nullptr;
+  std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> numbers;  // by shader and constants
+  std::vector<vk::raii::Pipeline> made;
+};
+
+struct Device::Handles {
+  vk::raii::Context context;
+  vk::raii::Instance instance = nullptr;
+  vk::raii::DebugUtilsMessengerEXT messenger = nullptr;
+  vk::raii::PhysicalDevice physical = nullptr;
+  vk::raii::Device device = nullptr;
+  std::uint32_t queue_family = 0;
+  vk::raii::Queue queue = nullptr;
+  vk::raii::CommandPool commands = nullptr;
+  vk::raii::PipelineCache pipeline_cache = nullptr;
+  float timestamp_period = 0;  // nanoseconds per tick
+  // The key distinguishes programs: the numbers of their buffers and the words of their shaders. Entries live as long as the device, since
+  // pipelines take longer to create than pictures.
+  mutable std::map<std::vector<std::uint32_t>, Pipelines> pipelines;
+  std::vector<std::string> messages;
+  mutable std::size_t allocations = 0;
+  mutable bool hangs = false;  // submitted work has not ended, and still uses its objects
+
+  vk::raii::DeviceMemory allocate(const vk::MemoryAllocateInfo& info) const {
+    ++allocations;
+    return device.allocateMemory(info);
+  }
+
+  // For destructors: releases objects, without destroying them, that a hanging device may still use.
+  template <class Made>
+  void leave(std::unique_ptr<Made>& made) const {
+    if (hangs) static_cast<void>(made.release());
+  }
+};
+
+// Runs f; a failure of Vulkan becomes an Error at `place` that says what was being done.
+template <class F>
+auto checked(const std::string& place, const std::string& doing, F f) {
+  try {
+    return f();
+  } catch (const vk::OutOfDeviceMemoryError&) {
+    throw Error(place, doing + ": the device has no memory left", "close what else uses it, choose another --device, or --backend cpu");
+  } catch (const vk::DeviceLostError&) {
+    throw Error(place, doing + ": the device was lost",
+                "try again, choose another --device, or --backend cpu; the driver's log may say why");
+  } catch (const vk::SystemError& e) {
+    throw Error(place, doing + ": " + e.what());
+  }
+}
+template <class F>
+auto checked(const Device& device, const std::string& doing, F f) {
+  return checked("Vulkan device '" + device.info().name + "'", doing, f);
+}
+
+inline vk::raii::ShaderModule module_of(const vk::raii::Device& device, std::span<const std::uint32_t> spirv) {
+  return device.createShaderModule({{}, spirv.size_bytes(), spirv.data()});
+}
+
+// Submits the commands to the device and waits until they are done. work: what a hanging device did not finish, for the error.
+inline void submit_and_wait(const Device& device, const vk::raii::CommandBuffer& commands, const vk::raii::Fence& done, const char* work) {
+  constexpr std::uint64_t longest = 300'000'000'000;  // ns
+  const Device::Handles& d = device.handles();
+  d.device.resetFences(*done);
+  d.queue.submit(vk::SubmitInfo({}, {}, *commands, {}), *done);
+  if (d.device.waitForFences(*done, VK_TRUE, longest) != vk::Result::eSuccess) {
+    d.hangs = true;
+    throw Error("Vulkan device '" + device.info().name + "'", std::string("did not finish ") + work + " within five minutes",
+                "ask for a smaller picture, choose another --device, or --backend cpu");
+  }
+}
+
+// Milliseconds between neighbouring timestamps among the first `count`.
+inline std::vector<double> times_between(const Device& device, const vk::raii::QueryPool& stamps, std::uint32_t count) {
+  using Flag = vk::QueryResultFlagBits;
+  const auto ticks =
+      stamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t), Flag::e64 | Flag::eWait);
+  std::vector<double> times;
+  for (std::uint32_t i = 1; i < count; ++i)
+    times.push_back(static_cast<double>(ticks.second[i] - ticks.second[i - 1]) * static_cast<double>(device.handles().timestamp_period) *
+                    1e-6);
+  return times;
+}
+
+}  // namespace steradian::vulkan

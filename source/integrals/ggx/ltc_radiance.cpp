@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+
+#include "integrals/ggx/representative_point.h"
+#include "integrals/tables/shipped_lobe.h"
+#include "shapes/polygon.h"
+#include "steradian/albedo.h"
+#include "steradian/error.h"
+#include "steradian/kernels.h"
+#include "steradian/ltc.h"
+
+namespace steradian {
+namespace {
+
+template <class S>
+Vec3d radiance(LtcMethod method, const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at,
+               const Material& material) {
+  const Vec3d n = normalized(at.normal), v = normalized(at.view);
+  const double cosine = dot(n, v);
+  const auto frame = Kernels<S>().frame_from_normal_and_view(integrals::to_kernel<S>(n), integrals::to_kernel<S>(v));
+  auto view = transform_transposed(frame, integrals::to_kernel<S>(v));
+  view.y = 0.0;
+  const auto shading = integrals::shading_from<S>(cosine > 0 ? shapes::lit_side(light, at.position) : 0, view);
+  const double alpha = std::max(material.alpha_x, kSmallestAlpha);
+  const auto part_by = [&](auto integral) { return integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral); };
+  const auto by = [&](auto integral, Vec3d f0, Vec3d f90) { return integrals::radiance_of<S>(part_by(integral), f0, f90, light.radiance); };
+  switch (method) {
+    case LtcMethod::representative_point: return by(integrals::RepresentativePoint<S>(material.alpha_x), material.f0, material.f90);
+    case LtcMethod::classic: return by(integrals::Ltc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
+    case LtcMethod::fresnel: {
+      const auto lobe = part_by(integrals::Ltc<S>(classic_lobe<S>(table, alpha, cosine)));
+      const auto grazing = part_by(integrals::Ltc<S>(classic_lobe<S>(ggx_fresnel_table(), alpha, cosine)));
+      return integrals::radiance_of<S>({lobe.x, grazing.x}, material.f0, material.f90, light.radiance);
+    }
+    case LtcMethod::clipless: return by(integrals::CliplessLtc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
+    case LtcMethod::compact: break;
+  }
+  return by(integrals::Ltc<S>(compact_lobe<S>(ggx_compact_table(), alpha, cosine, view)), material.f0, material.f90);
+}
+
+void require_service(LtcMethod method, const Material& material) {
+  if (!serves(method, material))
+    throw Error("material", "linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form or reference");
+}
+
+}  // namespace
+
+bool serves(LtcMethod, const Material& material) {
+  return material.brdf == Brdf::ggx && material.shadowing && material.alpha_x == material.alpha_y;
+}
+
+Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
+  require_service(method, material);
+  return radiance<double>(method, ggx_classic_table(), light, at, with_multiple_scattering(material, at));
+}
+
+Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
+  require_service(method, material);
+  return radiance<float>(method, ggx_classic_table(), light, at, with_multiple_scattering(material, at));
+}
+
+Vec3d ltc_radiance_by(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
+  require_service(LtcMethod::classic, material);
+  return radiance<double>(LtcMethod::classic, table, light, at, material);
+}
+
+Vec3d ltc_radiance_by_float(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
+  require_service(LtcMethod::classic, material);
+  return radiance<float>(LtcMethod::classic, table, light, at, material);
+}
+
+}  // namespace steradian

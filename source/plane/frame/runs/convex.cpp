@@ -1,0 +1,59 @@
+#include "plane/frame/runs/convex.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace steradian::plane {
+namespace {
+
+constexpr double kOnLine = 1e-9;
+
+double least_along(Vec2d normal, ConvexRegion region) {
+  double least = 1e300;
+  for (std::size_t k = 0; k < region.count; ++k) least = std::min(least, dot(normal, region.vertices[k]));
+  return least;
+}
+
+}  // namespace
+
+Gap gap_between(ConvexRegion first, ConvexRegion second, double enough) {
+  Gap widest{-1e300, {}, {}};
+  // Tests the outer side of every edge of one region, and both sides of a segment.
+  const auto look = [&](ConvexRegion own, ConvexRegion other, double sign) {
+    for (std::size_t k = 0; k < own.count; ++k) {
+      const Vec2d p = own.vertices[k], q = own.vertices[k + 1 < own.count ? k + 1 : 0];
+      const double size = length(q - p);
+      if (size == 0) continue;
+      const Vec2d out = Vec2d{q.y - p.y, p.x - q.x} / size;
+      const double width = least_along(out, other) - dot(out, p);
+      if (!(width > widest.width)) continue;
+      widest = {width, out * sign, p};
+      if (width >= enough) return true;
+    }
+    return false;
+  };
+  if (!look(first, second, 1)) look(second, first, -1);
+  return widest;
+}
+
+bool holds(ConvexRegion region, Vec2d p) {
+  for (std::size_t k = 0; k < region.count; ++k) {
+    const Vec2d a = region.vertices[k], b = region.vertices[k + 1 < region.count ? k + 1 : 0];
+    if (cross(b - a, p - a) < -kOnLine * length(b - a)) return false;
+  }
+  return region.count > 2;
+}
+
+Vec2d nearest_of(ConvexRegion region, Vec2d p) {
+  Vec2d nearest = region.vertices[0];
+  double least = 1e300;
+  for (std::size_t k = 0; k < region.count; ++k) {
+    const Vec2d a = region.vertices[k], ab = region.vertices[k + 1 < region.count ? k + 1 : 0] - a;
+    const double l = dot(ab, ab);
+    const Vec2d at = l > 0 ? a + ab * std::clamp(dot(p - a, ab) / l, 0.0, 1.0) : a;
+    if (const double d2 = dot(at - p, at - p); d2 < least) least = d2, nearest = at;
+  }
+  return nearest;
+}
+
+}  // namespace steradian::plane

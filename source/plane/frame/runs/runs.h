@@ -1,0 +1,44 @@
+// Runs: edges of light that follow each other along an outline and turn the same way, as one emitter.
+//
+// The edges of a run and the chord between its ends bound a convex region, its hull; a closed run is its own hull. From a place outside of
+// the hull, one interval of directions of the run is visible, whichever of its edges face the place:
+//   bulge    lit outside, and visible from the chord's lit side: from tangent to tangent. Nothing enters the hull except through its edges.
+//   bowl     lit inside, and visible from the chord's lit side: through the chord. A ray that enters the hull there leaves by an edge.
+//   closed   a convex outline, lit outside: from tangent to tangent.
+//   hole     an outline that is lit inside: nothing. From within its hull its edges are visible one by one.
+// A body that does not touch the hull is in front of all of the run or behind it, in the directions in which both are visible. A line
+// between the two decides which. So blockers are tested once for all of the edges. If the light is the same in all directions and at all
+// distances, only the interval counts. Otherwise every edge adds its own light over the interval that blockers leave.
+#pragma once
+
+#include <vector>
+
+#include "plane/frame/runs/convex.h"
+#include "plane/frame/scene.h"
+
+namespace steradian::plane {
+
+// The edges of a body's light in the order of its outline, with the runs that they form: a tree, with each run before its parts. Runs that
+// are not closed turn by at most a third of a turn. Every run is divided into four or so at every level.
+std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& emitters);
+
+inline ConvexRegion region_of(const Emitter& run) { return {run.hull.data(), run.hull.size()}; }
+
+// A direction along which all of a run lies ahead of all of a tile, by at least `least`; that is less than 0 if there is no such direction.
+struct RunView {
+  Vec2d axis;  // unit
+  double least;
+};
+RunView view_of(const Emitter& run, const TileArea& tile);
+
+// Visibility of a line's lit side: from all of the tile, from some of it, or from none.
+enum class Facing { none, some, all };
+Facing facing(const Emitter& edge, const TileArea& tile);
+
+// Is a run visible as one from all of the tile, from some of it, or is all of it invisible?
+Facing seen_as_one(const Emitter* run, const TileArea& tile);
+
+// Does an edge of the outline outside the run cross the run, its chord, or the region between them?
+bool crosses_run(const Emitter* run, Vec2d p, Vec2d q);
+
+}  // namespace steradian::plane

@@ -1,0 +1,121 @@
+#include "render/bounce/receivers/filter.h"
+
+#include <algorithm>
+
+#include "render/bounce/receivers/arrays_pack.h"
+
+STERADIAN_BEGIN_ISA
+namespace {
+
+using indirect::kFilterReach;
+using indirect::VectorArray;
+using K = PackKernels;
+
+// Conditions under which a tap belongs to the same surface.
+struct Likeness {
+  double least_cosine;  // cosine between the normals
+  double slope;         // distance from the plane over the tap's distance
+  double widths;        // lobes whose widths differ by more than this fraction have different glossy light
+};
+// The same: 26 degrees and a twentieth. Loose: limits for places that find so little that the pattern would be visible, at edges.
+constexpr Likeness kSame{0.9, 0.05, 0.2}, kLoose{0.3, 0.7, 0.5};
+constexpr double kEnough = 0.6;     // fraction of the weights
+constexpr double kRounding = 1e-5;  // a hundredth of a millimetre
+
+struct Sums {
+  PackVec3 diffuse{0.0, 0.0, 0.0}, shine{0.0, 0.0, 0.0};
+  PackReal diffuse_weight{0.0}, shine_weight{0.0};
+};
+
+// Taps of one pack of pixels.
+struct Taps {
+  const indirect::FilterGeometry& g;
+  const indirect::FilterWeights& weights;
+  const indirect::Light& from;
+  std::size_t i;
+  std::ptrdiff_t step;
+  int first, last;
+  PackVec3 p, n;
+  PackReal width;
+  K::mask sharp;
+  bool any_glossy;
+
+  STERADIAN_INLINE Sums gather(const Likeness& like) const {
+    const PackReal none(0.0), cosine(like.least_cosine), slope2(like.slope * like.slope), widths = width * PackReal(like.widths);
+    Sums s;
+    for (int k = first; k <= last; ++k) {
+      const float wd = weights.diffuse[k + kFilterReach];
+      const std::size_t j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k * step);
+      const PackVec3 m = load_at(g.normal, j), d = load_at(g.position, j) - p;
+      const PackReal off = dot(n, d);
+      const auto same = dot(n, m) > cosine && off * off < dot(d, d) * slope2 + PackReal(kRounding * kRounding);
+      const PackReal w = select(same, broadcast(wd), none);
+      s.diffuse = s.diffuse + load_at(from.diffuse, j) * w;
+      s.diffuse_weight += w;
+      if (!any_glossy || weights.glossy[k + kFilterReach] == 0) continue;  // the sharp lobes' reach is smaller
+      const PackReal ws = select(sharp, broadcast(weights.sharp[k + kFilterReach]), broadcast(weights.glossy[k + kFilterReach]));
+      const PackReal wg = select(same && abs(load(g.width + j) - width) < widths, ws, none);
+      s.shine = s.shine + load_at(from.glossy, j) * wg;
+      s.shine_weight += wg;
+    }
+    return s;
+  }
+};
+
+STERADIAN_INLINE PackVec3 over(const PackVec3& sum, PackReal weight) { return sum * (PackReal(1.0) / max(weight, PackReal(1e-12))); }
+// Mean of the taps found. If their weight is not enough, the others supply the rest.
+STERADIAN_INLINE PackVec3 mean(const PackVec3& sum, PackReal weight, const PackVec3& others, PackReal others_weight) {
+  const PackReal lack = max(PackReal(kEnough) - weight, PackReal(0.0));
+  return over(sum + over(others, others_weight) * lack, weight + lack);
+}
+
+__attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indirect::Raster& raster, const indirect::FilterWeights& weights,
+                                  indirect::FilterAxis axis, int begin, int end, int first, int last, const indirect::Light& from,
+                                  indirect::Light& to) {
+  const bool along_x = axis == indirect::FilterAxis::x;
+  int reach_low = -kFilterReach, reach_high = kFilterReach;  // the diffuse taps are the widest
+  while (weights.diffuse[reach_low + kFilterReach] == 0) ++reach_low;
+  while (weights.diffuse[reach_high + kFilterReach] == 0) --reach_high;
+  const PackReal none(0.0), enough(kEnough);
+  for (int y = first; y < last; ++y)
+    for (int x = begin; x < end; x += static_cast<int>(kLanes)) {
+      const std::size_t i = raster.at(x, y);
+      const PackVec3 n = load_at(g.normal, i);
+      const auto there = dot(n, n) > none;
+      if (!any_lane(there)) continue;
+      const PackReal width = load(g.width + i);
+      const auto glossy = width > none;
+      const int low = along_x ? reach_low : std::max(reach_low, -y),
+                high = along_x ? reach_high : std::min(reach_high, raster.height - 1 - y);
+      const Taps taps{g,
+                      weights,
+                      from,
+                      i,
+                      along_x ? 1 : raster.pitch(),
+                      low,
+                      high,
+                      load_at(g.position, i),
+                      n,
+                      width,
+                      glossy && width < PackReal(0.1),
+                      any_lane(glossy)};
+      const Sums same = taps.gather(kSame);
+      PackVec3 diffuse = over(same.diffuse, same.diffuse_weight), shine = over(same.shine, same.shine_weight);
+      if (any_lane(there && (same.diffuse_weight < enough || (glossy && same.shine_weight < enough)))) {
+        const Sums loose = taps.gather(kLoose);
+        diffuse = mean(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
+        shine = mean(same.shine, same.shine_weight, loose.shine, loose.shine_weight);
+      }
+      store_at(to.diffuse, i, diffuse);
+      store_at(to.glossy, i, shine);
+    }
+}
+
+}  // namespace
+
+const indirect::FilterTable& filter_table() {
+  static constexpr indirect::FilterTable table = {run};
+  return table;
+}
+
+STERADIAN_END_ISA

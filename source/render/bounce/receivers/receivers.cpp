@@ -1,0 +1,94 @@
+#include "render/bounce/receivers/receivers.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace steradian::indirect {
+namespace {
+
+// Calls use(pixel, receiver) for all pixels, in areas as wide as `stride` tiles, so that both orders stay in the cache.
+template <class Use>
+void for_each_pixel(const Layout& layout, Use use) {
+  const int side = layout.stride * kTile;
+  const Raster raster{layout.width, layout.height};
+  std::vector<std::size_t> columns;
+  for (int x = 0; x < layout.width; ++x) columns.push_back(layout.column_part(x));
+  tbb::parallel_for(0, layout.tiles(), [&](int tile) {
+    const int x0 = tile % layout.tiles_x * side, y0 = tile / layout.tiles_x * side;
+    const int x1 = std::min(x0 + side, layout.width), y1 = std::min(y0 + side, layout.height);
+    for (int y = y0; y < y1; ++y) {
+      const std::size_t row = layout.row_part(y);
+      for (int x = x0; x < x1; ++x) use(raster.at(x, y), row + columns[static_cast<std::size_t>(x)]);
+    }
+  });
+}
+
+void copy(VectorArray& to, std::size_t i, const VectorArray& from, std::size_t k) {
+  to.x[i] = from.x[k];
+  to.y[i] = from.y[k];
+  to.z[i] = from.z[k];
+}
+
+}  // namespace
+
+Receivers interleave(const FrameSurfaces& s, const Layout& layout, IndirectMode mode) {
+  Receivers r;
+  const std::size_t n = layout.size();
+  r.position.resize(n);
+  r.normal.resize(n);
+  r.view.resize(n);
+  r.alpha.resize(n);
+  r.glossy.resize(n);
+  if (mode == IndirectMode::ggx) {
+    r.f0.resize(n);
+    r.f90.resize(n);
+  }
+  for_each_pixel(layout, [&](std::size_t pixel, std::size_t receiver) {
+    copy(r.position, receiver, s.position, pixel);
+    copy(r.normal, receiver, s.normal, pixel);
+    copy(r.view, receiver, s.view, pixel);
+    r.alpha[receiver] = s.alpha[pixel];
+    r.glossy[receiver] = largest(s.f0[pixel]) + largest(s.f90[pixel]) > 0 ? 1.0f : 0.0f;
+    if (mode == IndirectMode::ggx) {
+      copy(r.f0, receiver, s.f0, pixel);
+      copy(r.f90, receiver, s.f90, pixel);
+    }
+  });
+  return r;
+}
+
+Light deinterleave(const Light& light, const Layout& layout) {
+  Light result;
+  const std::size_t n = Raster{layout.width, layout.height}.size();
+  result.diffuse.resize(n);
+  result.glossy.resize(n);
+  for_each_pixel(layout, [&](std::size_t pixel, std::size_t receiver) {
+    copy(result.diffuse, pixel, light.diffuse, receiver);
+    copy(result.glossy, pixel, light.glossy, receiver);
+  });
+  return result;
+}
+
+Box box_of(const Receivers& r, std::size_t first, std::size_t count) {
+  const Vec3f most{INFINITY, INFINITY, INFINITY};
+  Vec3f low = most, high = -most, normal_low = most, normal_high = -most;
+  const auto extend = [](Vec3f& l, Vec3f& h, Vec3f v) {
+    l = {std::min(l.x, v.x), std::min(l.y, v.y), std::min(l.z, v.z)};
+    h = {std::max(h.x, v.x), std::max(h.y, v.y), std::max(h.z, v.z)};
+  };
+  for (std::size_t i = first; i < first + count; ++i) {
+    const Vec3f n = r.normal[i];
+    if (n.x == 0 && n.y == 0 && n.z == 0) continue;
+    extend(low, high, r.position[i]);
+    extend(normal_low, normal_high, n);
+  }
+  if (!(low.x <= high.x)) return {};
+  // The bounds are slightly wider than the points, because they are computed in float.
+  const Vec3f half = (high - low) * 0.5f, center = (high + low) * 0.5f;
+  const float slack = 1e-6f * (std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z));
+  const Vec3f wide{slack, slack, slack}, turn{1e-6f, 1e-6f, 1e-6f};
+  return {center, half + wide, (normal_high + normal_low) * 0.5f, (normal_high - normal_low) * 0.5f + turn, false};
+}
+
+}  // namespace steradian::indirect

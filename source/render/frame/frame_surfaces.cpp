@@ -1,0 +1,117 @@
+#include "render/frame/frame_surfaces.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace steradian {
+namespace {
+
+constexpr float kLeastShare = 1e-3f;  // least fraction of the light from behind; less is black
+
+}  // namespace
+
+FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts)
+    : scene_(scene),
+      options_(options),
+      camera_(find_camera(scene, options.camera), options.width, options.height),
+      rays_(parts.rays),
+      environment_(prepare_environment()),
+      maps_(parts.maps),
+      shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, maps_.get(),
+               camera_.steps(options.aa)},
+      tiles_x_((options.width + kTileSide - 1) / kTileSide),
+      tiles_y_((options.height + kTileSide - 1) / kTileSide) {}
+
+std::unique_ptr<const environment::EnvironmentLight> FrameSurfaces::prepare_environment() {
+  if (!scene_.environment) return nullptr;
+  const auto start = Clock::now();
+  auto light = std::make_unique<const environment::EnvironmentLight>(scene_);
+  environment_build_ms_ = ms_since(start);
+  return light;
+}
+
+std::span<const AreaLight> FrameSurfaces::environment_spots() const {
+  return environment_ ? std::span<const AreaLight>(environment_->spots()) : std::span<const AreaLight>();
+}
+
+TileArea FrameSurfaces::area(int index) const {
+  const int x = index % tiles_x_ * kTileSide, y = index / tiles_x_ * kTileSide;
+  return {x, y, std::min(kTileSide, options_.width - x), std::min(kTileSide, options_.height - y)};
+}
+
+TilePlane FrameSurfaces::fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind) {
+  TileHits hits;
+  tile.seed = seed(index, sample);
+  rays_clock_.run([&] { trace_tile(*rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
+  gbuffer_clock_.run([&] {
+    shade_tile(scene_, shading_, hits, tile);
+    if (environment_ && options_.background) show_background(hits.direction, tile, behind);
+  });
+  TilePlane distances{};
+  std::copy(hits.distance.begin(), hits.distance.end(), distances.begin());
+  return distances;
+}
+
+void FrameSurfaces::add_background(int index, int sample, SurfaceTile& tile) const {
+  if (!environment_ || !options_.background) return;
+  const TileArea a = area(index);
+  const PixelPlace place = pixel_place(sample, options_.aa);
+  TileVector directions;
+  for (int y = 0; y < kTileSide; ++y)
+    for (int x = 0; x < kTileSide; ++x) {
+      const Vec3f to = camera_.direction(static_cast<float>(a.x + x) + place.x, static_cast<float>(a.y + y) + place.y);
+      const std::size_t i = tile_slot(x, y);
+      directions.x[i] = to.x;
+      directions.y[i] = to.y;
+      directions.z[i] = to.z;
+    }
+  show_background(directions, tile, nullptr);
+}
+
+void FrameSurfaces::show_background(const TileVector& directions, SurfaceTile& tile, const TilePlane* behind) const {
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (tile.material[i] != nullptr || (behind != nullptr && !((*behind)[i] > 0))) continue;
+    const Vec3f seen = environment_->background({directions.x[i], directions.y[i], directions.z[i]});
+    tile.radiance.x[i] = seen.x;
+    tile.radiance.y[i] = seen.y;
+    tile.radiance.z[i] = seen.z;
+  }
+}
+
+void FrameSurfaces::add_environment(SurfaceTile& tile) {
+  if (!environment_) return;
+  environment_clock_.run([&] {
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      if (tile.material[i] == nullptr) continue;
+      const Vec3f r = environment_->reflected(surface_in(tile, i), {tile.view.x[i], tile.view.y[i], tile.view.z[i]});
+      tile.radiance.x[i] += r.x;
+      tile.radiance.y[i] += r.y;
+      tile.radiance.z[i] += r.z;
+    }
+  });
+}
+
+void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind) {
+  constexpr float kPast = 1 + 2e-5f;  // some roundings of a distance and of a triangle's coordinates
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    shares.x[i] *= tile.passes.x[i];
+    shares.y[i] *= tile.passes.y[i];
+    shares.z[i] *= tile.passes.z[i];
+    const bool any = tile.material[i] != nullptr && std::max({shares.x[i], shares.y[i], shares.z[i]}) > kLeastShare;
+    behind[i] = any ? behind[i] * kPast : 0;
+    if (!any) shares.x[i] = shares.y[i] = shares.z[i] = 0;
+  }
+}
+
+void add_to_picture(const TileVector& values, TileArea a, const TileVector* shares, float weight, std::vector<Vec3f>& pixels, int width) {
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      const std::size_t i = tile_slot(x, y);
+      const Vec3f value{values.x[i], values.y[i], values.z[i]};
+      const Vec3f share = shares != nullptr ? Vec3f{shares->x[i], shares->y[i], shares->z[i]} : Vec3f{1, 1, 1};
+      pixels[static_cast<std::size_t>(a.y + y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(a.x + x)] +=
+          value * share * weight;
+    }
+}
+
+}  // namespace steradian

@@ -1,0 +1,39 @@
+// Choice of the methods for the lobes of a scene, and the lobes that a method leaves to sampling.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrals/methods.h"
+#include "render/sampled/monte_carlo.h"
+#include "steradian/render.h"
+
+namespace steradian {
+
+enum class MethodKind { analytic, sampled, reference };
+
+struct DirectMethod {
+  MethodKind kind = MethodKind::analytic;
+  std::string name;                              // as asked for, with `auto` resolved: the lobes' methods, joined by '+'
+  bool exact_diffuse = true;                     // the diffuse lobe by boundary integrals
+  LobeChoice estimated_lobes = LobeChoice::all;  // used if kind is not analytic
+  Quality quality = Quality::normal;
+
+  // Used if kind is analytic.
+  Method asked_for = Method::automatic;
+  Method ggx = Method::closed_form;  // one method for all metallic-roughness surfaces and coats: they share a walk on packs
+
+  bool estimates() const { return kind != MethodKind::analytic; }
+
+  // The method that integrates a lobe of a surface. Sheen has one method, which serves beside every method of GGX.
+  const methods::Row& row_for(const Material& lobe) const;
+};
+
+// Throws UsageError, naming lobe and material, if the method does not serve a lobe of the scene.
+DirectMethod choose_method(const Scene& scene, const RenderOptions& options);
+
+// Light that the method omits under textured lights: a sentence for each lobe and light. Lobes other than GGX and the diffuse one use the
+// light's mean.
+std::vector<std::string> lobes_under_means(const Scene& scene, const DirectMethod& method);
+
+}  // namespace steradian

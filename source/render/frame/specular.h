@@ -1,0 +1,55 @@
+// Direct specular light of a tile without sampling.
+#pragma once
+
+#include <vector>
+
+#include "render/lights/light_list.h"
+#include "render/direct/ltc_points.h"
+#include "render/frame/methods.h"
+#include "render/surface/surface.h"
+#include "render/tile/tile.h"
+#include "steradian/reference.h"
+
+namespace steradian {
+
+namespace lights {
+struct FarLights;
+}
+
+// Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong lobes under flat lights. Other lobes, and methods that
+// exist for comparison only, run point by point in float.
+class SpecularPass {
+ public:
+  // table: as RenderOptions::table.
+  SpecularPass(const DirectMethod& method, const std::string& table);
+
+  // True if add() also adds the diffuse light of a light: one walk along a polygon serves both lobes.
+  bool brings_diffuse(const SurfaceTile& tile, const PackLight& light) const;
+
+  // Adds the specular light of the lights to tile.radiance, and the diffuse light that comes with it, if wanted.
+  enum class Walk { both_lobes, specular_alone };
+  // far: flat lights become elements if their error is at most that, in methods of transformed cosines. Their errors are added to `bound`.
+  struct Far {
+    const lights::FarLights& lights;
+    float error;
+    TileVector& bound;
+  };
+  void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Walk walk = Walk::both_lobes, const Far* far = nullptr) const;
+
+ private:
+  struct Lobe;
+  void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;
+  void add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights, const Far& far) const;
+  void add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+  bool add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,
+                        const std::vector<const PackLight*>& lights) const;
+  void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
+  static Material ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i);
+  bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
+
+  const DirectMethod method_;
+  const LtcPackTables tables_;
+  const LtcPackTables compact_tables_;  // these also give the width of a lobe
+};
+
+}  // namespace steradian

@@ -1,0 +1,213 @@
+#include "render/frame/tile_lighting.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "render/direct/direct.h"
+#include "render/surface/gbuffer.h"
+#include "render/frame/uneven_diffuse.h"
+
+namespace steradian {
+namespace {
+
+Vec3f radiance_in(const SurfaceTile& tile, std::size_t i) { return {tile.radiance.x[i], tile.radiance.y[i], tile.radiance.z[i]}; }
+void add_radiance(SurfaceTile& tile, std::size_t i, Vec3f r) {
+  tile.radiance.x[i] += r.x;
+  tile.radiance.y[i] += r.y;
+  tile.radiance.z[i] += r.z;
+}
+
+}  // namespace
+
+// State of one tile's shadows, and the memory of one thread.
+struct TileLighting::Work {
+  TileShadow shadow;
+  ShadowCounts counts;
+  OpenLights::Work open;
+  PackLight pieces;                  // visible parts of a light, for some slots
+  std::vector<std::uint32_t> slots;  // slots copied to `some`, side by side
+  SurfaceTile some;
+  SurfaceTile coats;                 // coats that have a normal of their own
+  std::size_t filled = kTilePixels;  // slots of `some` that may hold a surface
+};
+
+TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
+                           const std::vector<PackLight>& lights, const SceneParts& parts, ManyLightPass* many_lights)
+    : options_(options),
+      method_(method),
+      many_lights_(many_lights),
+      direct_(direct_table_for(active_simd())),
+      specular_(method, options.table),
+      work_([] { return std::make_shared<Work>(); }) {
+  if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
+}
+
+// plain: lights whose diffuse light is still to be added.
+void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain) {
+  if (method_.exact_diffuse && tile.any_diffuse && !plain.empty())
+    direct_clock_.run([&] {
+      const std::vector<const PackLight*> even = even_ones(plain);
+      if (!even.empty()) direct_.add_diffuse(tile, even.data(), even.size());
+      if (even.size() < plain.size()) add_diffuse_from_uneven(tile, plain);
+    });
+  const SpecularPass::Far far = {many_lights_->lights(), many_lights_->error(), many_lights_->bound()};
+  specular_clock_.run([&] { specular_.add(tile, lights, SpecularPass::Walk::specular_alone, &far); });
+}
+
+void TileLighting::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+  constexpr std::size_t kFew = 8;  // lights that are summed before cells are built
+  if (many_lights_ != nullptr && lights.size() > kFew) {
+    std::vector<const PackLight*> plain;
+    if (method_.exact_diffuse && tile.any_diffuse) direct_clock_.run([&] { plain = many_lights_->add_to_tile(tile, lights); });
+    return add_many(tile, lights, plain);
+  }
+  if (method_.exact_diffuse && tile.any_diffuse)
+    direct_clock_.run([&] {
+      std::vector<const PackLight*> plain = even_ones(lights);
+      if (!method_.estimates()) std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(tile, *light); });
+      if (!plain.empty()) direct_.add_diffuse(tile, plain.data(), plain.size());
+      if (plain.size() < lights.size()) add_diffuse_from_uneven(tile, lights);
+    });
+  if (!method_.estimates()) specular_clock_.run([&] { specular_.add(tile, lights); });
+}
+
+void TileLighting::add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+  if (lights.empty()) return;
+  Work& work = *work_.local();
+  const bool coats = tile.any_coat && take_coats(tile, work.coats);
+  const auto add_all = [&](SurfaceTile& to) {
+    const std::vector<const PackLight*> plain = add_past_blockers(to, lights, work);
+    if (!plain.empty()) add(to, plain);
+  };
+  add_all(tile);
+  if (!coats) return;
+  add_all(work.coats);
+  put_back_coats(work.coats, tile);
+}
+
+std::vector<const PackLight*> TileLighting::add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker) {
+  if (lights.empty() || !shadows_) return lights;
+  Work& work = *work_.local();
+  if (tile.any_coat && take_coats(tile, work.coats)) {
+    const std::vector<const PackLight*> plain = add_past_blockers(work.coats, lights, work);
+    if (!plain.empty()) add(work.coats, plain);
+    for (std::size_t i = 0; i < kTilePixels; ++i)
+      if (work.coats.material[i] != nullptr) add_radiance(tile, i, radiance_in(work.coats, i));
+  }
+  return add_past_blockers(tile, lights, work, taker);
+}
+
+const TileShadow& TileLighting::find_at(const TilePoints& points, const PackLight& light) {
+  Work& work = *work_.local();
+  shadow_clock_.run([&] { shadows_->find_at(points, light, work.shadow, work.counts); });
+  return work.shadow;
+}
+
+// Returns the lights that nothing occludes; the caller adds them as usual. For the others, evaluates the slots that see all of the light or
+// a part of it, side by side.
+std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
+                                                              ShadowTaker* taker) {
+  TilePoints points;
+  shadow_clock_.run([&] {
+    points = points_for_shadows(tile, options_.terminator);
+    shadows_->find_open(points, lights, work.open);
+  });
+  std::vector<const PackLight*> plain;
+  for (const PackLight* light : lights) {
+    if (work.open.open[light->index] != 0) {
+      plain.push_back(light);
+      continue;
+    }
+    shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts, taker); });
+    if (work.shadow.is_plain()) {
+      plain.push_back(light);
+      continue;
+    }
+    if (taker != nullptr) {
+      shadow_clock_.run([&] { taker->take(*light, work.shadow); });
+      continue;
+    }
+    add_whole(tile, *light, work);
+    add_parts(tile, *light, work);
+  }
+  return plain;
+}
+
+// Adds the light for slots that see all of it, or a fraction of it.
+void TileLighting::add_whole(SurfaceTile& tile, const PackLight& light, Work& work) {
+  using Seen = TileShadow::Seen;
+  work.slots.clear();
+  for (std::uint32_t i = 0; i < kTilePixels; ++i)
+    if (work.shadow.seen[i] == Seen::whole || work.shadow.seen[i] == Seen::share) work.slots.push_back(i);
+  if (work.slots.empty()) return;
+  SurfaceTile& some = light_slots(tile, light, work);
+  for (std::size_t k = 0; k < work.slots.size(); ++k) {
+    const std::uint32_t i = work.slots[k];
+    add_radiance(tile, i, radiance_in(some, k) * (work.shadow.seen[i] == Seen::share ? work.shadow.share[i] : 1.0f));
+  }
+}
+
+// The radiance that a light sends to some slots only, in their order.
+SurfaceTile& TileLighting::light_slots(const SurfaceTile& tile, const PackLight& light, Work& work) {
+  work.filled = take_slots(tile, work.slots, work.filled, work.some);
+  // Pieces lie above the surface's horizon, and each coat's normal equals the surface's, except for rounding (take_coats).
+  if (light.is_pieces()) work.some.coat_normal = work.some.normal;
+  add(work.some, {&light});
+  return work.some;
+}
+
+// Adds the light for slots that see a part of it.
+void TileLighting::add_parts(SurfaceTile& tile, const PackLight& light, Work& work) {
+  for (std::size_t i = 0; i < work.shadow.batch_count; ++i) add_batch(tile, light, work.shadow.batches[i], work);
+}
+
+void TileLighting::add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, Work& work) {
+  work.slots = batch.slots;
+  const std::size_t count = batch.slots.size();
+  std::vector<Vec3f> radiance(count);
+  work.pieces.radiance = light.radiance;
+  light_pieces(tile, batch.visible, work, [&](const SurfaceTile& seen) {
+    for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance_in(seen, k) * batch.passes[k];
+  });
+  if (batch.all.point_count() > 0) {
+    // The polygon replaces the light only for the fraction that arrives, so there is no step where shadows begin. Approximate methods may
+    // find more light for a part than for the whole.
+    const auto over = [](float part, float all) { return all > 0 ? std::min(part / all, 1.0f) : 0.0f; };
+    light_pieces(tile, batch.all, work, [&](const SurfaceTile& all) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const Vec3f a = radiance_in(all, k);
+        radiance[k] = {over(radiance[k].x, a.x), over(radiance[k].y, a.y), over(radiance[k].z, a.z)};
+      }
+    });
+    const SurfaceTile& whole = light_slots(tile, light, work);
+    for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance[k] * radiance_in(whole, k);
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    if (batch.slots[k] != kNoSlot) add_radiance(tile, batch.slots[k], radiance[k]);
+}
+
+// Calls use(tile) with the radiance that some slots get from pieces, in their order.
+template <class Use>
+void TileLighting::light_pieces(const SurfaceTile& tile, packed::Pieces& pieces, Work& work, Use use) {
+  if (!work.pieces.is_pieces()) work.pieces.shape = packed::Pieces();
+  std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
+  use(light_slots(tile, work.pieces, work));
+  std::swap(std::get<packed::Pieces>(work.pieces.shape), pieces);
+}
+
+ShadowCounts TileLighting::shadow_counts() const {
+  ShadowCounts counts;
+  for (const auto& work : work_) {
+    counts.points += work->counts.points;
+    counts.parts += work->counts.parts;
+    counts.fallback += work->counts.fallback;
+  }
+  return counts;
+}
+
+double TileLighting::shadow_fallback() const {
+  const ShadowCounts counts = shadow_counts();
+  return counts.points > 0 ? static_cast<double>(counts.fallback) / static_cast<double>(counts.points) : 0;
+}
+
+}  // namespace steradian

@@ -1,0 +1,74 @@
+// TileLighting: direct light of a tile's surfaces past occluders, without sampling. All back ends share this part on the CPU.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "render/lights/light_list.h"
+#include "render/many/many_light_pass.h"
+#include "render/frame/methods.h"
+#include "render/tile/pass_clock.h"
+#include "render/surface/ray_scene.h"
+#include "render/shadow/pass.h"
+#include "render/frame/specular.h"
+#include "steradian/render.h"
+
+namespace steradian {
+
+struct DirectTable;
+
+class TileLighting {
+ public:
+  // All arguments must outlive this object. lights: from prepare_lights. many_lights: null if each light is summed by itself.
+  TileLighting(const Scene& scene, const RenderOptions& options, const DirectMethod& method, const std::vector<PackLight>& lights,
+               const SceneParts& parts, ManyLightPass* many_lights);
+
+  bool has_shadows() const { return shadows_.has_value(); }
+
+  // Adds the light of lights that nothing occludes to tile.radiance. With many lights, their bound() grows.
+  void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // The same, but many lights' diffuse light is added elsewhere, for a block of tiles.
+  void add_beside_block(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+    add_many(tile, lights, many_lights_->others(lights));
+  }
+  // Adds the light of lights that may be occluded.
+  void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // Adds the light of those lights that are occluded, and returns the others. Coats with a normal of their own are then complete: they
+  // weigh nothing in the tile. taker: if not null, it adds the light of these lights.
+  std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker = nullptr);
+  // Visibility of an area light from some points. The result is valid until the thread asks again.
+  const TileShadow& find_at(const TilePoints& points, const PackLight& light);
+
+  PassTime direct_time(int threads) const { return direct_clock_.time(threads); }
+  PassTime specular_time(int threads) const { return specular_clock_.time(threads); }
+  PassTime shadow_time(int threads) const { return shadow_clock_.time(threads); }
+  // Fraction of pairs of a surface and a light whose shadows were estimated by rays.
+  double shadow_fallback() const;
+  ShadowCounts shadow_counts() const;
+
+ private:
+  struct Work;
+  void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain);
+  std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
+                                                  ShadowTaker* taker = nullptr);
+  void add_whole(SurfaceTile& tile, const PackLight& light, Work& work);
+  void add_parts(SurfaceTile& tile, const PackLight& light, Work& work);
+  void add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, Work& work);
+  SurfaceTile& light_slots(const SurfaceTile& tile, const PackLight& light, Work& work);
+  template <class Use>
+  void light_pieces(const SurfaceTile& tile, packed::Pieces& pieces, Work& work, Use use);
+
+  const RenderOptions& options_;
+  const DirectMethod& method_;
+  ManyLightPass* const many_lights_;
+  const DirectTable& direct_;
+  const SpecularPass specular_;
+  std::optional<ShadowPass> shadows_;
+  tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
+  PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};
+};
+
+}  // namespace steradian

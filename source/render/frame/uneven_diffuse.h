@@ -1,0 +1,16 @@
+// Diffuse light of textured and profiled lights: exact irradiance times the texture or profile as the cosine lobe sees it.
+#pragma once
+
+#include <vector>
+
+#include "render/lights/light_list.h"
+
+namespace steradian {
+
+// The lights that are neither textured nor profiled. Packs serve these alone.
+std::vector<const PackLight*> even_ones(const std::vector<const PackLight*>& lights);
+
+// Adds albedo / pi times the irradiance of the textured and profiled ones among the lights to tile.radiance, point by point.
+void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+
+}  // namespace steradian

@@ -1,0 +1,119 @@
+// Cell: neighbouring receivers that are lit by far lights together, and the pack functions for it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/simd.h"
+#include "render/tile/points.h"
+#include "render/many/far_lights.h"
+
+namespace steradian::lights {
+
+inline constexpr std::size_t kMostNodes = 64;
+
+// Number of Chebyshev nodes of a polynomial along each axis of a box; their product is 16, 32 or 64.
+struct NodeGrid {
+  std::array<int, 3> count{4, 4, 1};
+  std::size_t size() const { return static_cast<std::size_t>(count[0] * count[1] * count[2]); }
+};
+
+// A box about receivers, with its own axes and the cone of the receivers' normals.
+struct Cell {
+  Vec3f center, half;         // along the axes
+  std::array<Vec3f, 3> axes;  // orthonormal
+  Vec3f normal;               // unit: the cone's axis
+  float turn = 0;             // largest |n - normal|
+  float radius = 0;           // radius of the box
+  Vec3f eye;                  // the point to which all receivers' views go
+  float eye_distance = 0;     // least, from the box; 0: an eye may be inside
+  float loss = 0;             // largest Fresnel loss of the receivers
+  NodeGrid grid;
+};
+
+// Treatment of a light for a cell.
+enum class Share : std::uint8_t {
+  nothing,         // it sends nothing to any receiver
+  one,             // one element in the polynomial
+  four,            // four elements in the polynomial
+  one_at_points,   // one element at every receiver
+  four_at_points,  // four elements at every receiver
+  exact,           // its outline
+};
+
+// For each light: its treatment, and the error of irradiance for radiance 1. `plain` is the base error, `grazing` is added for each unit
+// of Fresnel loss. Both apply to elements; outlines have no error.
+struct Judged {
+  Share* share;
+  float *plain, *grazing;
+};
+
+struct Elements {
+  std::vector<Element> ones, balls;
+  std::vector<FourElements> fours;
+  void clear() {
+    ones.clear();
+    balls.clear();
+    fours.clear();
+  }
+  bool empty() const { return ones.empty() && balls.empty() && fours.empty(); }
+};
+
+// Contents of a polynomial: irradiance vectors of three channels, component by component. From kWeighted on, the same vectors are weighted
+// by (1 - v.h)^5. The rows are values at the nodes of a cell, the first axis' nodes fastest, or factors of Chebyshev's polynomials in that
+// order.
+inline constexpr std::size_t kParts = 9, kWeighted = 16, kRow = 32;
+struct Polynomial {
+  alignas(64) std::array<std::array<float, kRow>, kMostNodes> rows;
+};
+
+// The receivers of a cell side by side, padded to a multiple of 16 by copies of the last one.
+struct Receivers {
+  std::size_t count = 0, filled = 0;
+  TileVector position, normal, view;
+  alignas(64) TilePlane loss;
+  TileVector irradiance;  // the result
+  Points points() const {
+    Points p;
+    p.count = filled;
+    p.position = arrays_of(position);
+    p.normal = arrays_of(normal);
+    p.view = arrays_of(view);
+    p.fresnel_loss = loss.data();
+    return p;
+  }
+};
+
+struct CellTable {
+  // Judges `count` lights with those numbers (null: all of `lights`, in order). The allowed error is `error` times the most that a light
+  // can send. The result has capacity for a multiple of 16 entries.
+  void (*judge)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Cell& cell, float error, Judged result);
+  // Fits a polynomial, as factors, to the light that elements send to a cell's nodes, plus an outer polynomial. The outer one belongs to a
+  // cell with the same axes and grid that contains this one (null: none). Losses add the weighted vectors.
+  void (*fit)(const Elements& elements, const Cell& cell, const Polynomial* outer, const Cell* outer_cell, Polynomial& result);
+  // Adds a polynomial to the irradiance of a cell's receivers.
+  void (*add_polynomial)(const Polynomial& polynomial, const Cell& cell, Receivers& receivers);
+  // Adds the light of elements at every receiver.
+  void (*add_elements)(const Elements& elements, Receivers& receivers);
+};
+
+// One axis with n nodes, n being 1, 2, 4 or 8: the nodes on [-1, 1], and the matrix from values there to factors. Factor i is the sum of
+// to_factors[i][j] times value j.
+struct NodeRow {
+  std::array<float, 8> node{};
+  std::array<std::array<float, 8>, 8> to_factors{};
+};
+const NodeRow& node_row(int nodes);
+
+// Upper bound of the largest sum of absolute values of Lagrange's polynomials through n Chebyshev nodes: Rivlin's bound.
+double lebesgue(int nodes);
+
+}  // namespace steradian::lights
+
+namespace steradian {
+
+STERADIAN_DECLARE_PACK_TABLE(lights::CellTable, cell_table)
+
+}  // namespace steradian

@@ -1,0 +1,44 @@
+// Far lights in glossy lobes: elements replace outlines, with an error bound.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/simd.h"
+#include "render/direct/ltc_points.h"
+#include "render/tile/points.h"
+#include "render/many/far_lights.h"
+
+namespace steradian::lights {
+
+// Sums over lights of their radiance times the lobe's response to radiance 1 (as for LtcSums), and bounds of the sums' errors.
+struct LobeSums {
+  TileVector specular, grazing, specular_error, grazing_error;
+};
+
+struct LobeElementTable {
+  // Linearly transformed cosines. Adds flat lights, by number, at points. The number of points is a multiple of 16, at most that of a
+  // tile. A light that needs its outline at some points of a block of 16 is skipped for the whole block. Then bit b of its `left` is set
+  // for block b.
+  //
+  // error: allowed for each light, as a fraction of the light that a white diffuse surface before it would send.
+  void (*classic)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Points& points,
+                  const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left);
+  void (*compact)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Points& points,
+                  const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left);
+};
+
+struct GgxElementTable {
+  // The same for GGX itself; anisotropic points fall back to outlines.
+  void (*ggx)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Points& points, float error, LobeSums& sums,
+              std::uint64_t* left);
+};
+
+}  // namespace steradian::lights
+
+namespace steradian {
+
+STERADIAN_DECLARE_PACK_TABLE(lights::LobeElementTable, lobe_element_table)
+STERADIAN_DECLARE_PACK_TABLE(lights::GgxElementTable, ggx_element_table)
+
+}  // namespace steradian

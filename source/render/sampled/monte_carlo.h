@@ -1,0 +1,59 @@
+// Direct light of one surface point by Monte Carlo, the ground truth of pictures. It samples every light by solid angle and every lobe by
+// density, with the balance heuristic and optional shadow rays.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/random.h"
+#include "render/surface/ray_scene.h"
+#include "render/surface/surface.h"
+#include "render/environment/environment_sampler.h"
+#include "steradian/render.h"
+
+namespace steradian {
+
+// Mean and variance of a sum of independent estimates, per channel.
+struct Estimate {
+  Vec3d mean{};
+  Vec3d variance{};  // variance of the mean
+
+  Estimate& operator+=(const Estimate& other) {
+    mean += other.mean;
+    variance += other.variance;
+    return *this;
+  }
+};
+
+// Lobes to estimate; the others are computed elsewhere.
+enum class LobeChoice { all, specular };
+
+class DirectSampler {
+ public:
+  // shadows may be null (nothing occludes), and so may the environment. Keeps references to the scene, the rays and the environment.
+  DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around = nullptr,
+                Terminator terminator = Terminator::strict);
+  ~DirectSampler();
+  DirectSampler(const DirectSampler&) = delete;
+
+  // Light that the surface sends towards the viewer, without its emission. spp: sample pairs per light. Each thread needs its own object,
+  // which keeps scratch memory.
+  Estimate estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp, reference::Random& random);
+
+ private:
+  struct Light;
+  struct Scratch;
+  // Estimates the environment's light by scratch_->lobes, which share the frame's normal.
+  Estimate estimate_environment(const Frame& frame, Vec3d position, Vec3d geometric, int spp, reference::Random& random) const;
+  // True if a direction lies above the triangle's horizon, or if that horizon occludes nothing (smooth terminator).
+  bool above(Vec3d geometric, Vec3d direction) const { return terminator_ == Terminator::smooth || dot(direction, geometric) > 0; }
+  Estimate estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random);
+  const Scene& scene_;
+  const RayScene* shadows_;
+  const environment::EnvironmentSampler* around_;
+  const Terminator terminator_;
+  std::vector<Light> lights_;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace steradian

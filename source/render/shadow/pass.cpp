@@ -1,0 +1,211 @@
+#include "render/shadow/pass.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "render/shadow/work.h"
+#include "shadow/region/round_light.h"
+#include "shadow/rays/round_shaft.h"
+
+namespace steradian {
+namespace {
+
+constexpr std::size_t kMostEdges = 32768;  // a group that gathers more takes rays, unless exact is asked for
+
+bool is_disk(const PackLight& light) { return std::holds_alternative<packed::Disk>(light.shape); }
+
+}  // namespace
+
+using shadow::LightFrame;
+using shadow::Shaft;
+using shadow::Viewpoint;
+using Seen = TileShadow::Seen;
+
+ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights, const SceneParts& parts, Shadows mode)
+    : packs_(shadow_table_for(active_simd())),
+      lanes_(lane_table_for(active_simd())),
+      edges_(parts.shadows),
+      rays_(*parts.rays),
+      mode_(mode),
+      lights_(lights),
+      mesh_(edges_->mesh),
+      tree_(edges_->edges),
+      ellipse_(std::make_shared<const std::vector<shadow::Segment>>(shadow::outline_of_ellipse(kRoundCorners))),
+      open_(lights, edges_->triangles, cut_outs_) {
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.is_light_shape || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != AlphaMode::mask) continue;
+    shadow::Box box;
+    for (const Vec3f p : mesh.positions) box.add(static_cast<Vec3d>(p));
+    cut_outs_.push_back(box);
+  }
+  for (const PackLight& light : lights) {
+    Flat flat;
+    if (light.is_polygon()) flat.polygon = light.polygon;
+    if (is_disk(light)) {
+      flat.polygon = prepare_polygon(flat_polygon(*light.area, kRoundCorners));
+    }
+    if (!flat.polygon.vertices.empty())
+      for (int s = 0; s < (flat.polygon.two_sided ? 2 : 1); ++s) {
+        flat.sides[s] = side_of(flat.polygon, s == 0 ? 1 : -1);
+        flat.sides[s]->crossing = shadow::crossing_triangles(mesh_, flat.sides[s]->frame);
+      }
+    if (light.is_round() && !is_disk(light)) flat.near = shadow::triangles_near(mesh_, *light.area);
+    flats_.push_back(std::move(flat));
+  }
+}
+
+ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const {
+  thread_local Work work;
+  work.turned = work.whole_outline = work.cut_outs = false;
+  work.in_lanes = true;
+  work.points = &points.points;
+  work.result = &result;
+  work.counts = &counts;
+  work.taker = taker;
+  result.clear();
+  return work;
+}
+
+void ShadowPass::find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts,
+                      ShadowTaker* taker) const {
+  Work& work = begin(points, result, counts, taker);
+  if (!light.is_area())
+    find_punctual(tile, light, work);
+  else
+    find_area(points.groups, light, work);
+  result.batch_parts();
+}
+
+void ShadowPass::find_at(const TilePoints& points, const PackLight& light, TileShadow& result, ShadowCounts& counts) const {
+  find_area(points.groups, light, begin(points, result, counts, nullptr));
+  result.batch_parts();
+}
+
+void ShadowPass::find_area(const PointGroups& groups, const PackLight& light, Work& work) const {
+  const Flat& flat = flats_[light.index];
+  if (!flat.polygon.vertices.empty())
+    find_flat(groups, light, flat, work);
+  else
+    find_round(groups, light, flat, work);
+}
+
+void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const {
+  const packed::Punctual& source = *std::get_if<packed::Punctual>(&light.shape);
+  const bool directional = source.kind == PunctualKind::directional;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i) {
+    if (tile.material[i] == nullptr) continue;
+    const Viewpoint& at = work.at(i);
+    const Vec3d to = directional ? -source.direction : source.position - at.position;
+    if (!(dot(to, at.normal) > 0)) continue;
+    work.result->seen[i] = Seen::none;
+    if (at.geometric_normal && !(dot(to, *at.geometric_normal) > 0)) continue;
+    ++work.counts->points;
+    const bool blocked = directional ? rays_.blocked_towards(at.position, to) : rays_.between(at.position, at.position + to, Casters::all);
+    if (!blocked) work.result->seen[i] = Seen::whole;
+  }
+}
+
+void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
+  work.whole_outline = is_disk(light) || !light.is_even();
+  std::vector<std::vector<std::uint32_t>> with_light;
+  for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
+    for (const std::optional<LightSide>& side : flat.sides) {
+      if (!side) continue;
+      // The slots of each group that may see this side of the light.
+      with_light.clear();
+      work.take({});
+      for (const std::uint32_t g : cluster) {
+        work.slots.clear();
+        for (const std::uint32_t i : groups.groups[g]) {
+          const Viewpoint& at = work.at(i);
+          if (flat.polygon.side_of(at.position) != side->side) continue;
+          if (above_horizon(side->frame, at.position, at.normal) == Above::none) continue;
+          work.result->seen[i] = Seen::none;
+          if (at.geometric_normal && above_horizon(side->frame, at.position, *at.geometric_normal) == Above::none) continue;
+          work.slots.push_back(i);
+        }
+        work.add(work.slots);
+        if (!work.slots.empty()) with_light.push_back(work.slots);
+      }
+      if (with_light.empty()) continue;
+      const Shaft shaft(side->frame, work.positions, work.up);
+      tree_.gather(packs_, shaft, work.edges);
+      work.crossing.clear();
+      for (const std::uint32_t t : side->crossing)
+        if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+      work.tile.assign(mesh_, side->frame, work.edges, work.crossing);
+      for (const auto& slots : with_light) {
+        work.take(slots);
+        const Shaft of_group(side->frame, work.positions, work.up);
+        work.cut_outs = meets_cut_outs(of_group);
+        work.group.assign_needed(packs_, mesh_, work.tile, side->frame, of_group);
+        find_group(
+            slots, [&](std::uint32_t) { return &*side; }, work);
+      }
+    }
+  }
+}
+
+void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const {
+  const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
+  const bool empty = work.group.empty();
+  const bool even = !by_rays && !empty && !work.cut_outs;
+  if (even && work.taker != nullptr &&
+      work.taker->find({work.group, work.turned ? &work.base : nullptr, work.whole_outline, slots, *work.points, side_at})) {
+    for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
+    return;
+  }
+  if (even && work.in_lanes && work.group.crossing().empty()) {
+    const LightSide* sides[shadow::kPoints];
+    std::uint32_t of[shadow::kPoints];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i <= slots.size(); ++i) {
+      if (count == shadow::kPoints || (i == slots.size() && count > 0)) {
+        find_lanes(sides, of, count, work);
+        count = 0;
+      }
+      if (i == slots.size()) break;
+      sides[count] = side_at(slots[i]);
+      of[count] = slots[i];
+      if (sides[count] != nullptr) ++count;
+    }
+    return;
+  }
+  std::optional<bool> free;
+  for (const std::uint32_t i : slots) {
+    const LightSide* side = side_at(i);
+    if (side == nullptr) continue;
+    const Viewpoint& at = work.at(i);
+    if (by_rays) {
+      ++work.counts->points;
+      take_rays(*side, i, work);
+      continue;
+    }
+    if (!empty) {
+      find_point(*side, i, work);
+      continue;
+    }
+    // Without occluders, the result of one point's ray holds for all points.
+    if (!free) {
+      work.scratch.set.clear();
+      shadow::add_surroundings(side->frame, at, *side->outline, work.scratch.set);
+      find_visible_on_packs(packs_, side->frame, at.position, RayBlockers(rays_), work.scratch, work.region);
+      if (work.region.rays > 0) free = !work.region.boundary.empty();
+    }
+    if (!free) continue;  // the light is below this point's horizons
+    if (*free && is_cut(side->frame, at)) {
+      find_point(*side, i, work);
+      continue;
+    }
+    ++work.counts->points;
+    if (!*free) continue;
+    work.result->seen[i] = Seen::whole;
+    if (work.cut_outs) pass_cut_outs(*side, i, work);
+  }
+}
+
+bool ShadowPass::meets_cut_outs(const Shaft& shaft) const {
+  return std::any_of(cut_outs_.begin(), cut_outs_.end(), [&](const shadow::Box& b) { return shaft.may_meet_box(b.low, b.high); });
+}
+
+}  // namespace steradian

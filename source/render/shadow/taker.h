@@ -1,0 +1,34 @@
+// ShadowTaker: another back end that lights surfaces behind occluders in place of the host.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "render/shadow/side.h"
+#include "render/shadow/tile.h"
+#include "shadow/edges/edge_arrays.h"
+
+namespace steradian {
+
+class ShadowTaker {
+ public:
+  virtual ~ShadowTaker() = default;
+  // The side of a light that a slot sees, or null. It may be one side for all slots that stays valid, or be valid for sixteen calls.
+  using SideAt = std::function<const LightSide*(std::uint32_t slot)>;
+  // Points under an area light, and the occluders between them and the light.
+  struct Group {
+    const shadow::EdgeArrays& edges;
+    const shadow::LightFrame* base;  // frame of the edges' coordinates, if each point sees a side of its own; else null
+    bool shares;                     // true: a part counts as a fraction of the light of its whole outline
+    const std::vector<std::uint32_t>& slots;
+    const std::vector<shadow::Viewpoint>& points;  // by slot
+    const SideAt& side_at;
+  };
+  // Returns true if it computes the visibility of these points. They are Seen::elsewhere then.
+  virtual bool find(const Group& group) = 0;
+  // Takes the light's visibility over the tile. Called after find() for the tile's groups.
+  virtual void take(const PackLight& light, const TileShadow& shadow) = 0;
+};
+
+}  // namespace steradian

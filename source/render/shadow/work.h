@@ -1,0 +1,56 @@
+// State of the shadow pass for one tile, and the memory of one thread.
+#pragma once
+
+#include "render/shadow/pass.h"
+#include "shadow/lanes/point_lanes.h"
+#include "shadow/region/visible.h"
+
+namespace steradian {
+
+// Closer than ten half diagonals, no integral uses a light's elements (least_distance2 of shapes/small_light.h).
+inline constexpr double kNeverSmall = 100;
+
+// Occluders of lights, found by rays.
+class RayBlockers : public shadow::Blockers {
+ public:
+  explicit RayBlockers(const RayScene& rays) : rays_(rays) {}
+  bool between(Vec3d from, Vec3d to) const override { return rays_.between(from, to); }
+
+ private:
+  const RayScene& rays_;
+};
+
+struct ShadowPass::Work {
+  const std::vector<shadow::Viewpoint>* points = nullptr;
+  TileShadow* result = nullptr;
+  ShadowCounts* counts = nullptr;
+  ShadowTaker* taker = nullptr;
+  shadow::EdgeArrays tile, group;
+  shadow::Scratch scratch;
+  shadow::VisibleRegion region;
+  shadow::PointLanes lanes;
+  std::vector<Vec3d> positions;
+  Vec3d up;  // sum of their surfaces' normals
+  std::vector<std::uint32_t> slots, edges, crossing;
+  shadow::LightFrame base;     // for round lights: the frame of the arrays' coordinates
+  bool turned = false;         // the arrays are in that frame
+  bool in_lanes = false;       // the points' sides of the light have the same outline
+  bool whole_outline = false;  // parts come with their light's polygon
+  bool cut_outs = false;       // the group's shaft meets cut-outs
+
+  const shadow::Viewpoint& at(std::uint32_t slot) const { return (*points)[slot]; }
+  // Replaces `positions` and `up` by those of some slots; add() appends them.
+  void take(const std::vector<std::uint32_t>& of) {
+    positions.clear();
+    up = {};
+    add(of);
+  }
+  void add(const std::vector<std::uint32_t>& of) {
+    for (const std::uint32_t i : of) {
+      positions.push_back(at(i).position);
+      up += at(i).geometric_normal.value_or(at(i).normal);
+    }
+  }
+};
+
+}  // namespace steradian

@@ -1,0 +1,138 @@
+#include "scene/emitters/closed_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace steradian::scene {
+namespace {
+
+using Key = std::array<std::int64_t, 3>;
+
+struct KeyHash {
+  std::size_t operator()(const Key& k) const {
+    std::uint64_t h = 0;
+    for (const std::int64_t x : k) h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u + (h >> 29);
+    return static_cast<std::size_t>(h ^ (h >> 32));
+  }
+};
+
+// A grid whose cells are a millionth (2^-20) of the extent. Corners that are equal up to rounding share a cell, unless they lie on the
+// border of two. Then their mesh counts as open.
+struct Grid {
+  Vec3d low;
+  double cell = 1;
+
+  explicit Grid(const std::vector<Triangle>& triangles) {
+    Vec3d high;
+    if (!triangles.empty()) low = high = triangles[0][0];
+    for (const Triangle& t : triangles)
+      for (const Vec3d& v : t) {
+        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+      }
+    const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (extent > 0) cell = extent / 1048576;
+  }
+  Key key_of(Vec3d p) const {
+    const Vec3d v = (p - low) / cell;
+    return {std::llround(v.x), std::llround(v.y), std::llround(v.z)};
+  }
+};
+
+using Corners = std::array<std::uint32_t, 3>;
+
+// Numbers every distinct position.
+std::vector<Corners> number_corners(const std::vector<Triangle>& triangles, std::size_t& count) {
+  std::unordered_map<Key, std::uint32_t, KeyHash> numbers;
+  const Grid grid(triangles);
+  std::vector<Corners> result;
+  result.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    Corners corners{};
+    for (std::size_t c = 0; c < 3; ++c)
+      corners[c] = numbers.try_emplace(grid.key_of(t[c]), static_cast<std::uint32_t>(numbers.size())).first->second;
+    result.push_back(corners);
+  }
+  count = numbers.size();
+  return result;
+}
+
+bool degenerate(const Corners& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
+
+// Sets of connected corners: a union-find forest whose paths are shortened.
+class Connected {
+ public:
+  explicit Connected(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+std::uint64_t directed_edge(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
+
+bool is_closed(const MeshPart& part, const std::vector<Corners>& corners) {
+  std::vector<std::uint64_t> edges, turned;
+  for (const std::size_t t : part.triangles)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t a = corners[t][c], b = corners[t][(c + 1) % 3];
+      edges.push_back(directed_edge(a, b));
+      turned.push_back(directed_edge(b, a));
+    }
+  std::sort(edges.begin(), edges.end());
+  std::sort(turned.begin(), turned.end());
+  return edges == turned && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+void measure(MeshPart& part, const std::vector<Triangle>& triangles) {
+  const double inf = std::numeric_limits<double>::infinity();
+  part.low = {inf, inf, inf};
+  part.high = {-inf, -inf, -inf};
+  const Vec3d origin = triangles[part.triangles.front()][0];  // avoids cancellation for a part far from the world's origin
+  for (const std::size_t t : part.triangles) {
+    const Triangle& p = triangles[t];
+    part.volume += dot(p[0] - origin, cross(p[1] - origin, p[2] - origin)) / 6;
+    for (const Vec3d& v : p) {
+      part.low = {std::min(part.low.x, v.x), std::min(part.low.y, v.y), std::min(part.low.z, v.z)};
+      part.high = {std::max(part.high.x, v.x), std::max(part.high.y, v.y), std::max(part.high.z, v.z)};
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MeshPart> mesh_parts(const std::vector<Triangle>& triangles) {
+  std::size_t corner_count = 0;
+  const std::vector<Corners> corners = number_corners(triangles, corner_count);
+  Connected connected(corner_count);
+  for (const Corners& c : corners) {
+    if (degenerate(c)) continue;
+    connected.join(c[0], c[1]);
+    connected.join(c[1], c[2]);
+  }
+  std::vector<MeshPart> parts;
+  std::unordered_map<std::uint32_t, std::size_t> part_of_root;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (degenerate(corners[t])) continue;
+    const auto [found, is_new] = part_of_root.try_emplace(connected.root(corners[t][0]), parts.size());
+    if (is_new) parts.emplace_back();
+    parts[found->second].triangles.push_back(t);
+  }
+  for (MeshPart& part : parts) {
+    part.closed = is_closed(part, corners);
+    measure(part, triangles);
+  }
+  return parts;
+}
+
+}  // namespace steradian::scene

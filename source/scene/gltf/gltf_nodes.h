@@ -1,0 +1,40 @@
+// The node tree of a glTF file: checked, flattened, with transforms multiplied out.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "scene/affine.h"
+#include "scene/gltf/gltf_document.h"
+#include "steradian/scene.h"
+
+namespace steradian::scene {
+
+struct GltfNode {
+  int index = 0;
+  Affine world;
+};
+
+struct GltfNodes {
+  std::vector<Affine> world;      // for every node of the file, in the scene or not
+  std::vector<GltfNode> visible;  // nodes of the scene, parents before children, without those of scale zero
+  std::size_t zero_scaled = 0;    // nodes skipped because one of their scales is zero
+};
+
+// Ray casting and the arithmetic of lights use single precision and square their operands twice. Beyond this distance from the origin
+// nothing can be rendered.
+inline constexpr double kFarthest = 1e15;
+
+inline bool within_reach(Vec3d p) { return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest; }
+
+// Throws Error with the node's name for a point that is out of this range. what: "vertex 3".
+void check_reach(const JsonCursor& node, Vec3d point, const std::string& what);
+
+// The camera of a node. Scales and shears of the node do not turn the view about its axis; the camera's axes are orthonormal.
+Camera camera_at(const Affine& world, double yfov, std::string name);
+
+// Throws Error for cycles, nodes with two parents, children that do not exist, broken transforms.
+GltfNodes read_nodes(const GltfDocument& document);
+
+}  // namespace steradian::scene

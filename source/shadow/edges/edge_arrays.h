@@ -1,0 +1,98 @@
+// EdgeArrays: the edges that a tile or a group of points needs, in the layout of packs, and the segments that a point sees. Positions are
+// in float. From cells on, the whole numbers are the same as in segments.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "shadow/edges/gather.h"
+#include "shadow/lanes/lanes.h"
+#include "shadow/lanes/packs.h"
+#include "shadow/edges/segments.h"
+
+namespace steradian::shadow {
+
+class EdgeArrays {
+ public:
+  // Takes edges and crossing triangles with these numbers, ascending, in the coordinates of a frame.
+  void assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
+              const std::vector<std::uint32_t>& crossing_triangles);
+  // Takes the edges of a tile that a shaft needs. The shaft is in the world of the tile's frame.
+  void assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, const EdgeArrays& tile, const LightFrame& frame, const Shaft& shaft);
+
+  bool empty() const { return edge_.empty() && crossing_.empty(); }
+  std::size_t edge_count() const { return edge_.size(); }
+  std::size_t vertex_count() const { return vertex_count_; }
+  std::size_t plane_count() const { return plane_count_; }
+  // Triangles that cross the light's plane. plane and corners: places in these arrays; edges: mesh numbers of the edges that begin at the
+  // corners.
+  struct Triangle {
+    std::uint32_t number, plane, corners[3], edges[3];
+  };
+  const std::vector<Triangle>& crossing() const { return crossing_; }
+
+  // For lanes: the edges, and the cell of an edge's end as its point sees it.
+  LaneEdges lane_edges() const;
+  std::uint32_t edge_number(std::size_t row) const { return edge_[row]; }
+  std::uint32_t vertex_number(std::size_t place) const { return vertex_[place]; }
+  Cell end_of(std::size_t row, int end, std::int32_t x, std::int32_t y) const {
+    return vertex_cell(static_cast<std::size_t>(end == 0 ? v0_[row] : v1_[row]), x, y);
+  }
+
+  // All segments that the point sees, in the frame of assign (`base`) or in another one. The result is empty if no occluder is among them;
+  // see add_surroundings.
+  //
+  //   outline  of the frame (outline_segments)
+  void see(const ShadowTable& packs, const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline,
+           SegmentSet& result);
+  void see_turned(const ShadowTable& packs, const LightFrame& base, const LightFrame& frame, const Viewpoint& from,
+                  const std::vector<Segment>& outline, SegmentSet& result);
+
+ private:
+  struct Vectors {
+    std::vector<float> x, y, z;
+    void resize(std::size_t n);
+    void push_back(const Vec3f& v);
+    std::size_t size() const { return x.size(); }
+    void pad();
+    VectorView view() const { return {x.data(), y.data(), z.data()}; }
+    VectorSpan span() { return {x.data(), y.data(), z.data()}; }
+    Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  };
+  Cell vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return cell_of(vertex_[v], x, y); }
+  void clear();
+  void pad();
+  EdgeView view() const;
+  void collect(const ShadowTable& packs, const LightFrame& frame, const Vectors& vertices, const Vec3d& plane_point, const Viewpoint& from,
+               const std::vector<Segment>& outline, SegmentSet& result);
+
+  std::size_t vertex_count_ = 0, plane_count_ = 0;
+  Vectors vertices_;
+  std::vector<std::uint32_t> vertex_;  // numbers in the mesh
+  Vectors normals_;
+  std::vector<float> offsets_;
+  std::vector<std::uint32_t> plane_;  // triangles in the mesh
+  std::vector<std::uint32_t> edge_;   // numbers in the mesh
+  std::vector<std::int32_t> v0_, v1_, plane0_, plane1_;
+  std::vector<float> walks0_, walks1_;
+  std::vector<std::uint8_t> has_more_;  // true: more than two triangles, all of them in `more_`
+  std::vector<LaneEdges::More> more_;
+  std::vector<LaneEdges::Incidence> incidences_;
+  std::vector<Triangle> crossing_;
+
+  // Buffers for one point.
+  Vectors turned_, homogeneous_;
+  std::vector<float> cell_x_, cell_y_, outside_, facing_;
+  std::vector<std::uint32_t> found_;
+  std::vector<std::int32_t> weights_;
+};
+
+// Adds the other bounds of the light: its outline and the point's horizons. They follow the occluders. `see` leaves them out if there are
+// no occluders.
+void add_surroundings(const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline, SegmentSet& result);
+
+// The outline of a light as segments.
+std::vector<Segment> outline_segments(const LightFrame& frame);
+
+}  // namespace steradian::shadow

@@ -1,0 +1,145 @@
+#include "shadow/edges/edges.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+namespace steradian::shadow {
+namespace {
+
+// Key that orders positions by their bits; -0 and 0 are equal.
+struct Key {
+  std::uint64_t x, y, z;
+  auto operator<=>(const Key&) const = default;
+};
+Key key_of(Vec3d p) {
+  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)};
+}
+
+// For every vertex i, the number of the first vertex at the same position.
+std::vector<std::uint32_t> welded(const std::vector<Vec3d>& positions) {
+  std::vector<std::pair<Key, std::uint32_t>> order(positions.size());
+  for (std::uint32_t i = 0; i < positions.size(); ++i) order[i] = {key_of(positions[i]), i};
+  std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> result(positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool repeats = i > 0 && order[i].first == order[i - 1].first;
+    result[order[i].second] = repeats ? result[order[i - 1].second] : order[i].second;
+  }
+  return result;
+}
+
+// Starts at the smallest corner, so that coincident triangles have the same plane bit for bit, whichever corner they list first.
+Plane plane_of(const std::vector<Vec3d>& vertices, std::array<std::uint32_t, 3> t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  const Vec3d a = vertices[t[0]];
+  const Vec3d normal = cross(vertices[t[1]] - a, vertices[t[2]] - a);
+  return {normal, dot(normal, a)};
+}
+
+// Recursive halving of a range of edges by their midpoints.
+struct Middle {
+  double at[3];
+  std::uint32_t edge;
+};
+void split(Middle* all, std::uint32_t begin, std::uint32_t end) {
+  if (end - begin <= kLeafEdges) {
+    std::sort(all + begin, all + end, [](const Middle& a, const Middle& b) { return a.edge < b.edge; });
+    return;
+  }
+  double size[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto [low, high] =
+        std::minmax_element(all + begin, all + end, [c](const Middle& a, const Middle& b) { return a.at[c] < b.at[c]; });
+    size[c] = high->at[c] - low->at[c];
+  }
+  const std::size_t axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+  const std::uint32_t half = middle_of(begin, end);
+  std::nth_element(all + begin, all + half, all + end, [axis](const Middle& a, const Middle& b) {
+    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.edge < b.edge;
+  });
+  split(all, begin, half);
+  split(all, half, end);
+}
+
+// Reorders sorted edges by leaves. The numbers of edges settle ties, so that the order is unique.
+void sort_into_leaves(EdgeMesh& mesh) {
+  std::vector<Middle> order(mesh.edges.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    const Vec3d twice = mesh.vertices[mesh.edges[i].v0] + mesh.vertices[mesh.edges[i].v1];
+    order[i] = {{twice.x, twice.y, twice.z}, i};
+  }
+  if (!order.empty()) split(order.data(), 0, static_cast<std::uint32_t>(order.size()));
+  std::vector<Edge> edges;
+  std::vector<EdgeTriangle> triangles;
+  edges.reserve(mesh.edges.size());
+  triangles.reserve(mesh.edge_triangles.size());
+  std::vector<std::uint32_t> place(order.size());
+  for (const Middle& m : order) {
+    Edge e = mesh.edges[m.edge];
+    const auto begin = mesh.edge_triangles.begin() + e.first;
+    place[m.edge] = static_cast<std::uint32_t>(edges.size());
+    e.first = static_cast<std::uint32_t>(triangles.size());
+    triangles.insert(triangles.end(), begin, begin + e.count);
+    edges.push_back(e);
+  }
+  mesh.edges = std::move(edges);
+  mesh.edge_triangles = std::move(triangles);
+  for (auto& sides : mesh.triangle_edges)
+    for (std::uint32_t& e : sides) e = place[e];
+}
+
+struct TriangleSide {
+  std::uint32_t v0, v1, triangle, corner;
+  std::int32_t walks;
+};
+
+}  // namespace
+
+EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices) {
+  EdgeMesh mesh;
+  mesh.vertices = positions;
+  const std::vector<std::uint32_t> weld = welded(positions);
+  std::vector<TriangleSide> sides;
+  sides.reserve(indices.size());
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const std::array<std::uint32_t, 3> t = {weld[indices[i]], weld[indices[i + 1]], weld[indices[i + 2]]};
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    if (!is_finite(positions[t[0]]) || !is_finite(positions[t[1]]) || !is_finite(positions[t[2]])) continue;
+    const auto number = static_cast<std::uint32_t>(mesh.triangles.size());
+    mesh.triangles.push_back(t);
+    mesh.planes.push_back(plane_of(positions, t));
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const std::uint32_t from = t[c], to = t[(c + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), number, c, from < to ? 1 : -1});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
+    return std::tie(a.v0, a.v1, a.triangle, a.corner) < std::tie(b.v0, b.v1, b.triangle, b.corner);
+  });
+  mesh.triangle_edges.resize(mesh.triangles.size());
+  for (const TriangleSide& s : sides) {
+    if (mesh.edges.empty() || mesh.edges.back().v0 != s.v0 || mesh.edges.back().v1 != s.v1)
+      mesh.edges.push_back({s.v0, s.v1, static_cast<std::uint32_t>(mesh.edge_triangles.size()), 0});
+    ++mesh.edges.back().count;
+    mesh.edge_triangles.push_back({s.triangle, s.walks});
+    mesh.triangle_edges[s.triangle][s.corner] = static_cast<std::uint32_t>(mesh.edges.size() - 1);
+  }
+  sort_into_leaves(mesh);
+  return mesh;
+}
+
+EdgeMesh build_edges(const Scene& scene) {
+  std::vector<Vec3d> positions;
+  std::vector<std::uint32_t> indices;
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.is_light_shape || !mesh.casts_shadow || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask)
+      continue;
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (const Vec3f p : mesh.positions) positions.push_back(static_cast<Vec3d>(p));
+    for (const std::uint32_t i : mesh.indices) indices.push_back(first + i);
+  }
+  return build_edges(positions, indices);
+}
+
+}  // namespace steradian::shadow

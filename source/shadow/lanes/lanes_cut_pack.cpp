@@ -1,0 +1,108 @@
+// The lowest level and its boundary, for sixteen points at once.
+#include <climits>
+
+#include "shadow/lanes/lanes_pack.h"
+#include "shadow/edges/segments.h"
+
+STERADIAN_BEGIN_ISA
+namespace {
+
+using namespace shadow;
+
+// The lower count of a segment's two sides.
+STERADIAN_INLINE PackInt lower(const PackInt& left, const PackInt& weight) { return lower_of(left, left - weight); }
+
+// Lanes where a segment is one piece.
+STERADIAN_INLINE std::uint32_t whole_in(const SegmentLanes& s) {
+  const std::uint32_t length =
+      lane_bits([&](std::size_t i) { return abs(get(s.bx, i) - get(s.ax, i)) + abs(get(s.by, i) - get(s.ay, i)) > PackReal(0.0); });
+  return static_cast<std::uint32_t>(s.present) & ~static_cast<std::uint32_t>(s.crossed) & length;
+}
+STERADIAN_INLINE std::uint32_t cut_in(const SegmentLanes& s) {
+  return static_cast<std::uint32_t>(s.crossed) & static_cast<std::uint32_t>(s.present);
+}
+
+// Calls use(i, from, to, low) for the stretches between crossings, pack by pack; low is their lower count where to > from.
+template <class Use>
+STERADIAN_INLINE void each_stretch(const LaneWork& work, std::size_t number, Use use) {
+  const SegmentLanes& e = work.segments[number];
+  const std::size_t last = work.crossing_first[number + 1];
+  const PackReal one(1.0);
+  LaneReals reached{};
+  LaneInts left = e.left;
+  for (std::size_t k = work.crossing_first[number]; k <= last; ++k)
+    each_pack([&](std::size_t i) {
+      const PackReal from = get(reached, i), to = k < last ? min(get(work.sorted_t[k], i), one) : one;
+      use(i, from, to, lower(get(left, i), get(e.weight, i)));
+      put(reached, i, max(from, to));
+      if (k < last) put(left, i, get(left, i) + get(work.sorted_change[k], i));
+    });
+}
+
+void find_levels(const LaneWork& work, LaneInts& level) {
+  const PackInt none(INT_MAX);
+  each_pack([&](std::size_t i) { put(level, i, none); });
+  for (std::size_t s = 0; s < work.count; ++s) {
+    SegmentLanes& e = work.segments[s];
+    e.bounds = narrow(whole_in(e));
+    each_pack([&](std::size_t i) { put(e.low, i, select(mask_at(e.bounds, i), lower(get(e.left, i), get(e.weight, i)), none)); });
+    const std::uint32_t crossed = cut_in(e);
+    if (crossed != 0)
+      each_stretch(work, s, [&](std::size_t i, const PackReal& from, const PackReal& to, const PackInt& low) {
+        put(e.low, i, select(to > from && mask_at(crossed, i), lower_of(get(e.low, i), low), get(e.low, i)));
+      });
+    each_pack([&](std::size_t i) {
+      const PackInt low = get(e.low, i);
+      put(level, i, lower_of(get(level, i), select(low < PackInt(kHidden / 2), low, none)));
+    });
+  }
+}
+
+// Adds the pieces of a segment that bound the level, in some lanes; returns false if the capacity is too small.
+bool cut(LaneWork& work, std::uint32_t number, std::uint32_t lanes, const LaneInts& level) {
+  const SegmentLanes& e = work.segments[number];
+  const std::size_t most = kPoints * (work.crossing_first[number + 1] - work.crossing_first[number] + 1);
+  if (work.pieces.size + most > work.pieces.capacity) return false;
+  LaneReals x = e.ax, y = e.ay;
+  each_stretch(work, number, [&](std::size_t i, const PackReal& from, const PackReal& to, const PackInt& low) {
+    const PackMask longer = to > from, inner = to < PackReal(1.0);
+    const PackReal ax = get(e.ax, i), ay = get(e.ay, i), bx = get(e.bx, i), by = get(e.by, i);
+    const PackReal next_x = select(inner, ax + to * (bx - ax), bx), next_y = select(inner, ay + to * (by - ay), by);
+    const std::uint32_t bounds = (bits_of(longer) & bits_of(low == get(level, i)) & (lanes >> i));
+    if (bounds != 0) {
+      LaneReals to_x, to_y;
+      put(to_x, i, next_x);
+      put(to_y, i, next_y);
+      for_each_bit(bounds, [&](std::size_t k) {
+        const std::size_t lane = i + k;
+        CrossedPiece& p = work.pieces.data[work.pieces.size++];
+        const bool backwards = e.weight.at[lane] > 0;  // the right side has the lower count
+        p = {x.at[lane], y.at[lane], to_x.at[lane], to_y.at[lane], number, static_cast<std::uint16_t>(lane)};
+        if (backwards) p = {p.bx, p.by, p.ax, p.ay, p.segment, p.lane};
+      });
+    }
+    put(x, i, select(longer, next_x, get(x, i)));
+    put(y, i, select(longer, next_y, get(y, i)));
+  });
+  return true;
+}
+
+}  // namespace
+
+__attribute__((flatten)) bool cut_in_lanes(LaneWork& work, LaneBits lanes, RegionLanes& result) {
+  find_levels(work, result.level);
+  result.none = narrow(lanes & lane_bits([&](std::size_t i) { return get(result.level, i) == PackInt(INT_MAX); }));
+  work.pieces.size = 0;
+  for (std::uint32_t s = 0; s < work.count; ++s) {
+    SegmentLanes& e = work.segments[s];
+    std::uint32_t bounds = 0;
+    each_pack([&](std::size_t i) { bounds |= bits_of(get(e.low, i) == get(result.level, i)) << i; });
+    bounds &= ~static_cast<std::uint32_t>(result.none);
+    e.bounds = narrow(e.bounds & bounds);
+    const std::uint32_t crossed = cut_in(e) & bounds;
+    if (crossed != 0 && !cut(work, s, crossed, result.level)) return false;
+  }
+  return true;
+}
+
+STERADIAN_END_ISA

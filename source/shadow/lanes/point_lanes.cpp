@@ -1,0 +1,292 @@
+#include "shadow/lanes/point_lanes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "shadow/region/arrangement.h"
+#include "shadow/edges/collect.h"
+
+namespace steradian::shadow {
+namespace {
+
+void put(LaneReals to[3], std::size_t lane, Vec3d v) {
+  to[0].at[lane] = static_cast<float>(v.x);
+  to[1].at[lane] = static_cast<float>(v.y);
+  to[2].at[lane] = static_cast<float>(v.z);
+}
+
+// Writes a segment that only some lanes see, or that all lanes see in the same cells.
+void put_cells(SegmentLanes& to, std::size_t lane, const Segment& s) {
+  to.ax.at[lane] = static_cast<float>(s.a.x);
+  to.ay.at[lane] = static_cast<float>(s.a.y);
+  to.bx.at[lane] = static_cast<float>(s.b.x);
+  to.by.at[lane] = static_cast<float>(s.b.y);
+  to.weight.at[lane] = s.weight;
+}
+
+void clear_bits(SegmentLanes& s) {
+  s.present = s.clipped_a = s.clipped_b = s.cut_a = s.cut_b = s.left_a = s.left_b = 0;
+  s.place_a = s.place_b = -1;
+  s.row = 0;
+}
+
+std::int32_t whole(float x) { return static_cast<std::int32_t>(x); }
+
+}  // namespace
+
+void PointLanes::take_points(const LightFrame& base, bool turned) {
+  view_.turned = turned;
+  view_.valid = static_cast<LaneBits>((1u << point_count_) - 1);
+  for (std::size_t lane = 0; lane < kPoints; ++lane) {
+    const Point& point = points_[std::min(lane, point_count_ - 1)];
+    const LightFrame& frame = *point.frame;
+    const Vec3d local = frame.to_local(point.at->position);
+    put(view_.eye, lane, {local.x, local.y, -local.z});
+    put(view_.at, lane, turned ? base.to_local(point.at->position) : local);
+    put(view_.origin, lane, base.to_local(frame.origin));
+    put(view_.axes, lane, frame.axes.x);
+    put(view_.axes + 3, lane, frame.axes.y);
+    put(view_.axes + 6, lane, frame.axes.z);
+    put(view_.normal, lane, point.at->normal);
+    view_.box_x.at[lane] = static_cast<float>(frame.box_x);
+    view_.box_y.at[lane] = static_cast<float>(frame.box_y);
+    view_.height.at[lane] = static_cast<float>(-frame.eta);
+    view_.base.at[lane] = 0;
+  }
+}
+
+// Adds the outline, and the horizons of the points whose light they cut.
+void PointLanes::add_surroundings(LaneBits lanes) {
+  for (std::size_t k = 0; k < outline_->size(); ++k) {
+    const Segment& of = (*outline_)[k];
+    SegmentLanes& s = segments_[work_.count++];
+    clear_bits(s);
+    for (std::size_t lane = 0; lane < kPoints; ++lane) put_cells(s, lane, of);
+    s.present = lanes;
+    s.row = static_cast<std::uint32_t>(k);
+    s.place_a = static_cast<std::int32_t>(vertex_count_) + of.place_a;
+    s.place_b = static_cast<std::int32_t>(vertex_count_) + of.place_b;
+  }
+  horizon_rows_.fill(0);
+  for (std::size_t h = 0; h < 2; ++h) {
+    SegmentLanes* s = nullptr;
+    for (std::size_t lane = 0; lane < point_count_; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      const Viewpoint& at = *points_[lane].at;
+      const LightFrame& frame = *points_[lane].frame;
+      if (h == 0) view_.base.at[lane] = kHidden;
+      if (h == 1 && !at.geometric_normal) continue;
+      horizon_.clear();
+      const Vec3d local = frame.to_local(at.position);
+      view_.base.at[lane] +=
+          add_horizon(frame, {local.x, local.y, -local.z}, frame.axes.to_local(h == 0 ? at.normal : *at.geometric_normal),
+                      h == 0 ? Source::shading_horizon : Source::geometric_horizon, horizon_);
+      if (horizon_.segments.empty()) continue;
+      if (s == nullptr) {
+        horizon_rows_[h] = static_cast<std::uint32_t>(work_.count);
+        s = &segments_[work_.count++];
+        clear_bits(*s);
+      }
+      const auto bit = static_cast<LaneBits>(1u << lane);
+      const Segment& horizon = horizons_[h].lanes[lane] = horizon_.segments.front();
+      put_cells(*s, lane, horizon);
+      s->present |= bit;
+      s->clipped_a |= bit;
+      s->clipped_b |= bit;
+      for (const LeftEvent& event : horizon_.events) (event.weight == horizon.weight ? s->left_a : s->left_b) |= bit;
+    }
+  }
+}
+
+Segment PointLanes::segment(std::uint32_t number, std::size_t lane) const {
+  if (number >= edge_segments_ && number < edge_segments_ + outline_->size()) {
+    Segment s = (*outline_)[number - edge_segments_];
+    s.place_a = s.place_b = -1;
+    return s;
+  }
+  if (number >= edge_segments_) return horizons_[number == horizon_rows_[0] ? 0 : 1].lanes[lane];
+  const SegmentLanes& s = segments_[number];
+  const auto end = [&](int which, LaneBits clipped, LaneBits cut, const LaneReals& x, const LaneReals& y) {
+    const std::int32_t cell_x = whole(x.at[lane]), cell_y = whole(y.at[lane]);
+    const std::uint32_t edge = edges_->edge_number(s.row);
+    if ((cut >> lane & 1) != 0) return cell_of(kCutId | edge, cell_x, cell_y);
+    if ((clipped >> lane & 1) != 0) return cell_of(clip_id(Source::edge, edge, which), cell_x, cell_y);
+    return edges_->end_of(s.row, which, cell_x, cell_y);
+  };
+  Segment result;
+  result.a = end(0, s.clipped_a, s.cut_a, s.ax, s.ay);
+  result.b = end(1, s.clipped_b, s.cut_b, s.bx, s.by);
+  result.weight = s.weight.at[lane];
+  return result;
+}
+
+ExactLanes PointLanes::exact() const {
+  static constexpr auto self_of = [](const void* self) -> const PointLanes& { return *static_cast<const PointLanes*>(self); };
+  ExactLanes result;
+  result.self = this;
+  result.cross = [](const void* self, std::uint32_t e, std::uint32_t f, std::size_t lane, CrossingLanes& to) {
+    const PointLanes& lanes = self_of(self);
+    const Segment of_e = lanes.segment(e, lane), of_f = lanes.segment(f, lane);
+    CrossingPair pair;
+    if (!shadow::cross(of_e, of_f, pair)) return;
+    const auto set = [&](LaneBits& bits, bool value) {
+      const auto bit = static_cast<LaneBits>(1u << lane);
+      bits = static_cast<LaneBits>(value ? bits | bit : bits & ~bit);
+    };
+    set(to.mask, true);
+    set(to.e_to_left, pair.on_e.change == of_f.weight);
+    set(to.f_to_left, pair.on_f.change == of_e.weight);
+    set(to.after_e, pair.on_e.after);
+    set(to.after_f, pair.on_f.after);
+    to.t_e.at[lane] = static_cast<float>(pair.on_e.t);
+    to.t_f.at[lane] = static_cast<float>(pair.on_f.t);
+  };
+  result.left_ray = [](const void* self, std::uint32_t e, std::uint32_t f, std::size_t lane) {
+    return left_ray_crosses(self_of(self).segment(e, lane), self_of(self).segment(f, lane));
+  };
+  result.event_below = [](const void* self, std::uint32_t e, std::uint32_t f, int end, std::size_t lane) {
+    const Segment with_event = self_of(self).segment(f, lane);
+    const Cell& at = end == 0 ? with_event.a : with_event.b;
+    return lies_below_middle({at.y, at.dy, 0}, self_of(self).segment(e, lane));
+  };
+  result.runs_up = [](const void* self, std::uint32_t e, std::size_t lane) { return shadow::runs_up(self_of(self).segment(e, lane)); };
+  return result;
+}
+
+// Allocates memory for all results that depend on the segments.
+void PointLanes::make_room() {
+  const std::size_t n = segments_.size(), room = padded(n);
+  if (order_.size() < room) {
+    for (std::vector<float>* v : {&low_x_, &high_x_, &low_y_, &high_y_, &unsorted_}) v->resize(room);
+    for (std::vector<float>* v : {&block_low_x_, &block_high_x_, &block_low_y_, &block_high_y_}) v->resize(padded(room / kPadding));
+    order_.resize(room);
+    found_.resize(room);
+    events_.resize(room);
+    crossing_first_.resize(room + 1);
+    ends_.resize(2 * room);
+    stack_.resize(kPoints * room + 1);
+  }
+  const std::size_t places = vertices_.size() + outline_->size() + 1;
+  if (end_first_.size() < places + 1) {
+    end_first_.resize(places + 1);
+    shared_by_two_.resize(places);
+  }
+}
+
+void PointLanes::sort_boxes(const LaneTable& packs) {
+  constexpr float kFar = 1e9f;
+  constexpr std::size_t kFew = 64;
+  const std::size_t n = work_.count, room = padded(n);
+  BoxArrays& b = work_.boxes;
+  b = {low_x_.data(),       high_x_.data(),       low_y_.data(),       high_y_.data(),      order_.data(),
+       block_low_x_.data(), block_high_x_.data(), block_low_y_.data(), block_high_y_.data()};
+  packs.bound(segments_.data(), n, b);
+  std::iota(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(room), 0u);
+  if (n > kFew) {
+    // Sort by height, the long ones first, so that each meets few blocks.
+    constexpr float kRow = kCells / 32.0f, kLong = 2 * kRow;
+    const auto row_of = [&](std::uint32_t s) { return high_y_[s] - low_y_[s] > kLong ? -kFar : std::floor(low_y_[s] / kRow); };
+    std::sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(n), [&](std::uint32_t s, std::uint32_t t) {
+      const float rs = row_of(s), rt = row_of(t);
+      return rs != rt ? rs < rt : low_x_[s] != low_x_[t] ? low_x_[s] < low_x_[t] : s < t;
+    });
+    for (std::vector<float>* v : {&low_x_, &high_x_, &low_y_, &high_y_}) {
+      unsorted_.swap(*v);
+      for (std::size_t i = 0; i < n; ++i) (*v)[i] = unsorted_[order_[i]];
+    }
+    b.low_x = low_x_.data();
+    b.high_x = high_x_.data();
+    b.low_y = low_y_.data();
+    b.high_y = high_y_.data();
+  }
+  for (std::size_t i = n; i < room; ++i) {
+    low_x_[i] = low_y_[i] = kFar;
+    high_x_[i] = high_y_[i] = -kFar;
+  }
+  for (std::size_t block = 0; block < room / kPadding; ++block) {
+    const auto first = static_cast<std::ptrdiff_t>(block * kPadding), last = first + static_cast<std::ptrdiff_t>(kPadding);
+    block_low_x_[block] = *std::min_element(low_x_.begin() + first, low_x_.begin() + last);
+    block_low_y_[block] = *std::min_element(low_y_.begin() + first, low_y_.begin() + last);
+    block_high_x_[block] = *std::max_element(high_x_.begin() + first, high_x_.begin() + last);
+    block_high_y_[block] = *std::max_element(high_y_.begin() + first, high_y_.begin() + last);
+  }
+  for (std::size_t block = room / kPadding; block < padded(room / kPadding); ++block) {
+    block_low_x_[block] = block_low_y_[block] = kFar;
+    block_high_x_[block] = block_high_y_[block] = -kFar;
+  }
+}
+
+void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points,
+                      const std::vector<Segment>& outline) {
+  edges_ = &edges;
+  outline_ = &outline;
+  point_count_ = points.size();
+  std::copy(points.begin(), points.end(), points_.begin());
+  take_points(base, turned);
+  const auto grow = [](auto& v, std::size_t n) {
+    if (v.size() < n) v.resize(n + n / 2);
+  };
+  grow(front_, edges.plane_count() + 1);
+  if (edges.plane_count() == 0) front_[0] = 0;  // edges without a triangle read the first entry
+  grow(place_of_, edges.vertex_count());
+  grow(vertices_, edges.vertex_count());
+  grow(segments_, edges.edge_count() + outline.size() + 2);
+  edge_segments_ = packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), vertex_count_, segments_.data());
+  work_.count = edge_segments_;
+  work_.outline = static_cast<std::uint32_t>(edge_segments_);
+  occluded_ = 0;
+  for (std::size_t s = 0; s < edge_segments_; ++s) occluded_ |= segments_[s].present;
+  LaneBits arranged = occluded_;
+  for (std::size_t lane = 0; lane < point_count_; ++lane)
+    if (points_[lane].arranged) arranged |= static_cast<LaneBits>(1u << lane);
+  region_.none = region_.found = 0;
+  if (arranged == 0) return;
+  add_surroundings(arranged);
+  make_room();
+  sort_boxes(packs);
+  work_.segments = segments_.data();
+  work_.place_count = vertex_count_ + outline.size();
+  work_.crossing_first = crossing_first_.data();
+  work_.end_first = end_first_.data();
+  work_.ends = ends_.data();
+  work_.shared_by_two = shared_by_two_.data();
+  work_.found = found_.data();
+  work_.stack = stack_.data();
+  work_.events = events_.data();
+  work_.exact = exact();
+  while (true) {
+    work_.crossings.data = crossings_.data();
+    work_.crossings.capacity = crossings_.size();
+    if (packs.cross(work_)) break;
+    crossings_.resize(2 * crossings_.size() + 64);
+  }
+  grow(crossing_list_, 2 * work_.crossings.size);
+  grow(sorted_t_, 2 * work_.crossings.size);
+  grow(sorted_change_, 2 * work_.crossings.size);
+  work_.crossing_list = crossing_list_.data();
+  work_.sorted_t = sorted_t_.data();
+  work_.sorted_change = sorted_change_.data();
+  packs.count(work_, view_);
+  while (true) {
+    work_.pieces.data = pieces_.data();
+    work_.pieces.capacity = pieces_.size();
+    if (packs.cut(work_, arranged, region_)) break;
+    pieces_.resize(2 * pieces_.size() + 256);
+  }
+  packs.region(work_, view_, arranged, region_);
+}
+
+Vec3d PointLanes::place(std::size_t lane) const {
+  const LightFrame& frame = *points_[lane].frame;
+  return frame.to_world({static_cast<double>(region_.place_x.at[lane]) / kCells * frame.box_x,
+                         static_cast<double>(region_.place_y.at[lane]) / kCells * frame.box_y, 0});
+}
+
+std::size_t PointLanes::segment_count(std::size_t lane) const {
+  std::size_t n = 0;
+  for (std::size_t s = 0; s < edge_segments_; ++s) n += segments_[s].present >> lane & 1;
+  return n;
+}
+
+}  // namespace steradian::shadow

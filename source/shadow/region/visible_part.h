@@ -1,0 +1,28 @@
+// The visible part of a flat light behind triangles, for a single point and for every integral that walks a light's outline.
+#pragma once
+
+#include "shadow/edges/edges.h"
+#include "shadow/edges/segments.h"
+#include "shadow/rays/triangle_rays.h"
+
+namespace steradian::shadow {
+
+// Triangles that block light, prepared once.
+struct Occluders {
+  explicit Occluders(EdgeMesh m) : mesh(std::move(m)), rays(mesh) {}
+  EdgeMesh mesh;
+  TriangleRays rays;
+};
+
+// Converts a region to a light: each piece is a contour of two vertices (visible_part). side: side on which the point lies.
+PreparedPolygon light_of(const VisibleRegion& region, const PreparedPolygon& light, const LightFrame& frame, int side,
+                         const Viewpoint& from, double lift);
+
+// The pieces that bound the visible part, in walk order for this point, above both horizons. Each piece is a contour of two vertices: the
+// one edge from the first to the second. No vertices: nothing is visible.
+//
+//   lift     directions closer than this to the shading horizon are lifted to it [rad], so that no rounding puts a piece below it: 1e-9
+//   for integrals in double, 1e-6 in float
+PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift);
+
+}  // namespace steradian::shadow
