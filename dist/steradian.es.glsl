@@ -273,7 +273,7 @@ float steradian_trig_atan_over_argument_24_bits(float q) {
 //   t        1 - c, in [0, 1]
 //   returns  1 at t = 0 to pi/2 at t = 1
 //
-// Error: see docs/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
+// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
 float steradian_trig_angle_over_sine_acute(float t) {
     return steradian_trig_angle_over_sine_24_bits(t);
 }
@@ -296,7 +296,7 @@ float steradian_trig_angle_over_sine(float c, float s2) {
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
 //
 // Degenerate: (0, 0) gives 0. Scale does not matter as long as the smaller over the larger does not underflow.
-// Error: see docs/accuracy.md, "atan2".
+// Error: see docs/measured/accuracy.md, "atan2".
 float steradian_trig_atan2(float y, float x) {
     float ax = abs(x);
     float ay = abs(y);
@@ -412,7 +412,7 @@ vec3 steradian_polygon_direction(vec3 v) {
 //   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
 //
 // Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
+// Error: see docs/measured/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
 // product is a share of the edge's length and not of 1.
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
@@ -481,7 +481,7 @@ vec3 steradian_polygon_irradiance_vector(SteradianPolygonWalk walk, bool reverse
 
 // Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See steradian_polygon_irradiance_vector.
 //
-// Error: see docs/accuracy.md, "polygon irradiance".
+// Error: see docs/measured/accuracy.md, "polygon irradiance".
 float steradian_polygon_irradiance(SteradianPolygonWalk walk, bool reversed) {
     vec3 e = steradian_polygon_irradiance_vector(walk, reversed);
     return e.z;
@@ -523,7 +523,7 @@ SteradianSolidAngleWalk steradian_solid_angle_add_edge(SteradianSolidAngleWalk w
 //
 //   reversed true where the light is seen from behind, so that the walk ran the wrong way round
 //
-// Error: see docs/accuracy.md, "polygon solid angle".
+// Error: see docs/measured/accuracy.md, "polygon solid angle".
 float steradian_solid_angle_finish(SteradianSolidAngleWalk walk, bool reversed) {
     float y = steradian_select(reversed, -walk.product.y, walk.product.y);
     return max(2.0 * steradian_trig_atan2_unwrapped(y, walk.product.x), 0.0);
@@ -688,7 +688,7 @@ float steradian_lambert_grazing_of_sky(float v_z) {
 //   e        irradiance vector of the light above the horizon; e.z its irradiance, in [0, pi]
 //   v        unit view
 //
-// Exact for small lights and for the whole sky. Error: see docs/accuracy.md, "Diffuse under Fresnel".
+// Exact for small lights and for the whole sky. Error: see docs/measured/accuracy.md, "Diffuse under Fresnel".
 // Degenerate: no light gives a number in [0, 1].
 float steradian_lambert_grazing_of_light(vec3 e, vec3 v) {
     vec3 mean = e * inversesqrt(max(dot(e, e), steradian_smallest_square()));
@@ -785,7 +785,7 @@ SteradianCharlieLobe steradian_charlie_prepare(vec3 v, float alpha) {
 //   l        unit; 0 where it is not above the surface
 //
 // Degenerate: l = -v has no half vector and gives a finite number.
-// Error: see docs/accuracy.md, "Charlie lobe".
+// Error: see docs/measured/accuracy.md, "Charlie lobe".
 float steradian_charlie_lobe(SteradianCharlieLobe lobe, vec3 l) {
     vec3 h = l + lobe.view;
     float across = h.x * h.x + h.y * h.y;
@@ -810,7 +810,7 @@ float steradian_charlie_lobe(SteradianCharlieLobe lobe, vec3 l) {
 //   SteradianCosineLobe lobe = steradian_lobe_product_isotropic(p);
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A cosine lobe: scale (u.axis)^exponent.
 struct SteradianCosineLobe {
@@ -1190,7 +1190,7 @@ vec3 steradian_light_elements_irradiance_vector(SteradianLightElements e) {
 // irradiance vector is  1/2 INT u x u' / |u|^2 dtau,  a quadratic over a quartic. The quartic |u|^2 is positive: its
 // two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
-// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
+// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/theory/ggx.md has the derivation.
 
 // A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
 //   u0..u2      the curve
@@ -1404,7 +1404,7 @@ vec3 steradian_conic_vector_approximate(SteradianConicArc arc, bool wanted) {
 
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
-// Error: docs/accuracy.md, "Float against double", conic vector.
+// Error: docs/measured/accuracy.md, "Float against double", conic vector.
 vec3 steradian_conic_vector(SteradianConicArc arc) {
     vec3 e = steradian_conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + steradian_conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
@@ -1468,7 +1468,7 @@ SteradianConicArc steradian_ellipse_arc(SteradianEllipse e, float begin, float e
 //   e        of steradian_ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
-// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
 vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
@@ -1617,7 +1617,7 @@ vec2 steradian_ellipse_nearest(SteradianEllipse e) {
 // fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/theory/ggx.md, section 6.
 SteradianEllipseFan steradian_ellipse_fan_near(SteradianEllipseFan usual) {
     SteradianEllipse e = usual.ellipse;
     SteradianEllipseFan fan = usual;
@@ -1643,7 +1643,7 @@ SteradianEllipseFan steradian_ellipse_fan_near(SteradianEllipseFan usual) {
 //
 // A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
 // the lobe's width over the rim's size say.
-// Source: this project; table of errors in docs/ggx.md.
+// Source: this project; table of errors in docs/theory/ggx.md.
 SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, vec3 r, float width) {
     vec3 normal = cross(e.axis_a, e.axis_b);
     float n2 = max(dot(normal, normal), steradian_smallest_divisor());
@@ -1759,7 +1759,7 @@ vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
 //
-// Error: docs/accuracy.md, "Float against double", ellipse.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse.
 vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
@@ -1943,7 +1943,7 @@ SteradianPolygonWalk steradian_capsule_add_arc(SteradianPolygonWalk walk, vec3 c
 //   c        of steradian_capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
-// Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
 vec3 steradian_capsule_irradiance_vector(SteradianCapsule c) {
     vec3 e = steradian_capsule_whole_vector(c);
     bool cut = min(c.end_a.z, c.end_b.z) < c.radius;
@@ -1982,7 +1982,7 @@ vec3 steradian_capsule_irradiance_vector(SteradianCapsule c) {
 //   end_a, end_b  from the shading point
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
-// Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
+// Error: docs/measured/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
 // Source: as for any linear light; here the limit of steradian_capsule_whole_vector.
 vec3 steradian_line_irradiance_vector(vec3 end_a, vec3 end_b) {
     float wa = abs(end_a.z);
@@ -2145,7 +2145,7 @@ SteradianCapsuleFan steradian_capsule_fan(SteradianCapsule c, vec3 r, float widt
 // Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
 // corners of the two ends lie in different planes.
 //
-// Error: see docs/ggx.md, "Round lights".
+// Error: see docs/theory/ggx.md, "Round lights".
 vec3 steradian_capsule_fan_corner(SteradianCapsuleFan fan, int k) {
     bool first = float(k) < fan.a.corners;
     SteradianCapsuleEnd end;
@@ -2367,7 +2367,7 @@ SteradianPunctualIncident steradian_punctual_incident(SteradianPunctualSource li
 //
 // With m = n + 1, theta the angle from r and psi the azimuth about r,
 //     m * moment = closed integral over the outline of (1 - max(cos theta, 0)^m) dpsi
-// for any real n > -1, as long as -r is not inside (docs/moments.md derives it). No parity of n, no solid angle, no
+// for any real n > -1, as long as -r is not inside (docs/theory/moments.md derives it). No parity of n, no solid angle, no
 // vertices on the lobe's equator. On an edge, phi is the angle along its great circle from the foot, the point
 // nearest to r, where u.r = c; s = sin of the angle from r to the circle's plane; x = u.r = c cos phi and
 // y = c sin phi. The edge's share is
@@ -2517,10 +2517,10 @@ float steradian_moment_phong_radiance(float sum, bool reversed) {
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides steradian_moment_quadrature_piece until it converges (source/integrals/exact_moment.cpp); steradian_moment_quadrature_front
+// subdivides steradian_moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); steradian_moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
-// Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
+// Source: this project (docs/theory/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
 // The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
@@ -2608,7 +2608,7 @@ SteradianMomentIntegrands steradian_moment_quadrature_piece(SteradianMomentQuadr
 //   moment   |s| times the integral of (1 - x^m)/(1 - x^2) dphi, m = n + 1
 //   power    the integral of x^m dphi
 //
-// Error: see docs/accuracy.md, "phong quadrature".
+// Error: see docs/measured/accuracy.md, "phong quadrature".
 SteradianMomentIntegrands steradian_moment_quadrature_front(SteradianMomentEdge edge, float n) {
     SteradianMomentQuadrature q = steradian_moment_quadrature_prepare(edge, n);
     SteradianMomentIntegrands to0 = steradian_moment_quadrature_piece(q, 0.0, q.t0);
@@ -2630,7 +2630,7 @@ SteradianMomentIntegrands steradian_moment_quadrature_front(SteradianMomentEdge 
 // amplitudes depend on kap^2 and 1/m alone and carry the factor 1 - kap^2 = c^m, so that the error vanishes away
 // from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
 // Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A lobe's series: amplitude of harmonic k is (1 - kap2) times a cubic in kap2, constant first.
 struct SteradianMomentSeries {
@@ -2792,7 +2792,7 @@ SteradianMomentWarp steradian_moment_warp(SteradianMomentEdge edge, float m) {
 //   edge     by steradian_moment_edge
 //   series   by steradian_moment_series_prepare, n >= 1
 //
-// Error: see docs/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
+// Error: see docs/measured/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
 float steradian_moment_series_front(SteradianMomentEdge edge, SteradianMomentSeries series) {
     SteradianMomentWarp warp = steradian_moment_warp(edge, series.m);
     float t = warp.kap2;
@@ -2832,7 +2832,7 @@ float steradian_moment_series_high_front(SteradianMomentEdge edge, SteradianMome
 // The integral of cos^n from the foot is an incomplete beta function. With v^2 = -2 log cos phi it becomes that of
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
-// Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
+// Source: this project (docs/theory/moments.md); the double-axis moment: Arvo 1995, sec. 5.
 
 // The integral of cos^n phi from the foot to the end (x, y) = (c cos phi, c sin phi), |phi| <= pi/2, n >= 4.
 //
@@ -2915,7 +2915,7 @@ float steradian_moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float s
 //
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
-// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/ltc.md.
+// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/theory/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
 // The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
@@ -3126,7 +3126,7 @@ float steradian_ltc_sheen(float base, float sheen, float strongest, float albedo
 // The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
 // point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
-// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+// cone, per radian; the caller multiplies them by the widths of docs/theory/ltc.md, "Textured lights":
 //
 //   SteradianLtcTextureFootprint f = steradian_ltc_texture_footprint(m, phi, normal, height);            // once
 //   SteradianLtcTextureEllipse e = steradian_ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
@@ -3181,7 +3181,7 @@ vec3 steradian_ltc_texture_irradiance_vector(SteradianLtcWalk walk, bool reverse
 // A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
-// Error: docs/ltc.md, "Textured lights".
+// Error: docs/theory/ltc.md, "Textured lights".
 SteradianLtcTextureFootprint steradian_ltc_texture_footprint(SteradianLtcMatrix m, vec3 phi, vec3 normal, float height) {
     float p2 = dot(phi, phi);
     bool lit = p2 > steradian_smallest_divisor();
@@ -3685,7 +3685,7 @@ SteradianCharlieCubature steradian_charlie_cubature_edge(SteradianCharlieCubatur
 
 // Radiance of colour 1 for radiance 1, at least 0.
 //
-// Error: see docs/accuracy.md, "Sheen".
+// Error: see docs/measured/accuracy.md, "Sheen".
 float steradian_charlie_cubature_finish(SteradianCharlieCubature c) {
     return max(c.sum + c.at_centre * steradian_charlie_lobe(c.lobe, c.centre), 0.0);
 }
@@ -3703,7 +3703,7 @@ float steradian_charlie_cubature_finish(SteradianCharlieCubature c) {
 //   E = sum of steradian_conic_vector(steradian_ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
 //   negated where the light is seen from behind; then steradian_ggx_unshadowed(view, E).
 //
-// docs/ggx.md has the derivation.
+// docs/theory/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
 
 // The values of the view and the surface that the lobe's integrals need.
@@ -3980,7 +3980,7 @@ vec2 steradian_ggx_limited(float amount, vec2 mean, float smith) {
 //   returns  radiance for radiance 1 as two numbers for steradian_ggx_radiance: with F = 1, and with F = (1 - v.h)^5
 //
 // Degenerate: weights that cancel leave the centre's value.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 vec2 steradian_ggx_cubature_finish(SteradianGgxCubature c) {
     // The centre's values are known all along, its weight only now.
     float o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
@@ -4050,7 +4050,7 @@ float steradian_half_vector_split_uniform(SteradianConicArc edge, float share) {
 // Newton's steps where they halve what is left, else the middle of a bracket: 5 or 6 as a rule, 24 at most; to the last
 // digits, since a light that is thin, or seen edge-on, is what two edges leave of each other's errors: both must be split
 // at the same places.
-// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
+// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/theory/ggx.md).
 float steradian_half_vector_split_pole_mapped(SteradianConicArc edge, float share) {
     float first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
     float last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
@@ -4123,7 +4123,7 @@ struct SteradianHalfVectorNode {
 // between them has the solid angle -g n.(x dx) / |x|^3 at the middle. In tau the nodes lie by the map of ends to ends that is
 // a quotient of lines and has the slopes of the splits: dense where the arc passes the lobe.
 // Degenerate: an arc of no length has no sliver.
-// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/accuracy.md, "Half vectors".
+// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/measured/accuracy.md, "Half vectors".
 // Source: this project.
 SteradianHalfVectorNode steradian_half_vector_between(SteradianGgxView view, SteradianConicArc edge, SteradianConicNode first, SteradianConicNode last, vec3 a, vec3 b, vec2 rule) {
     float bend = sqrt(first.density / max(last.density, steradian_smallest_divisor()));
@@ -4189,7 +4189,7 @@ float steradian_blinn_phong_arc(vec3 a, vec3 b, vec3 v, float n) {
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
 //
-// Error: of the series, see docs/accuracy.md, "phong series".
+// Error: of the series, see docs/measured/accuracy.md, "phong series".
 float steradian_blinn_phong_arc_approximate(vec3 a, vec3 b, vec3 v, SteradianMomentSeries series, float n, int range) {
     vec3 z = vec3(0.0, 0.0, 1.0);
     SteradianMomentEdge edge = steradian_moment_edge(a, b, z);
@@ -4230,7 +4230,7 @@ SteradianMomentSeriesHigh steradian_beckmann_series() {
 //
 // In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
 // w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
-// Error: of the series; see docs/accuracy.md, "half vector".
+// Error: of the series; see docs/measured/accuracy.md, "half vector".
 float steradian_beckmann_arc(SteradianGgxView view, vec3 a, vec3 b, SteradianMomentSeriesHigh series) {
     float za = 1.0 / max(a.z, 1.0e-6);
     float zb = 1.0 / max(b.z, 1.0e-6);
@@ -4349,7 +4349,7 @@ float steradian_moment_solid_angle_front(SteradianMomentEdge edge) {
 //   can_stop 1: stop when what is left is below relative_precision of the sum; 0: sum everything. Every lane waits for
 //            the slowest: at grazing views, where c is near 1, the stop comes late or never.
 //
-// Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
+// Error: see docs/measured/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
 float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop, float relative_precision) {
     int odd_m = 1 - (n - (n / 2) * 2);
     float c2 = edge.c * edge.c;
@@ -4398,7 +4398,7 @@ float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop,
 // and 1 otherwise, but each serves every n.
 // Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
 // width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
-// faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
+// faster and closer. Corrected against the paper where its prints do not hold (docs/theory/moments.md lists the places).
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
 
@@ -4587,7 +4587,7 @@ float steradian_moment_fit_front(SteradianMomentEdge edge, SteradianMomentPeak p
     return max(front, 0.0);
 }
 
-// The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
+// The Lorentzian for one edge. Error: see docs/measured/accuracy.md, "phong peak fits".
 float steradian_moment_lorentzian_front(SteradianMomentEdge edge, float n, int f_is_x) {
     SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, f_is_x);
     return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), f_is_x);
@@ -4680,7 +4680,7 @@ vec3 steradian_representative_direction(SteradianRepresentativeWalk walk, vec3 m
 //
 // Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
 // towards alpha = 0 it is 1.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 float steradian_representative_radiance(SteradianRepresentativeWalk walk, vec3 view, vec3 mirror, float solid_angle, float alpha, bool reversed) {
     vec3 l = steradian_representative_direction(walk, mirror, reversed);
     vec3 h = steradian_microfacet_half_vector(l, view);

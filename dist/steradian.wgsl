@@ -270,7 +270,7 @@ fn steradian_trig_atan_over_argument_24_bits(q: f32) -> f32 {
 //   t        1 - c, in [0, 1]
 //   returns  1 at t = 0 to pi/2 at t = 1
 //
-// Error: see docs/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
+// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
 fn steradian_trig_angle_over_sine_acute(t: f32) -> f32 {
     return steradian_trig_angle_over_sine_24_bits(t);
 }
@@ -293,7 +293,7 @@ fn steradian_trig_angle_over_sine(c: f32, s2: f32) -> f32 {
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
 //
 // Degenerate: (0, 0) gives 0. Scale does not matter as long as the smaller over the larger does not underflow.
-// Error: see docs/accuracy.md, "atan2".
+// Error: see docs/measured/accuracy.md, "atan2".
 fn steradian_trig_atan2(y: f32, x: f32) -> f32 {
     let ax = abs(x);
     let ay = abs(y);
@@ -409,7 +409,7 @@ fn steradian_polygon_direction(v: vec3f) -> vec3f {
 //   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
 //
 // Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
+// Error: see docs/measured/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
 // product is a share of the edge's length and not of 1.
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
@@ -478,7 +478,7 @@ fn steradian_polygon_irradiance_vector(walk: SteradianPolygonWalk, reversed: boo
 
 // Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
 //
-// Error: see docs/accuracy.md, "polygon irradiance".
+// Error: see docs/measured/accuracy.md, "polygon irradiance".
 fn steradian_polygon_irradiance(walk: SteradianPolygonWalk, reversed: bool) -> f32 {
     let e = steradian_polygon_irradiance_vector(walk, reversed);
     return e.z;
@@ -520,7 +520,7 @@ fn steradian_solid_angle_add_edge(walk: SteradianSolidAngleWalk, a: vec3f, b: ve
 //
 //   reversed true where the light is seen from behind, so that the walk ran the wrong way round
 //
-// Error: see docs/accuracy.md, "polygon solid angle".
+// Error: see docs/measured/accuracy.md, "polygon solid angle".
 fn steradian_solid_angle_finish(walk: SteradianSolidAngleWalk, reversed: bool) -> f32 {
     let y = select(walk.product.y, -walk.product.y, reversed);
     return max(2.0 * steradian_trig_atan2_unwrapped(y, walk.product.x), 0.0);
@@ -685,7 +685,7 @@ fn steradian_lambert_grazing_of_sky(v_z: f32) -> f32 {
 //   e        irradiance vector of the light above the horizon; e.z its irradiance, in [0, pi]
 //   v        unit view
 //
-// Exact for small lights and for the whole sky. Error: see docs/accuracy.md, "Diffuse under Fresnel".
+// Exact for small lights and for the whole sky. Error: see docs/measured/accuracy.md, "Diffuse under Fresnel".
 // Degenerate: no light gives a number in [0, 1].
 fn steradian_lambert_grazing_of_light(e: vec3f, v: vec3f) -> f32 {
     let mean = e * inverseSqrt(max(dot(e, e), steradian_smallest_square()));
@@ -782,7 +782,7 @@ fn steradian_charlie_prepare(v: vec3f, alpha: f32) -> SteradianCharlieLobe {
 //   l        unit; 0 where it is not above the surface
 //
 // Degenerate: l = -v has no half vector and gives a finite number.
-// Error: see docs/accuracy.md, "Charlie lobe".
+// Error: see docs/measured/accuracy.md, "Charlie lobe".
 fn steradian_charlie_lobe(lobe: SteradianCharlieLobe, l: vec3f) -> f32 {
     let h = l + lobe.view;
     let across = h.x * h.x + h.y * h.y;
@@ -807,7 +807,7 @@ fn steradian_charlie_lobe(lobe: SteradianCharlieLobe, l: vec3f) -> f32 {
 //   CosineLobe lobe = lobe_product_isotropic(p);
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A cosine lobe: scale (u.axis)^exponent.
 struct SteradianCosineLobe {
@@ -1187,7 +1187,7 @@ fn steradian_light_elements_irradiance_vector(e: SteradianLightElements) -> vec3
 // irradiance vector is  1/2 INT u x u' / |u|^2 dtau,  a quadratic over a quartic. The quartic |u|^2 is positive: its
 // two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
-// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
+// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/theory/ggx.md has the derivation.
 
 // A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
 //   u0..u2      the curve
@@ -1401,7 +1401,7 @@ fn steradian_conic_vector_approximate(arc: SteradianConicArc, wanted: bool) -> v
 
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
-// Error: docs/accuracy.md, "Float against double", conic vector.
+// Error: docs/measured/accuracy.md, "Float against double", conic vector.
 fn steradian_conic_vector(arc: SteradianConicArc) -> vec3f {
     var e = steradian_conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + steradian_conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
@@ -1465,7 +1465,7 @@ fn steradian_ellipse_arc(e: SteradianEllipse, begin: f32, end: f32) -> Steradian
 //   e        of ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
-// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
 fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     let up = vec2f(e.axis_a.z, e.axis_b.z);
@@ -1614,7 +1614,7 @@ fn steradian_ellipse_nearest(e: SteradianEllipse) -> vec2f {
 // fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/theory/ggx.md, section 6.
 fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan {
     let e = usual.ellipse;
     var fan = usual;
@@ -1640,7 +1640,7 @@ fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan
 //
 // A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
 // the lobe's width over the rim's size say.
-// Source: this project; table of errors in docs/ggx.md.
+// Source: this project; table of errors in docs/theory/ggx.md.
 fn steradian_ellipse_fan_concentrated(e: SteradianEllipse, r: vec3f, width: f32) -> SteradianEllipseFan {
     let normal = cross(e.axis_a, e.axis_b);
     let n2 = max(dot(normal, normal), steradian_smallest_divisor());
@@ -1756,7 +1756,7 @@ fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
 //
-// Error: docs/accuracy.md, "Float against double", ellipse.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse.
 fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
@@ -1940,7 +1940,7 @@ fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: 
 //   c        of capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
-// Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
 fn steradian_capsule_irradiance_vector(c: SteradianCapsule) -> vec3f {
     var e = steradian_capsule_whole_vector(c);
     let cut = min(c.end_a.z, c.end_b.z) < c.radius;
@@ -1979,7 +1979,7 @@ fn steradian_capsule_irradiance_vector(c: SteradianCapsule) -> vec3f {
 //   end_a, end_b  from the shading point
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
-// Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
+// Error: docs/measured/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
 // Source: as for any linear light; here the limit of capsule_whole_vector.
 fn steradian_line_irradiance_vector(end_a: vec3f, end_b: vec3f) -> vec3f {
     let wa = abs(end_a.z);
@@ -2142,7 +2142,7 @@ fn steradian_capsule_fan(c: SteradianCapsule, r: vec3f, width: f32, count: i32) 
 // Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
 // corners of the two ends lie in different planes.
 //
-// Error: see docs/ggx.md, "Round lights".
+// Error: see docs/theory/ggx.md, "Round lights".
 fn steradian_capsule_fan_corner(fan: SteradianCapsuleFan, k: i32) -> vec3f {
     let first = f32(k) < fan.a.corners;
     var end: SteradianCapsuleEnd;
@@ -2364,7 +2364,7 @@ fn steradian_punctual_incident(light: SteradianPunctualSource, p: vec3f) -> Ster
 //
 // With m = n + 1, theta the angle from r and psi the azimuth about r,
 //     m * moment = closed integral over the outline of (1 - max(cos theta, 0)^m) dpsi
-// for any real n > -1, as long as -r is not inside (docs/moments.md derives it). No parity of n, no solid angle, no
+// for any real n > -1, as long as -r is not inside (docs/theory/moments.md derives it). No parity of n, no solid angle, no
 // vertices on the lobe's equator. On an edge, phi is the angle along its great circle from the foot, the point
 // nearest to r, where u.r = c; s = sin of the angle from r to the circle's plane; x = u.r = c cos phi and
 // y = c sin phi. The edge's share is
@@ -2514,10 +2514,10 @@ fn steradian_moment_phong_radiance(sum: f32, reversed: bool) -> f32 {
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides moment_quadrature_piece until it converges (source/integrals/exact_moment.cpp); moment_quadrature_front
+// subdivides moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
-// Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
+// Source: this project (docs/theory/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
 // The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
@@ -2605,7 +2605,7 @@ fn steradian_moment_quadrature_piece(q: SteradianMomentQuadrature, low: f32, hig
 //   moment   |s| times the integral of (1 - x^m)/(1 - x^2) dphi, m = n + 1
 //   power    the integral of x^m dphi
 //
-// Error: see docs/accuracy.md, "phong quadrature".
+// Error: see docs/measured/accuracy.md, "phong quadrature".
 fn steradian_moment_quadrature_front(edge: SteradianMomentEdge, n: f32) -> SteradianMomentIntegrands {
     let q = steradian_moment_quadrature_prepare(edge, n);
     let to0 = steradian_moment_quadrature_piece(q, 0.0, q.t0);
@@ -2627,7 +2627,7 @@ fn steradian_moment_quadrature_front(edge: SteradianMomentEdge, n: f32) -> Stera
 // amplitudes depend on kap^2 and 1/m alone and carry the factor 1 - kap^2 = c^m, so that the error vanishes away
 // from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
 // Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A lobe's series: amplitude of harmonic k is (1 - kap2) times a cubic in kap2, constant first.
 struct SteradianMomentSeries {
@@ -2789,7 +2789,7 @@ fn steradian_moment_warp(edge: SteradianMomentEdge, m: f32) -> SteradianMomentWa
 //   edge     by moment_edge
 //   series   by moment_series_prepare, n >= 1
 //
-// Error: see docs/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
+// Error: see docs/measured/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
 fn steradian_moment_series_front(edge: SteradianMomentEdge, series: SteradianMomentSeries) -> f32 {
     let warp = steradian_moment_warp(edge, series.m);
     let t = warp.kap2;
@@ -2829,7 +2829,7 @@ fn steradian_moment_series_high_front(edge: SteradianMomentEdge, series: Steradi
 // The integral of cos^n from the foot is an incomplete beta function. With v^2 = -2 log cos phi it becomes that of
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
-// Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
+// Source: this project (docs/theory/moments.md); the double-axis moment: Arvo 1995, sec. 5.
 
 // The integral of cos^n phi from the foot to the end (x, y) = (c cos phi, c sin phi), |phi| <= pi/2, n >= 4.
 //
@@ -2912,7 +2912,7 @@ fn steradian_moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, sh
 //
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
-// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
+// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/theory/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
 // The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
@@ -3123,7 +3123,7 @@ fn steradian_ltc_sheen(base: f32, sheen: f32, strongest: f32, albedo: f32) -> f3
 // The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
 // point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
-// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+// cone, per radian; the caller multiplies them by the widths of docs/theory/ltc.md, "Textured lights":
 //
 //   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
 //   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
@@ -3178,7 +3178,7 @@ fn steradian_ltc_texture_irradiance_vector(walk: SteradianLtcWalk, reversed: boo
 // A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
-// Error: docs/ltc.md, "Textured lights".
+// Error: docs/theory/ltc.md, "Textured lights".
 fn steradian_ltc_texture_footprint(m: SteradianLtcMatrix, phi: vec3f, normal: vec3f, height: f32) -> SteradianLtcTextureFootprint {
     let p2 = dot(phi, phi);
     let lit = p2 > steradian_smallest_divisor();
@@ -3682,7 +3682,7 @@ fn steradian_charlie_cubature_edge(c: SteradianCharlieCubature, a: vec3f, b: vec
 
 // Radiance of colour 1 for radiance 1, at least 0.
 //
-// Error: see docs/accuracy.md, "Sheen".
+// Error: see docs/measured/accuracy.md, "Sheen".
 fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
     return max(c.sum + c.at_centre * steradian_charlie_lobe(c.lobe, c.centre), 0.0);
 }
@@ -3700,7 +3700,7 @@ fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
 //   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
 //   negated where the light is seen from behind; then ggx_unshadowed(view, E).
 //
-// docs/ggx.md has the derivation.
+// docs/theory/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
 
 // The values of the view and the surface that the lobe's integrals need.
@@ -3977,7 +3977,7 @@ fn steradian_ggx_limited(amount: f32, mean: vec2f, smith: f32) -> vec2f {
 //   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
 //
 // Degenerate: weights that cancel leave the centre's value.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 fn steradian_ggx_cubature_finish(c: SteradianGgxCubature) -> vec2f {
     // The centre's values are known all along, its weight only now.
     let o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
@@ -4047,7 +4047,7 @@ fn steradian_half_vector_split_uniform(edge: SteradianConicArc, share: f32) -> f
 // Newton's steps where they halve what is left, else the middle of a bracket: 5 or 6 as a rule, 24 at most; to the last
 // digits, since a light that is thin, or seen edge-on, is what two edges leave of each other's errors: both must be split
 // at the same places.
-// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
+// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/theory/ggx.md).
 fn steradian_half_vector_split_pole_mapped(edge: SteradianConicArc, share: f32) -> f32 {
     let first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
     let last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
@@ -4120,7 +4120,7 @@ struct SteradianHalfVectorNode {
 // between them has the solid angle -g n.(x dx) / |x|^3 at the middle. In tau the nodes lie by the map of ends to ends that is
 // a quotient of lines and has the slopes of the splits: dense where the arc passes the lobe.
 // Degenerate: an arc of no length has no sliver.
-// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/accuracy.md, "Half vectors".
+// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/measured/accuracy.md, "Half vectors".
 // Source: this project.
 fn steradian_half_vector_between(view: SteradianGgxView, edge: SteradianConicArc, first: SteradianConicNode, last: SteradianConicNode, a: vec3f, b: vec3f, rule: vec2f) -> SteradianHalfVectorNode {
     let bend = sqrt(first.density / max(last.density, steradian_smallest_divisor()));
@@ -4186,7 +4186,7 @@ fn steradian_blinn_phong_arc(a: vec3f, b: vec3f, v: vec3f, n: f32) -> f32 {
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
 //
-// Error: of the series, see docs/accuracy.md, "phong series".
+// Error: of the series, see docs/measured/accuracy.md, "phong series".
 fn steradian_blinn_phong_arc_approximate(a: vec3f, b: vec3f, v: vec3f, series: SteradianMomentSeries, n: f32, range: i32) -> f32 {
     let z = vec3f(0.0, 0.0, 1.0);
     let edge = steradian_moment_edge(a, b, z);
@@ -4227,7 +4227,7 @@ fn steradian_beckmann_series() -> SteradianMomentSeriesHigh {
 //
 // In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
 // w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
-// Error: of the series; see docs/accuracy.md, "half vector".
+// Error: of the series; see docs/measured/accuracy.md, "half vector".
 fn steradian_beckmann_arc(view: SteradianGgxView, a: vec3f, b: vec3f, series: SteradianMomentSeriesHigh) -> f32 {
     let za = 1.0 / max(a.z, 1.0e-6);
     let zb = 1.0 / max(b.z, 1.0e-6);
@@ -4346,7 +4346,7 @@ fn steradian_moment_solid_angle_front(edge: SteradianMomentEdge) -> f32 {
 //   can_stop 1: stop when what is left is below relative_precision of the sum; 0: sum everything. Every lane waits for
 //            the slowest: at grazing views, where c is near 1, the stop comes late or never.
 //
-// Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
+// Error: see docs/measured/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
 fn steradian_moment_arvo_front(edge: SteradianMomentEdge, n: i32, can_stop: i32, relative_precision: f32) -> f32 {
     let odd_m: i32 = 1 - (n - (n / 2) * 2);
     let c2 = edge.c * edge.c;
@@ -4395,7 +4395,7 @@ fn steradian_moment_arvo_front(edge: SteradianMomentEdge, n: i32, can_stop: i32,
 // and 1 otherwise, but each serves every n.
 // Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
 // width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
-// faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
+// faster and closer. Corrected against the paper where its prints do not hold (docs/theory/moments.md lists the places).
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
 
@@ -4584,7 +4584,7 @@ fn steradian_moment_fit_front(edge: SteradianMomentEdge, p: SteradianMomentPeak,
     return max(front, 0.0);
 }
 
-// The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
+// The Lorentzian for one edge. Error: see docs/measured/accuracy.md, "phong peak fits".
 fn steradian_moment_lorentzian_front(edge: SteradianMomentEdge, n: f32, f_is_x: i32) -> f32 {
     let p = steradian_moment_peak_prepare(edge, n, f_is_x);
     return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), f_is_x);
@@ -4677,7 +4677,7 @@ fn steradian_representative_direction(walk: SteradianRepresentativeWalk, mirror:
 //
 // Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
 // towards alpha = 0 it is 1.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 fn steradian_representative_radiance(walk: SteradianRepresentativeWalk, view: vec3f, mirror: vec3f, solid_angle: f32, alpha: f32, reversed: bool) -> f32 {
     let l = steradian_representative_direction(walk, mirror, reversed);
     let h = steradian_microfacet_half_vector(l, view);

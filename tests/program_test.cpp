@@ -91,7 +91,7 @@ TEST_F(Program, EvalTakesLongLinesAndRefusesThoseOverTheLimit) {
 TEST_F(Program, HelpVersionAndWrongUse) {
   const Outcome help = run({"eval", "--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* text : {"--spp", "=256", "--seed", "Input and output"})
+  for (const char* text : {"--spp", "[256]", "--seed", "Input and output"})
     EXPECT_NE(help.out.find(text), std::string::npos) << text << "\n" << help.out;
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.status, 0);
@@ -100,6 +100,37 @@ TEST_F(Program, HelpVersionAndWrongUse) {
   EXPECT_EQ(run({"frobnicate"}).status, 2);
   EXPECT_EQ(run({"eval", "--spp", "0"}).status, 2);
   EXPECT_EQ(run({"eval", "--method", "magic"}).status, 2);
+}
+
+// One line an option, of at most 100 characters. Rare options are those of --help-all alone.
+TEST_F(Program, HelpHasALineAnOption) {
+  for (const char* verb : {"render", "view", "compare", "diff", "eval", "methods", "fit", "info"})
+    for (const char* flag : {"--help", "--help-all"}) {
+      const Outcome help = run({verb, flag});
+      EXPECT_EQ(help.status, 0) << verb;
+      std::istringstream lines(help.out);
+      for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(line.size(), 100u) << verb << ": " << line;
+        const std::size_t dash = line.find_first_not_of(' ');
+        if (dash != std::string::npos && line[dash] == '-') EXPECT_NE(line.find("  ", dash), std::string::npos) << verb << ": " << line;
+      }
+    }
+  const std::string few = run({"render", "--help"}).out, all = run({"render", "--help-all"}).out;
+  for (const char* rare : {"--vpls", "--moments", "--max-work"}) {
+    EXPECT_EQ(few.find(rare), std::string::npos) << rare;
+    EXPECT_NE(all.find(rare), std::string::npos) << rare;
+  }
+  EXPECT_NE(few.find("--help-all prints"), std::string::npos);
+}
+
+TEST_F(Program, MethodsListsTheTableOfMethods) {
+  const json list = json::parse(run({"methods", "--json"}).out);
+  const std::string table = run({"methods"}).out;
+  EXPECT_GE(list.size(), 16u);
+  for (const json& row : list) {
+    EXPECT_NE(table.find(row["name"].get<std::string>()), std::string::npos);
+    EXPECT_FALSE(row["error"].get<std::string>().empty());
+  }
 }
 
 TEST_F(Program, InfoAndBenchSpeakJson) {

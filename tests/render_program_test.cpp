@@ -321,8 +321,8 @@ TEST_F(Program, DiffMeasuresAndFailsAboveALimit) {
 }
 
 // The error of methods without sampling against the converged reference: alpha 0.09, F = 1. The closed form is accurate to 0.004
-// (docs/ggx.md), the tables to 0.02 (docs/ltc.md). The reference itself is accurate to its target of 0.02, which is estimated from a pilot
-// and thus uncertain by a quarter. Independent errors add in squares.
+// (docs/theory/ggx.md), the tables to 0.02 (docs/theory/ltc.md). The reference itself is accurate to its target of 0.02, which is estimated
+// from a pilot and thus uncertain by a quarter. Independent errors add in squares.
 TEST_F(Program, GlossyMethodsAreNearTheReference) {
   const std::string reference = folder / "reference.exr";
   ASSERT_EQ(run({"render", glossy_scene(), "-o", reference, "--size", "48x27", "--method", "reference", "--target-error", "0.02"}).status,

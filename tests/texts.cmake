@@ -59,7 +59,7 @@ add_test(NAME Layers.NoInclusionRunsUpward COMMAND ${layers})
 add_test(NAME Layers.AnInclusionUpwardIsFound COMMAND ${layers} --test)
 add_test(NAME Layers.ThePictureIsCurrent COMMAND ${layers} --check ${PROJECT_SOURCE_DIR}/docs/images/layers.svg)
 
-# Instructions of shaders, as docs/performance.md has them: a shader made up is counted rightly, and every pipeline has its loops.
+# Instructions of shaders, as docs/measured/performance.md has them: a shader made up is counted rightly, and every pipeline has its loops.
 set(shader_counts Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/shader_counts.py)
 add_test(NAME Shaders.InstructionsAreCounted COMMAND ${shader_counts} --test)
 add_test(NAME Shaders.EveryPipelineIsCounted COMMAND ${shader_counts})

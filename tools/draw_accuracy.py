@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""draw_accuracy.py [docs/accuracy.md [docs/images/accuracy-ggx.svg]]: the maps of GGX's errors over roughness and view as one plot.
+"""draw_accuracy.py [docs/measured/accuracy.md [docs/images/accuracy-ggx.svg]]: the maps of GGX's errors over roughness and view as one plot.
 
 Reads the tables that `./dev accuracy` writes below "GGX with shadowing and Fresnel": a panel for each, darker where the error is
 larger, on a scale of decades. Standard library only.

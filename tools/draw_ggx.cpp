@@ -1,4 +1,4 @@
-// draw_ggx DIR: the pictures of docs/ggx.md, as SVG.
+// draw_ggx DIR: the pictures of docs/theory/ggx.md, as SVG.
 //   ggx_warp.svg    a rectangle's image in stretched half vector space, with poles and nodes
 //   ggx_error.svg   error of the real-time methods over roughness and view
 #include <array>

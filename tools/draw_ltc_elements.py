@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""draw_ltc_elements.py PICTURE.png: what each element of M does to the cosine lobe (docs/ltc.md).
+"""draw_ltc_elements.py PICTURE.png: what each element of M does to the cosine lobe (docs/theory/ltc.md).
 
 M = [a 0 b; 0 1 0; c 0 d]. A row for each element, five values in a row, the third of them the cosine itself; spheres seen from the
 front, 30 degrees up, x to the right, the horizon drawn. Brightness is the density's square root, as a share of the largest of its

@@ -1,5 +1,5 @@
 // Finds the coefficients of kernels/integral/moment_series.glsl: the cosine series of E(u), the factor between the Phong
-// lobe's boundary integrand and the ellipsoid that matches its peak and its tail (docs/moments.md).
+// lobe's boundary integrand and the ellipsoid that matches its peak and its tail (docs/theory/moments.md).
 //
 //   fit_phong_series                 prints the two functions as they stand in the kernel file, and their errors
 //   fit_phong_series --check FILE    exit 0 when FILE holds exactly these functions, 1 when it does not

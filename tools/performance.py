@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables and figures of docs/performance.md from what `steradian bench --json` printed.
+"""Tables and figures of docs/measured/performance.md from what `steradian bench --json` printed.
 
 usage: performance.py docs/images BENCH.json ...   (writes the figures of which the benches are there, prints the tables)
 """

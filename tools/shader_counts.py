@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Instructions of the shaders' entry points, counted in SPIR-V, and the time that a device's arithmetic rate would give.
 
-usage: shader_counts.py          prints the tables of docs/performance.md
+usage: shader_counts.py          prints the tables of docs/measured/performance.md
        shader_counts.py --loops  every loop of every pipeline, to name units by
        shader_counts.py --test   exit 1 when a shader made up for the purpose is counted wrongly
 

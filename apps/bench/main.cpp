@@ -152,33 +152,22 @@ void print_json(const std::vector<BenchResult>& results) {
 void add_bench(CommandLine& line) {
   Verb verb = line.all();
   auto options = std::make_shared<Options>();
-  verb.add("--filter", options->filter, "Only benches whose name begins so, e.g. kernel/lambert; with a $ behind it: the one of that name")
-      .group("What")
-      .default_text("");
-  verb.add("--simd", options->simd, "Instruction set of the benches that do not name one")
-      .group("What")
+  verb.add("--filter", options->filter, "prefix of names, e.g. kernel/lambert; NAME$: that one").group("Choice").default_text("");
+  verb.add("--simd", options->simd, "instruction set of benches that name none")
+      .group("Choice")
       .words({"sse2", "avx2", "avx512"})
       .default_text("widest");
-  verb.add("--backend", options->backend, "vulkan: the benches of frames on a Vulkan device, under vulkan/")
-      .group("What")
-      .words({"cpu", "vulkan"});
-  verb.add("--device", options->device, "Of vulkan: its number in `steradian info`, or part of its name; none: the first")
-      .group("What")
-      .default_text("");
-  verb.add("--min-time", options->min_time, "Seconds of runs per bench").group("How").range(0.0, 3600.0, "0..3600");
-  verb.add_flag("--json", options->json, "Print JSON").group("How");
-  verb.add_flag("--list", options->list, "Print the names of the benches that would run, one a line").group("What");
-  verb.add_flag("--table2", options->table2, "Errors and times of the Phong methods on one scene instead (docs/moments.md)").group("What");
-  verb.add_flag("--textured", options->textured, "Errors of textured lights against quadrature instead (docs/ltc.md)").group("What");
-  verb.add_flag("--plane", options->plane, "Times and errors of the plane's methods over lights and occluders instead (docs/plane.md)")
-      .group("What");
-  verb.add("--figures", options->figures, "With --table2: write the page's figures into this folder").group("What").existing_folder();
-  verb.add("--compare", options->base, "Print ratios to what an earlier `bench --json` wrote into this file; above 1 is slower")
-      .group("What")
-      .existing_file();
-  verb.add("--fail-above", options->slower, "With --compare: exit 1 when a ratio is above this; 0: never")
-      .group("What")
-      .range(0.0, 1e9, "0..1e9");
+  verb.add("--backend", options->backend, "vulkan: frames on a device").group("Choice").words({"cpu", "vulkan"});
+  verb.add("--device", options->device, "of vulkan: number or part of the name in `steradian info`").group("Choice").default_text("");
+  verb.add_flag("--list", options->list, "print the names of the chosen benches").group("Choice");
+  verb.add("--min-time", options->min_time, "seconds of runs per bench").group("Measurement").range(0.0, 3600.0);
+  verb.add_flag("--json", options->json, "print JSON").group("Measurement");
+  verb.add("--compare", options->base, "print ratios to this file of --json; above 1 is slower").group("Measurement").existing_file();
+  verb.add("--fail-above", options->slower, "of --compare: exit 1 above this ratio; 0: never").group("Measurement").range(0.0, 1e9);
+  verb.add_flag("--table2", options->table2, "errors and times of the Phong methods (docs/theory/moments.md)").group("Studies");
+  verb.add("--figures", options->figures, "of --table2: folder for the page's figures").group("Studies").existing_folder();
+  verb.add_flag("--textured", options->textured, "errors of textured lights (docs/theory/ltc.md)").group("Studies");
+  verb.add_flag("--plane", options->plane, "times and errors of the plane's methods (docs/plane.md)").group("Studies");
   verb.callback([options, &exit = line.exit()] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);

@@ -60,7 +60,7 @@ struct PhongOnDevice::Parts {
     corners = std::make_unique<Buffer>(device, c.size() * sizeof(float), BufferUse::host_writes);
     corners->write(c.data(), c.size() * sizeof(float));
     results = std::make_unique<Buffer>(device, count * sizeof(float), BufferUse::host_reads);
-    // The best variant of each fit: docs/moments.md.
+    // The best variant of each fit: docs/theory/moments.md.
     const bool x = options.method == Method::lorentzian || options.method == Method::pearson;
     const auto edges = static_cast<std::int32_t>(light.corners.size());
     dispatch.pipeline = program.pipeline(0, {vulkan::phong_method(options), exponent, x ? 1 : 0, edges, 2 * edges + 2});

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 
 #include "steradian/error.h"
@@ -13,30 +15,106 @@ namespace steradian::app {
 
 namespace {
 
-template <class T>
-CLI::Range range_of(T low, T high, const std::string& text) {
-  CLI::Range range(low, high);
-  if (!text.empty()) range.description(text);
-  return range;
+constexpr const char* kMore = " (more)";  // ends the names of groups that only --help-all prints
+
+bool is_more(const std::string& group) { return group.ends_with(kMore); }
+
+// Help with one line an option: name and kind of value, description, words or range, default.
+class OneLineHelp : public CLI::Formatter {
+ public:
+  OneLineHelp() { column_width(30); }
+
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return option->get_type_size() == 0 ? std::string() : " " + option->get_type_name();
+  }
+
+  std::string make_option_desc(const CLI::Option* option) const override {
+    std::string text = option->get_description();
+    if (option->get_required() && option->nonpositional()) text += " (required)";
+    const std::string value = option->get_type_size() == 0 ? std::string() : option->get_default_str();
+    return value.empty() || value == "[]" ? text : text + " [" + value + "]";
+  }
+
+  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
+    std::string text;
+    int left_out = 0;
+    for (const std::string& group : app->get_groups()) {
+      const std::vector<const CLI::Option*> options =
+          app->get_options([&](const CLI::Option* o) { return o->get_group() == group && o->nonpositional(); });
+      if (group.empty() || options.empty()) continue;
+      if (is_more(group) && mode != CLI::AppFormatMode::All) {
+        left_out += static_cast<int>(options.size());
+        continue;
+      }
+      text += make_group(is_more(group) ? group.substr(0, group.size() - std::strlen(kMore)) : group, false, options);
+    }
+    if (left_out > 0) text += "\n--help-all prints " + std::to_string(left_out) + " more options.\n";
+    return text;
+  }
+
+  // --help-all of the program lists the verbs, as --help does.
+  std::string make_subcommands(const CLI::App* app, CLI::AppFormatMode) const override {
+    return CLI::Formatter::make_subcommands(app, CLI::AppFormatMode::Normal);
+  }
+};
+
+// A range as --help prints it.
+std::string shown(double low, double high) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.12g to %.12g", low, high);
+  return text;
+}
+
+CLI::Validator without_description(CLI::Validator validator) {
+  validator.description("");
+  return validator;
 }
 
 }  // namespace
 
 VerbOption& VerbOption::group(const std::string& name) { return option_->group(name), *this; }
+VerbOption& VerbOption::more(const std::string& group) { return option_->group(group + kMore), *this; }
 VerbOption& VerbOption::required() { return option_->required(), *this; }
 VerbOption& VerbOption::needs(const std::string& other) { return option_->needs(verb_->get_option(other)), *this; }
 VerbOption& VerbOption::excludes(const std::string& other) { return option_->excludes(verb_->get_option(other)), *this; }
 VerbOption& VerbOption::separator(char c) { return option_->delimiter(c), *this; }
 VerbOption& VerbOption::default_text(const std::string& text) { return option_->default_str(text), *this; }
-VerbOption& VerbOption::words(const std::vector<std::string>& allowed) { return option_->check(CLI::IsMember(allowed)), *this; }
-VerbOption& VerbOption::range(int low, int high, const std::string& text) { return option_->check(range_of(low, high, text)), *this; }
-VerbOption& VerbOption::range(double low, double high, const std::string& text) { return option_->check(range_of(low, high, text)), *this; }
-VerbOption& VerbOption::range(std::uint64_t low, std::uint64_t high) { return option_->check(range_of(low, high, {})), *this; }
-VerbOption& VerbOption::bytes() { return option_->transform(CLI::AsSizeValue(true)), *this; }
-VerbOption& VerbOption::existing_file() { return option_->check(CLI::ExistingFile), *this; }
-VerbOption& VerbOption::existing_folder() { return option_->check(CLI::ExistingDirectory), *this; }
-VerbOption& VerbOption::check(const std::function<std::string(const std::string&)>& problem, const std::string& text) {
-  option_->check(CLI::Validator([problem](std::string& argument) { return problem(argument); }, text));
+VerbOption& VerbOption::accepts(const std::string& what) {
+  option_->description(option_->get_description() + ": " + what);
+  return *this;
+}
+VerbOption& VerbOption::words(const std::vector<std::string>& allowed) {
+  std::string list;
+  for (const std::string& word : allowed) list += (list.empty() ? "" : ", ") + word;
+  option_->check(without_description(CLI::IsMember(allowed)));
+  return accepts(list);
+}
+VerbOption& VerbOption::range(int low, int high) {
+  option_->check(without_description(CLI::Range(low, high)));
+  return accepts(shown(low, high));
+}
+VerbOption& VerbOption::range(double low, double high) {
+  option_->check(without_description(CLI::Range(low, high)));
+  return accepts(shown(low, high));
+}
+VerbOption& VerbOption::range(std::uint64_t low, std::uint64_t high) {
+  option_->check(without_description(CLI::Range(low, high)));
+  return *this;
+}
+VerbOption& VerbOption::bytes() {
+  option_->transform(without_description(CLI::AsSizeValue(true)))->type_name("SIZE");
+  return *this;
+}
+VerbOption& VerbOption::existing_file() {
+  option_->check(without_description(CLI::ExistingFile))->type_name("FILE");
+  return *this;
+}
+VerbOption& VerbOption::existing_folder() {
+  option_->check(without_description(CLI::ExistingDirectory))->type_name("FOLDER");
+  return *this;
+}
+VerbOption& VerbOption::check(const std::function<std::string(const std::string&)>& problem) {
+  option_->check(CLI::Validator([problem](std::string& argument) { return problem(argument); }, ""));
   return *this;
 }
 
@@ -65,14 +143,15 @@ VerbOption Verb::add_flag(const std::string& name, bool& value, const std::strin
 }
 
 void Verb::add_limits(Limits& limits) {
-  add("--max-memory", limits.memory, "bytes that a file's contents may take: 4GB, 500MB").bytes().group("Limits");
-  add("--max-work", limits.work, "steps of about a nanosecond that preparing a file may take")
+  add("--max-memory", limits.memory, "memory for a file's contents: 500MB, 4GB").bytes().more("Limits");
+  add("--max-work", limits.work, "work to prepare a file, in steps of about 1 ns")
       .range(std::uint64_t{1}, std::uint64_t{1} << 62)
-      .group("Limits");
+      .more("Limits");
 }
 
 void Verb::pass_on(std::vector<std::string>& arguments) {
   app_->set_help_flag();
+  app_->set_help_all_flag();
   app_->prefix_command();
   app_->parse_complete_callback([this_app = app_, &arguments] { arguments = this_app->remaining(); });
 }
@@ -102,8 +181,10 @@ struct CommandLine::Parser {
 
 CommandLine::CommandLine(const std::string& description, const std::string& version) : parser_(new Parser{CLI::App(description)}) {
   parser_->app.set_version_flag("--version", version);
+  parser_->app.set_help_flag("-h,--help", "Print this help");
+  parser_->app.set_help_all_flag("--help-all", "Print all options, also the rare ones");
   parser_->app.option_defaults()->always_capture_default();
-  parser_->app.get_formatter()->column_width(36);
+  parser_->app.formatter(std::make_shared<OneLineHelp>());
 }
 
 CommandLine::~CommandLine() { delete parser_; }

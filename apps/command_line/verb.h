@@ -35,23 +35,26 @@ class VerbOption {
   VerbOption(CLI::App* verb, CLI::Option* option) : verb_(verb), option_(option) {}
 
   VerbOption& group(const std::string& name);
+  VerbOption& more(const std::string& group);  // only --help-all prints the group
   VerbOption& required();
   VerbOption& needs(const std::string& other);
   VerbOption& excludes(const std::string& other);
   VerbOption& separator(char c);                      // one argument holds several values
   VerbOption& default_text(const std::string& text);  // the default as --help shows it
+  // --help prints the words and the range behind the description.
   VerbOption& words(const std::vector<std::string>& allowed);
-  // `text` replaces "INT in [low - high]" in --help.
-  VerbOption& range(int low, int high, const std::string& text = {});
-  VerbOption& range(double low, double high, const std::string& text = {});
+  VerbOption& range(int low, int high);
+  VerbOption& range(double low, double high);
   VerbOption& range(std::uint64_t low, std::uint64_t high);
   VerbOption& bytes();  // accepts 500MB and 4GB
   VerbOption& existing_file();
   VerbOption& existing_folder();
   // `problem` returns an empty text for a valid argument, else the message.
-  VerbOption& check(const std::function<std::string(const std::string&)>& problem, const std::string& text = {});
+  VerbOption& check(const std::function<std::string(const std::string&)>& problem);
 
  private:
+  VerbOption& accepts(const std::string& what);  // adds to the description
+
   CLI::App* verb_;
   CLI::Option* option_;
 };

@@ -295,25 +295,27 @@ void add_compare(CommandLine& line) {
   RenderOptions& r = options->render;
   r.target_error = 0.02;
   r.spp = 64;
-  Verb verb = line.verb("compare", "Methods against the reference: pictures, error maps, numbers, and one page with all of it");
-  verb.footer("The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n\n" + methods::help());
+  Verb verb = line.verb("compare", "Compare methods with the reference: pictures, error maps, numbers, one page");
+  verb.group("Pictures");
+  verb.footer(
+      "The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n`steradian methods` lists the "
+      "methods.");
   verb.add("SCENE", options->scene, "scene file: .gltf, .glb, .svg").required();
-  verb.add("-o,--output", options->output, "folder").required();
-  verb.add("--methods", options->methods,
-           "separated by commas; none: auto,ltc,ltc-compact,sampled, of plane scenes exact,par,sampled,marched")
-      .separator(',');
-  verb.add_flag("!--one-setting", options->settings, "not each method's qualities and numbers of samples for the error over time");
-  verb.add("--shadows", options->shadows, "of direct light, for all").words({"off", "on", "exact"});
-  verb.add("--size", options->size, "WIDTHxHEIGHT in pixels; none: 960x540, of plane scenes their own").group("Picture");
-  verb.add("--camera", r.camera, "camera by name; none: the first").group("Picture");
+  verb.add("-o,--output", options->output, "folder of the report").required();
+  verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',');
+  verb.add_flag("!--one-setting", options->settings, "one quality and one number of samples a method");
+  verb.add("--shadows", options->shadows, "direct shadows").words({"off", "on", "exact"});
+  verb.add("--size", options->size, "WIDTHxHEIGHT in pixels; default: 960x540, or the drawing's").group("Picture");
+  verb.add("--camera", r.camera, "name of the camera; default: the file's first").group("Picture");
   verb.add("--exposure", options->exposure, "of the page and of FLIP: stops, or auto").group("Picture");
   verb.add("--aa", r.aa, "primary samples a pixel").range(1, 4096).group("Picture");
-  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
-      .range(1, 1 << 20);
-  verb.add("--spp", r.spp, "of sampled and marched, in the table").range(1, 1 << 20).group("Sampling");
-  verb.add("--target-error", r.target_error, "reference: rms standard error over rms radiance").range(1e-6, 1.0).group("Sampling");
-  verb.add("--seed", r.seed, "of random numbers").group("Sampling");
-  verb.add("--threads", r.threads, "0: all").range(0, 4096).group("Machine");
+  verb.add("--spp", r.spp, "of sampled and marched").range(1, 1 << 20).group("Sampling");
+  verb.add("--target-error", r.target_error, "of reference: relative rms error").range(1e-6, 1.0).group("Sampling");
+  verb.add("--seed", r.seed, "seed of the random numbers").group("Sampling");
+  verb.add("--threads", r.threads, "number of threads; 0: all").range(0, 4096).group("Machine");
+  verb.add("--max-lights", options->max_lights, "most area lights, strongest first; default: 256, and all meshes")
+      .range(1, 1 << 20)
+      .more("Limits");
   verb.add_limits(options->limits);
   verb.callback([options] { run(*options); });
 }

@@ -93,11 +93,12 @@ void run(const DiffArguments& options, Exit& exit) {
 
 void add_diff(CommandLine& line) {
   auto options = std::make_shared<DiffArguments>();
-  Verb verb = line.verb("diff", "Difference of two pictures (EXR, PNG, JPEG) in numbers");
+  Verb verb = line.verb("diff", "Print the difference of two pictures (EXR, PNG, JPEG)");
+  verb.group("Pictures");
   verb.add("A", options->a, "picture").required();
   verb.add("B", options->b, "reference picture").required();
   verb.add_flag("--json", options->json, "print JSON");
-  verb.add("--fail-above", options->fail_above, "METRIC=VALUE: exit 1 when rmse, relative_l2 or max is above VALUE; may be repeated");
+  verb.add("--fail-above", options->fail_above, "METRIC=VALUE of rmse, relative_l2, max: exit 1 above it");
   verb.add_limits(options->limits);
   verb.callback([options, &exit = line.exit()] { run(*options, exit); });
 }

@@ -166,28 +166,21 @@ struct EvalArguments {
 void add_eval(CommandLine& line) {
   Verb verb = line.verb("eval", "Answer single integrals: JSON lines in, JSON lines out");
   verb.group("Light");
-  verb.footer(std::string() +
-              "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
-              "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
-              "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n\n" +
-              methods::help());
+  verb.footer(
+      "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
+      "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
+      "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n"
+      "With --plane a query is {\"scene\": \"file.svg\", \"position\": [x, y]}. `steradian methods` lists the methods.");
   auto options = std::make_shared<EvalArguments>();
-  verb.add("INPUT", options->input, "File of queries, one a line (default: standard input)").group("Input and output").default_text("");
-  verb.add("-o,--output", options->output, "File of answers (default: standard output)").group("Input and output").default_text("");
+  verb.add("INPUT", options->input, "file of queries, one a line; default: standard input").default_text("");
+  verb.add("-o,--output", options->output, "file of answers; default: standard output").group("Input and output").default_text("");
+  verb.add_flag("--plane", options->plane, "light at points of plane scenes (.svg)").group("Input and output");
+  verb.add("--method", options->method, "method of queries that name none").group("Defaults of a query").check([](const std::string& name) {
+    return method_of(name) || name == "par" || name == "marched" ? std::string() : "unknown method " + name + ", use " + methods::names();
+  });
+  verb.add("--spp", options->spp, "of sampled: sample pairs").group("Defaults of a query").range(1, std::numeric_limits<int>::max());
+  verb.add("--seed", options->seed, "of sampled: seed of the random numbers").group("Defaults of a query");
   verb.add_limits(options->limits);
-  verb.add_flag("--plane", options->plane,
-                "Light at points of SVG scenes: {\"scene\": \"file.svg\", \"position\": [x, y]}; methods exact, par, sampled, marched")
-      .group("Input and output");
-  verb.add("--method", options->method, "For queries that name none: " + methods::names())
-      .group("Defaults for queries that do not say")
-      .check([](const std::string& name) {
-        return method_of(name) || name == "par" || name == "marched" ? std::string()
-                                                                     : "unknown method " + name + ", use " + methods::names();
-      });
-  verb.add("--spp", options->spp, "Pairs of samples of method sampled")
-      .group("Defaults for queries that do not say")
-      .range(1, std::numeric_limits<int>::max(), "1..");
-  verb.add("--seed", options->seed, "Seed of method sampled").group("Defaults for queries that do not say");
   verb.callback([options, &exit = line.exit()] {
     if (options->plane) {
       PlaneQueryDefaults plane;

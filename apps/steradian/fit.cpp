@@ -111,24 +111,21 @@ void run(const FitArguments& options) {
 }  // namespace
 
 void add_fit(CommandLine& line) {
-  Verb verb = line.verb("fit", "Fit linearly transformed cosines to a lobe and write or judge the table");
+  Verb verb = line.verb("fit", "Fit linearly transformed cosines to a lobe: write the table, measure its error");
+  verb.group("Light");
   const auto options = std::make_shared<FitArguments>();
   std::vector<std::string> names;
   for (const LobeFamily& family : lobe_families()) names.push_back(family.name);
-  verb.add("--lobe", options->lobe, "What to fit").words(names);
-  verb.add("--samples", options->samples, "Measured reflection in place of a lobe: MERL's .binary, or lines of angles and values")
-      .excludes("--lobe");
-  verb.add("--size", options->fit.size, "Nodes along roughness and along the view").range(2, 1024);
-  verb.add("--layout", options->layout, "Two textures, or plain arrays of at most 4 KB").words({"classic", "compact"});
-  verb.add("-o,--output", options->output, "Table: .h .glsl .json; classic also .dds .exr, as NAME_1 (matrix) and NAME_2 (magnitudes)");
-  verb.add_flag("--fresnel-lobe", options->fresnel_lobe,
-                "Fit the lobe times (1 - v.h)^5 too, into NAME_fresnel; with --report, what it gains")
-      .needs("--output");
-  verb.add_flag("--report", options->report, "Measure the table's error on lights and between its nodes");
-  verb.add("--report-picture", options->picture, "The error over roughness and view (.png, .exr)").needs("--report");
-  verb.add("--normalisation", options->normalisation, "Of the classic matrix: its element that is 1, in the table and in the report")
-      .words({"middle", "last"});
-  verb.add("--threads", options->fit.threads, "0: all").range(0, 4096);
+  verb.add("--lobe", options->lobe, "lobe to fit").words(names);
+  verb.add("--samples", options->samples, "measured lobe: MERL's .binary, or lines of angles and values").excludes("--lobe");
+  verb.add("--size", options->fit.size, "nodes of roughness and of view").range(2, 1024);
+  verb.add("--layout", options->layout, "two textures, or arrays of at most 4 KB").words({"classic", "compact"});
+  verb.add("-o,--output", options->output, "table: .h .glsl .json; classic also .dds .exr (NAME_1, NAME_2)");
+  verb.add_flag("--fresnel-lobe", options->fresnel_lobe, "also fit the lobe times (1 - v.h)^5, into NAME_fresnel").needs("--output");
+  verb.add_flag("--report", options->report, "measure the error on lights and between nodes");
+  verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").needs("--report");
+  verb.add("--normalisation", options->normalisation, "element 1 of the classic matrix").words({"middle", "last"});
+  verb.add("--threads", options->fit.threads, "number of threads; 0: all").range(0, 4096);
   verb.add_limits(options->limits);
   verb.callback([options] { run(*options); });
 }

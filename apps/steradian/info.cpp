@@ -69,7 +69,7 @@ std::string text_of(const Json& value) {
 }  // namespace
 
 void add_info(CommandLine& line) {
-  Verb verb = line.verb("info", "Print what a scene holds (.gltf, .glb), or without one version, instruction sets, libraries and devices");
+  Verb verb = line.verb("info", "Print the contents of a scene (.gltf, .glb), or the facts of this machine");
   verb.group("This machine");
   struct Options {
     std::string scene;
@@ -77,8 +77,8 @@ void add_info(CommandLine& line) {
     Limits limits;
   };
   auto options = std::make_shared<Options>();
-  verb.add("SCENE", options->scene, "scene file: its cameras, lights, materials, extensions");
-  verb.add_flag("--json", options->json, "Print JSON");
+  verb.add("SCENE", options->scene, "scene file; without one: version, instruction sets, devices");
+  verb.add_flag("--json", options->json, "print JSON");
   verb.add_limits(options->limits);
   verb.callback([options] {
     const Json info = options->scene.empty() ? facts() : scene_facts(options->scene, options->limits);

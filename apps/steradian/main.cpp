@@ -5,13 +5,14 @@
 int main(int argc, char** argv) {
   steradian::app::CommandLine line("Light computed without sampling: area light integrals in closed form.",
                                    std::string("steradian ") + steradian::version());
-  steradian::app::add_eval(line);
-  steradian::app::add_bench(line);
-  steradian::app::add_diff(line);
   steradian::app::add_render(line);
+  steradian::app::add_view(line);
   steradian::app::add_compare(line);
+  steradian::app::add_diff(line);
+  steradian::app::add_eval(line);
+  steradian::app::add_methods(line);
   steradian::app::add_fit(line);
   steradian::app::add_info(line);
-  steradian::app::add_view(line);
+  steradian::app::add_bench(line);
   return line.run(argc, argv);
 }

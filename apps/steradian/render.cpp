@@ -336,109 +336,77 @@ void run(const Verb& verb, RenderArguments& options) {
 void add_render(CommandLine& line) {
   auto options = std::make_shared<RenderArguments>();
   Verb verb = line.verb("render", "Render a scene (.gltf, .glb, .svg) to a picture (.exr linear, .png tone mapped)");
-  verb.footer(methods::help());
+  verb.group("Pictures");
+  verb.footer("`steradian methods` lists the methods with their errors.");
   RenderOptions& r = options->render;
   verb.add("SCENE", options->scene, "scene file").required();
-  verb.add("-o,--output", options->output, "picture: .exr or .png").required();
-  verb.add("--method", r.method, "how specular light is done; plane scenes: auto, exact, par, sampled, marched")
+  verb.add("-o,--output", options->output, "picture: .exr (linear) or .png (tone mapped)").required();
+
+  verb.add("--method", r.method, "method of the specular lobe: a name that `steradian methods` lists")
       .check([](const std::string& name) {
         const bool known = method_of(name).has_value() || name == "par" || name == "marched";
         return known ? std::string() : "unknown method " + name + ", use " + methods::names();
       })
       .group("Light");
-  verb.add("--table", r.table, "of ltc: a fitted table (fit --layout classic -o FILE.json) in place of GGX's, under area lights")
-      .group("Light");
-  verb.add("--quality", options->quality, "of closed-form, half-vector, ltc and series; of auto: draft takes ltc-compact for GGX")
-      .words({"draft", "normal", "high"})
-      .group("Light");
-  verb.add("--shadows", options->shadows, "of direct light; on: by rays where a point sees over 512 edges, exact: never by rays")
-      .words({"off", "on", "exact"})
-      .group("Light");
-  verb.add("--terminator", options->terminator, "shadows of curved meshes upon themselves: as the facets stand, or as normals describe")
-      .words({"strict", "smooth"})
-      .group("Light");
-  verb.add_flag("--multiple-scattering", options->multiple_scattering, "GGX gives back what one bounce loses between the facets")
-      .group("Light");
-  verb.add("--indirect", options->indirect, "one bounce: virtual lights by ltc, by the baseline ggx, or path tracing (--spp)")
-      .words({"off", "ltc", "ggx", "path"})
-      .group("Light");
-  verb.add("--vpls", r.indirect.virtual_lights, "virtual lights of the bounce, about").range(64, 1 << 22).group("Light");
-  verb.add("--indirect-shadows", options->indirect_shadows, "visibility of the bounce: off, or rays a pixel").group("Light");
-  verb.add("--indirect-pairs", r.indirect.kept_pairs, "virtual lights a pixel keeps on average; 0: all of its share")
-      .range(0.0, 1e9)
-      .group("Light");
-  verb.add("--indirect-quads", options->indirect_quads, "of ltc: receivers with alpha < 0.1 see virtual lights as quads")
-      .words({"on", "off"})
-      .group("Light");
-  verb.add("--indirect-clamp", options->indirect_clamp, "soft bound of near virtual lights, by their area")
-      .words({"on", "off"})
-      .group("Light");
-  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256, and each mesh and single light")
-      .range(1, 1 << 20)
-      .group("Light");
-  verb.add("--lights", options->light_sum,
-           "diffuse light: all one by one, far ones together (tree) within a bound (layer light_bound); auto: tree from 64 on")
-      .words({"auto", "all", "tree"})
-      .group("Light");
-  verb.add("--light-error", r.light_error, "of tree: error of each light, as a share of what it sends where it faces best")
-      .range(1e-6, 1.0)
-      .group("Light");
-  verb.add("--light", options->lights, "light beside the file's own: default, none, sun, studio; may be repeated")
-      .words({"default", "none", "sun", "studio"})
-      .group("Light");
-  verb.add("--environment", options->environment, "light from all around: a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
-  verb.add("--light-units", options->light_units,
-           "of punctual lights beside emission: candela as glTF says; watt: divided by 683; auto: watt for files of Blender's exporter")
-      .words({"auto", "candela", "watt"})
-      .group("Light");
-  verb.add("--background", options->background, "whether the picture shows the environment").words({"on", "off"}).group("Picture");
+  verb.add("--quality", options->quality, "accuracy of the method").words({"draft", "normal", "high"}).group("Light");
+  verb.add("--table", r.table, "LTC table for area lights (.json of `steradian fit`), not the built-in").group("Light");
+  verb.add_flag("--multiple-scattering", options->multiple_scattering, "add the energy that single scattering by GGX loses").group("Light");
+  verb.add("--shadows", options->shadows, "direct shadows; exact has no fallback to rays").words({"off", "on", "exact"}).group("Light");
+  verb.add("--terminator", options->terminator, "shadow edge of curved meshes on themselves").words({"strict", "smooth"}).group("Light");
+  verb.add("--indirect", options->indirect, "one bounce, by virtual lights or paths").words({"off", "ltc", "ggx", "path"}).group("Light");
+  verb.add("--lights", options->light_sum, "sum of diffuse lights; tree groups far ones").words({"auto", "all", "tree"}).group("Light");
+  verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");
+  verb.add("--light", options->lights, "extra light; may be repeated").words({"default", "none", "sun", "studio"}).group("Light");
+  verb.add("--environment", options->environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
+
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels").group("Picture");
-  verb.add("--camera", r.camera, "camera by name; none: the first").group("Picture");
-  verb.add("--exposure", options->exposure, "of .png: stops, or auto: middle grey in the mean (plane scenes: 0)").group("Picture");
-  verb.add("--tone", options->tone, "of .png: the curve from radiance to the screen").words(tone_curve_names()).group("Picture");
   verb.add("--aa", r.aa, "primary samples a pixel").range(1, 4096).group("Picture");
-  verb.add("--spp", r.spp, "sampled: pairs of samples per light and primary sample; plane scenes: rays a pixel (64)")
-      .range(1, 1 << 20)
-      .group("Sampling");
-  verb.add("--target-error", r.target_error, "reference: rms standard error over rms radiance").range(1e-6, 1.0).group("Sampling");
-  verb.add_flag("--resume", options->resume, "go on with what an interrupted reference, sampled or path-traced render kept beside -o")
-      .group("Sampling");
-  verb.add("--seed", r.seed, "of random numbers").group("Sampling");
+  verb.add("--camera", r.camera, "name of the camera; default: the file's first").group("Picture");
+  verb.add("--background", options->background, "show the environment").words({"on", "off"}).group("Picture");
+  verb.add("--exposure", options->exposure, "of .png: stops, or auto for middle grey in the mean").group("Picture");
+  verb.add("--tone", options->tone, "of .png: tone curve").words(tone_curve_names()).group("Picture");
+
+  verb.add("--spp", r.spp, "of sampled: sample pairs a light").range(1, 1 << 20).group("Sampling");
+  verb.add("--target-error", r.target_error, "of reference: relative rms error").range(1e-6, 1.0).group("Sampling");
+  verb.add("--seed", r.seed, "seed of the random numbers").group("Sampling");
+  verb.add_flag("--resume", options->resume, "continue an interrupted sampled, reference or path render").group("Sampling");
+
+  verb.add("--frames", options->frames, "A..B: frames of an animation, numbered by the #s of -o").group("Frames");
+  verb.add("--fps", options->fps, "frames a second").range(1e-3, 1e6).group("Frames");
+  verb.add("--animation", options->animation, "name of the animation; default: the file's first").group("Frames");
+  verb.add_flag("--force", options->force, "render frames again whose files exist").group("Frames");
+
   verb.add("--backend", options->backend, "where to compute").words({"cpu", "vulkan"}).group("Machine");
-  verb.add("--device", r.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first").group("Machine");
-  verb.add("--threads", r.threads, "0: all").range(0, 4096).group("Machine");
+  verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
+  verb.add("--threads", r.threads, "number of threads; 0: all").range(0, 4096).group("Machine");
   verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").group("Machine");
-  verb.add_limits(options->limits);
-  verb.add_flag("--moments", options->moments, "plane scenes: first moments as extra layers moment_x, moment_y (.exr)").group("Picture");
-  verb.add("--normal-map", options->normal_map,
-           "plane scenes: the picture of this normal map (.png, .exr; green upwards), lit; of its size, and with its alpha")
-      .group("Picture");
-  verb.add("--lamp-height", options->lamp_height, "of --normal-map: degrees at which lamps stand above the plane")
-      .range(0.0, 90.0)
-      .group("Picture");
-  verb.add("--occluders", options->occluders, "plane scenes: occluders as black, in their fill, or clear (alpha 0)")
-      .words({"black", "fill", "clear"})
-      .group("Picture");
-  verb.add("--frames", options->frames,
-           "A..B: pictures numbered by the #s of -o, of a file's animation (glTF, SMIL), or of a plane scene with --edits")
-      .group("Frames");
-  verb.add("--fps", options->fps, "frame N shows the moment N / fps seconds").range(1e-3, 1e6).group("Frames");
-  verb.add("--animation", options->animation, "by its name; none: the file's first").group("Frames");
-  verb.add_flag("--force", options->force, "make frames again that are there").group("Frames");
-  verb.add("--edits", options->edits, "plane scenes: JSON file of what moves, changes or goes before which of --frames").group("Frames");
-  verb.add("--bounce-lattice", options->bounce_lattice,
-           "plane scenes: what walls send on is linear over 8 x 8 pixels where that is off by less than this share of its brightest "
-           "place; 0: at every pixel")
+
+  verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");
+  verb.add("--indirect-shadows", options->indirect_shadows, "visibility by 1 to 64 rays a pixel, or off").more("Bounce");
+  verb.add("--indirect-pairs", r.indirect.kept_pairs, "mean virtual lights a pixel; 0: all").range(0.0, 1e9).more("Bounce");
+  verb.add("--indirect-quads", options->indirect_quads, "of ltc: quads for alpha below 0.1").words({"on", "off"}).more("Bounce");
+  verb.add("--indirect-clamp", options->indirect_clamp, "bound near virtual lights by their area").words({"on", "off"}).more("Bounce");
+
+  verb.add("--bounces", options->bounces, "number of bounces from walls, or all")
+      .check([](const std::string& text) {
+        const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
+        return number || text == "all" ? std::string() : "give a number of bounces, or all";
+      })
+      .more("Plane scenes (.svg)");
+  verb.add("--bounce-lattice", options->bounce_lattice, "interpolate bounces within this error; 0: never")
       .range(0.0, 1.0)
-      .group("Light");
-  verb.add("--bounces", options->bounces, "plane scenes: how often walls send light on, at most, or all (.exr: layer bounce_error)")
-      .check(
-          [](const std::string& text) {
-            const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
-            return number || text == "all" ? std::string() : "give a number of bounces, or all";
-          },
-          "N|all")
-      .group("Light");
+      .more("Plane scenes (.svg)");
+  verb.add_flag("--moments", options->moments, "add the layers moment_x and moment_y (.exr)").more("Plane scenes (.svg)");
+  verb.add("--normal-map", options->normal_map, "light this normal map (.png, .exr; green upwards)").more("Plane scenes (.svg)");
+  verb.add("--lamp-height", options->lamp_height, "of --normal-map: degrees above the plane").range(0.0, 90.0).more("Plane scenes (.svg)");
+  verb.add("--occluders", options->occluders, "colour of occluders").words({"black", "fill", "clear"}).more("Plane scenes (.svg)");
+  verb.add("--edits", options->edits, "JSON file of what changes before which frame").more("Plane scenes (.svg)");
+
+  verb.add("--max-lights", options->max_lights, "most area lights, strongest first; default: 256, and all meshes")
+      .range(1, 1 << 20)
+      .more("Limits");
+  verb.add("--light-units", options->light_units, "unit of punctual lights").words({"auto", "candela", "watt"}).more("Limits");
+  verb.add_limits(options->limits);
   verb.callback([options, verb] {
     options->spp_given = verb.given("--spp");
     run(verb, *options);

@@ -40,25 +40,26 @@ void run(const ViewArguments& options) {
 
 void add_view(CommandLine& line) {
   auto options = std::make_shared<ViewArguments>();
-  Verb verb = line.verb("view", "Open a scene in a window: light that can be taken in the hand");
-  verb.footer("F1 in the window lists its keys. A script is a JSON object a line, as docs/view.md describes.");
+  Verb verb = line.verb("view", "Open a scene in a window and move its lights by hand");
+  verb.group("Pictures");
+  verb.footer("F1 in the window lists its keys. docs/view.md describes scripts.");
   verb.add("SCENE", options->scene, "scene file (.gltf, .glb, .svg)").required();
   verb.add("--size", options->size, "WIDTHxHEIGHT of the window in pixels");
-  verb.add("--method", options->render.method, "how specular light is done, as in render").check([](const std::string& name) {
+  verb.add("--method", options->render.method, "method of the specular lobe").check([](const std::string& name) {
     return method_of(name) ? std::string() : "unknown method " + name + ", use " + methods::names();
   });
-  verb.add("--quality", options->quality, "as in render").words({"draft", "normal", "high"});
-  verb.add("--shadows", options->shadows, "as in render").words({"off", "on", "exact"});
-  verb.add("--camera", options->render.camera, "camera by name; none: the first");
-  verb.add("--exposure", options->exposure, "stops, or auto: middle grey in the mean of the first picture");
-  verb.add("--tone", options->tone, "the curve from radiance to the screen, as in render").words(tone_curve_names());
+  verb.add("--quality", options->quality, "accuracy of the method").words({"draft", "normal", "high"});
+  verb.add("--shadows", options->shadows, "direct shadows; exact has no fallback to rays").words({"off", "on", "exact"});
+  verb.add("--camera", options->render.camera, "name of the camera; default: the file's first");
+  verb.add("--exposure", options->exposure, "stops, or auto for middle grey in the first picture");
+  verb.add("--tone", options->tone, "tone curve").words(tone_curve_names());
   verb.add("--aa", options->render.aa, "primary samples a pixel, at rest").range(1, 4096);
-  verb.add("--backend", options->backend, "Where to compute: docs/vulkan.md").words({"cpu", "vulkan"});
-  verb.add("--device", options->render.device, "of vulkan: its number in `steradian info`, or part of its name; none: the first");
-  verb.add("--threads", options->render.threads, "0: all").range(0, 4096);
-  verb.add("--panel", options->panel, "whether the panel is open").words({"on", "off"});
-  verb.add("--script", options->script, "play what a file says: drags, keys, pictures of the window");
-  verb.add("--record", options->record, "write what is done to a file that --script plays");
+  verb.add("--backend", options->backend, "where to compute").words({"cpu", "vulkan"});
+  verb.add("--device", options->render.device, "of vulkan: number or part of the name in `steradian info`");
+  verb.add("--threads", options->render.threads, "number of threads; 0: all").range(0, 4096);
+  verb.add("--panel", options->panel, "open the panel").words({"on", "off"});
+  verb.add("--script", options->script, "play this file of drags, keys and pictures");
+  verb.add("--record", options->record, "record a script into this file");
   verb.callback([options] { run(*options); });
 }
 

@@ -32,7 +32,7 @@
 //
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
-// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/ltc.md.
+// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/theory/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
 // The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
@@ -243,7 +243,7 @@ float steradian_ltc_sheen(float base, float sheen, float strongest, float albedo
 // The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
 // point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
-// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+// cone, per radian; the caller multiplies them by the widths of docs/theory/ltc.md, "Textured lights":
 //
 //   SteradianLtcTextureFootprint f = steradian_ltc_texture_footprint(m, phi, normal, height);            // once
 //   SteradianLtcTextureEllipse e = steradian_ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
@@ -298,7 +298,7 @@ vec3 steradian_ltc_texture_irradiance_vector(SteradianLtcWalk walk, bool reverse
 // A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
-// Error: docs/ltc.md, "Textured lights".
+// Error: docs/theory/ltc.md, "Textured lights".
 SteradianLtcTextureFootprint steradian_ltc_texture_footprint(SteradianLtcMatrix m, vec3 phi, vec3 normal, float height) {
     float p2 = dot(phi, phi);
     bool lit = p2 > steradian_smallest_divisor();

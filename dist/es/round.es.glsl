@@ -139,7 +139,7 @@ vec3 steradian_light_elements_irradiance_vector(SteradianLightElements e) {
 // irradiance vector is  1/2 INT u x u' / |u|^2 dtau,  a quadratic over a quartic. The quartic |u|^2 is positive: its
 // two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
-// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
+// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/theory/ggx.md has the derivation.
 
 // A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
 //   u0..u2      the curve
@@ -353,7 +353,7 @@ vec3 steradian_conic_vector_approximate(SteradianConicArc arc, bool wanted) {
 
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
-// Error: docs/accuracy.md, "Float against double", conic vector.
+// Error: docs/measured/accuracy.md, "Float against double", conic vector.
 vec3 steradian_conic_vector(SteradianConicArc arc) {
     vec3 e = steradian_conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + steradian_conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
@@ -417,7 +417,7 @@ SteradianConicArc steradian_ellipse_arc(SteradianEllipse e, float begin, float e
 //   e        of steradian_ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
-// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
 vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
@@ -566,7 +566,7 @@ vec2 steradian_ellipse_nearest(SteradianEllipse e) {
 // fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/theory/ggx.md, section 6.
 SteradianEllipseFan steradian_ellipse_fan_near(SteradianEllipseFan usual) {
     SteradianEllipse e = usual.ellipse;
     SteradianEllipseFan fan = usual;
@@ -592,7 +592,7 @@ SteradianEllipseFan steradian_ellipse_fan_near(SteradianEllipseFan usual) {
 //
 // A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
 // the lobe's width over the rim's size say.
-// Source: this project; table of errors in docs/ggx.md.
+// Source: this project; table of errors in docs/theory/ggx.md.
 SteradianEllipseFan steradian_ellipse_fan_concentrated(SteradianEllipse e, vec3 r, float width) {
     vec3 normal = cross(e.axis_a, e.axis_b);
     float n2 = max(dot(normal, normal), steradian_smallest_divisor());
@@ -708,7 +708,7 @@ vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
 //
-// Error: docs/accuracy.md, "Float against double", ellipse.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse.
 vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
@@ -892,7 +892,7 @@ SteradianPolygonWalk steradian_capsule_add_arc(SteradianPolygonWalk walk, vec3 c
 //   c        of steradian_capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
-// Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
 vec3 steradian_capsule_irradiance_vector(SteradianCapsule c) {
     vec3 e = steradian_capsule_whole_vector(c);
     bool cut = min(c.end_a.z, c.end_b.z) < c.radius;
@@ -931,7 +931,7 @@ vec3 steradian_capsule_irradiance_vector(SteradianCapsule c) {
 //   end_a, end_b  from the shading point
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
-// Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
+// Error: docs/measured/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
 // Source: as for any linear light; here the limit of steradian_capsule_whole_vector.
 vec3 steradian_line_irradiance_vector(vec3 end_a, vec3 end_b) {
     float wa = abs(end_a.z);
@@ -1094,7 +1094,7 @@ SteradianCapsuleFan steradian_capsule_fan(SteradianCapsule c, vec3 r, float widt
 // Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
 // corners of the two ends lie in different planes.
 //
-// Error: see docs/ggx.md, "Round lights".
+// Error: see docs/theory/ggx.md, "Round lights".
 vec3 steradian_capsule_fan_corner(SteradianCapsuleFan fan, int k) {
     bool first = float(k) < fan.a.corners;
     SteradianCapsuleEnd end;

@@ -102,7 +102,7 @@ SteradianCharlieLobe steradian_charlie_prepare(vec3 v, float alpha) {
 //   l        unit; 0 where it is not above the surface
 //
 // Degenerate: l = -v has no half vector and gives a finite number.
-// Error: see docs/accuracy.md, "Charlie lobe".
+// Error: see docs/measured/accuracy.md, "Charlie lobe".
 float steradian_charlie_lobe(SteradianCharlieLobe lobe, vec3 l) {
     vec3 h = l + lobe.view;
     float across = h.x * h.x + h.y * h.y;
@@ -127,7 +127,7 @@ float steradian_charlie_lobe(SteradianCharlieLobe lobe, vec3 l) {
 //   SteradianCosineLobe lobe = steradian_lobe_product_isotropic(p);
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A cosine lobe: scale (u.axis)^exponent.
 struct SteradianCosineLobe {

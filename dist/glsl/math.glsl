@@ -248,7 +248,7 @@ float steradian_trig_atan_over_argument_24_bits(float q) {
 //   t        1 - c, in [0, 1]
 //   returns  1 at t = 0 to pi/2 at t = 1
 //
-// Error: see docs/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
+// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
 float steradian_trig_angle_over_sine_acute(float t) {
     return steradian_trig_angle_over_sine_24_bits(t);
 }
@@ -271,7 +271,7 @@ float steradian_trig_angle_over_sine(float c, float s2) {
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
 //
 // Degenerate: (0, 0) gives 0. Scale does not matter as long as the smaller over the larger does not underflow.
-// Error: see docs/accuracy.md, "atan2".
+// Error: see docs/measured/accuracy.md, "atan2".
 float steradian_trig_atan2(float y, float x) {
     float ax = abs(x);
     float ay = abs(y);

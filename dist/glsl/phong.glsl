@@ -32,7 +32,7 @@
 //
 // With m = n + 1, theta the angle from r and psi the azimuth about r,
 //     m * moment = closed integral over the outline of (1 - max(cos theta, 0)^m) dpsi
-// for any real n > -1, as long as -r is not inside (docs/moments.md derives it). No parity of n, no solid angle, no
+// for any real n > -1, as long as -r is not inside (docs/theory/moments.md derives it). No parity of n, no solid angle, no
 // vertices on the lobe's equator. On an edge, phi is the angle along its great circle from the foot, the point
 // nearest to r, where u.r = c; s = sin of the angle from r to the circle's plane; x = u.r = c cos phi and
 // y = c sin phi. The edge's share is
@@ -182,10 +182,10 @@ float steradian_moment_phong_radiance(float sum, bool reversed) {
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides steradian_moment_quadrature_piece until it converges (source/integrals/exact_moment.cpp); steradian_moment_quadrature_front
+// subdivides steradian_moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); steradian_moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
-// Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
+// Source: this project (docs/theory/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
 // The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
@@ -273,7 +273,7 @@ SteradianMomentIntegrands steradian_moment_quadrature_piece(SteradianMomentQuadr
 //   moment   |s| times the integral of (1 - x^m)/(1 - x^2) dphi, m = n + 1
 //   power    the integral of x^m dphi
 //
-// Error: see docs/accuracy.md, "phong quadrature".
+// Error: see docs/measured/accuracy.md, "phong quadrature".
 SteradianMomentIntegrands steradian_moment_quadrature_front(SteradianMomentEdge edge, float n) {
     SteradianMomentQuadrature q = steradian_moment_quadrature_prepare(edge, n);
     SteradianMomentIntegrands to0 = steradian_moment_quadrature_piece(q, 0.0, q.t0);
@@ -295,7 +295,7 @@ SteradianMomentIntegrands steradian_moment_quadrature_front(SteradianMomentEdge 
 // amplitudes depend on kap^2 and 1/m alone and carry the factor 1 - kap^2 = c^m, so that the error vanishes away
 // from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
 // Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A lobe's series: amplitude of harmonic k is (1 - kap2) times a cubic in kap2, constant first.
 struct SteradianMomentSeries {
@@ -457,7 +457,7 @@ SteradianMomentWarp steradian_moment_warp(SteradianMomentEdge edge, float m) {
 //   edge     by steradian_moment_edge
 //   series   by steradian_moment_series_prepare, n >= 1
 //
-// Error: see docs/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
+// Error: see docs/measured/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
 float steradian_moment_series_front(SteradianMomentEdge edge, SteradianMomentSeries series) {
     SteradianMomentWarp warp = steradian_moment_warp(edge, series.m);
     float t = warp.kap2;
@@ -497,7 +497,7 @@ float steradian_moment_series_high_front(SteradianMomentEdge edge, SteradianMome
 // The integral of cos^n from the foot is an incomplete beta function. With v^2 = -2 log cos phi it becomes that of
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
-// Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
+// Source: this project (docs/theory/moments.md); the double-axis moment: Arvo 1995, sec. 5.
 
 // The integral of cos^n phi from the foot to the end (x, y) = (c cos phi, c sin phi), |phi| <= pi/2, n >= 4.
 //

@@ -60,7 +60,7 @@ vec3 steradian_polygon_direction(vec3 v) {
 //   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
 //
 // Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
+// Error: see docs/measured/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
 // product is a share of the edge's length and not of 1.
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
@@ -129,7 +129,7 @@ vec3 steradian_polygon_irradiance_vector(SteradianPolygonWalk walk, bool reverse
 
 // Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See steradian_polygon_irradiance_vector.
 //
-// Error: see docs/accuracy.md, "polygon irradiance".
+// Error: see docs/measured/accuracy.md, "polygon irradiance".
 float steradian_polygon_irradiance(SteradianPolygonWalk walk, bool reversed) {
     vec3 e = steradian_polygon_irradiance_vector(walk, reversed);
     return e.z;
@@ -171,7 +171,7 @@ SteradianSolidAngleWalk steradian_solid_angle_add_edge(SteradianSolidAngleWalk w
 //
 //   reversed true where the light is seen from behind, so that the walk ran the wrong way round
 //
-// Error: see docs/accuracy.md, "polygon solid angle".
+// Error: see docs/measured/accuracy.md, "polygon solid angle".
 float steradian_solid_angle_finish(SteradianSolidAngleWalk walk, bool reversed) {
     float y = steradian_select(reversed, -walk.product.y, walk.product.y);
     return max(2.0 * steradian_trig_atan2_unwrapped(y, walk.product.x), 0.0);
@@ -336,7 +336,7 @@ float steradian_lambert_grazing_of_sky(float v_z) {
 //   e        irradiance vector of the light above the horizon; e.z its irradiance, in [0, pi]
 //   v        unit view
 //
-// Exact for small lights and for the whole sky. Error: see docs/accuracy.md, "Diffuse under Fresnel".
+// Exact for small lights and for the whole sky. Error: see docs/measured/accuracy.md, "Diffuse under Fresnel".
 // Degenerate: no light gives a number in [0, 1].
 float steradian_lambert_grazing_of_light(vec3 e, vec3 v) {
     vec3 mean = e * inversesqrt(max(dot(e, e), steradian_smallest_square()));

@@ -98,7 +98,7 @@ float steradian_moment_solid_angle_front(SteradianMomentEdge edge) {
 //   can_stop 1: stop when what is left is below relative_precision of the sum; 0: sum everything. Every lane waits for
 //            the slowest: at grazing views, where c is near 1, the stop comes late or never.
 //
-// Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
+// Error: see docs/measured/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
 float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop, float relative_precision) {
     int odd_m = 1 - (n - (n / 2) * 2);
     float c2 = edge.c * edge.c;
@@ -147,7 +147,7 @@ float steradian_moment_arvo_front(SteradianMomentEdge edge, int n, int can_stop,
 // and 1 otherwise, but each serves every n.
 // Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
 // width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
-// faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
+// faster and closer. Corrected against the paper where its prints do not hold (docs/theory/moments.md lists the places).
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
 
@@ -336,7 +336,7 @@ float steradian_moment_fit_front(SteradianMomentEdge edge, SteradianMomentPeak p
     return max(front, 0.0);
 }
 
-// The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
+// The Lorentzian for one edge. Error: see docs/measured/accuracy.md, "phong peak fits".
 float steradian_moment_lorentzian_front(SteradianMomentEdge edge, float n, int f_is_x) {
     SteradianMomentPeak p = steradian_moment_peak_prepare(edge, n, f_is_x);
     return steradian_moment_fit_front(edge, p, steradian_moment_fit_lorentzian(p), f_is_x);
@@ -429,7 +429,7 @@ float3 steradian_representative_direction(SteradianRepresentativeWalk walk, floa
 //
 // Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
 // towards alpha = 0 it is 1.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 float steradian_representative_radiance(SteradianRepresentativeWalk walk, float3 view, float3 mirror, float solid_angle, float alpha, bool reversed) {
     float3 l = steradian_representative_direction(walk, mirror, reversed);
     float3 h = steradian_microfacet_half_vector(l, view);

@@ -112,7 +112,7 @@ fn steradian_charlie_cubature_edge(c: SteradianCharlieCubature, a: vec3f, b: vec
 
 // Radiance of colour 1 for radiance 1, at least 0.
 //
-// Error: see docs/accuracy.md, "Sheen".
+// Error: see docs/measured/accuracy.md, "Sheen".
 fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
     return max(c.sum + c.at_centre * steradian_charlie_lobe(c.lobe, c.centre), 0.0);
 }
@@ -130,7 +130,7 @@ fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
 //   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
 //   negated where the light is seen from behind; then ggx_unshadowed(view, E).
 //
-// docs/ggx.md has the derivation.
+// docs/theory/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
 
 // The values of the view and the surface that the lobe's integrals need.
@@ -407,7 +407,7 @@ fn steradian_ggx_limited(amount: f32, mean: vec2f, smith: f32) -> vec2f {
 //   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
 //
 // Degenerate: weights that cancel leave the centre's value.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 fn steradian_ggx_cubature_finish(c: SteradianGgxCubature) -> vec2f {
     // The centre's values are known all along, its weight only now.
     let o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);
@@ -477,7 +477,7 @@ fn steradian_half_vector_split_uniform(edge: SteradianConicArc, share: f32) -> f
 // Newton's steps where they halve what is left, else the middle of a bracket: 5 or 6 as a rule, 24 at most; to the last
 // digits, since a light that is thin, or seen edge-on, is what two edges leave of each other's errors: both must be split
 // at the same places.
-// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
+// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/theory/ggx.md).
 fn steradian_half_vector_split_pole_mapped(edge: SteradianConicArc, share: f32) -> f32 {
     let first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
     let last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
@@ -550,7 +550,7 @@ struct SteradianHalfVectorNode {
 // between them has the solid angle -g n.(x dx) / |x|^3 at the middle. In tau the nodes lie by the map of ends to ends that is
 // a quotient of lines and has the slopes of the splits: dense where the arc passes the lobe.
 // Degenerate: an arc of no length has no sliver.
-// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/accuracy.md, "Half vectors".
+// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/measured/accuracy.md, "Half vectors".
 // Source: this project.
 fn steradian_half_vector_between(view: SteradianGgxView, edge: SteradianConicArc, first: SteradianConicNode, last: SteradianConicNode, a: vec3f, b: vec3f, rule: vec2f) -> SteradianHalfVectorNode {
     let bend = sqrt(first.density / max(last.density, steradian_smallest_divisor()));
@@ -616,7 +616,7 @@ fn steradian_blinn_phong_arc(a: vec3f, b: vec3f, v: vec3f, n: f32) -> f32 {
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
 //
-// Error: of the series, see docs/accuracy.md, "phong series".
+// Error: of the series, see docs/measured/accuracy.md, "phong series".
 fn steradian_blinn_phong_arc_approximate(a: vec3f, b: vec3f, v: vec3f, series: SteradianMomentSeries, n: f32, range: i32) -> f32 {
     let z = vec3f(0.0, 0.0, 1.0);
     let edge = steradian_moment_edge(a, b, z);
@@ -657,7 +657,7 @@ fn steradian_beckmann_series() -> SteradianMomentSeriesHigh {
 //
 // In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
 // w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
-// Error: of the series; see docs/accuracy.md, "half vector".
+// Error: of the series; see docs/measured/accuracy.md, "half vector".
 fn steradian_beckmann_arc(view: SteradianGgxView, a: vec3f, b: vec3f, series: SteradianMomentSeriesHigh) -> f32 {
     let za = 1.0 / max(a.z, 1.0e-6);
     let zb = 1.0 / max(b.z, 1.0e-6);

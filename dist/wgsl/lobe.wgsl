@@ -102,7 +102,7 @@ fn steradian_charlie_prepare(v: vec3f, alpha: f32) -> SteradianCharlieLobe {
 //   l        unit; 0 where it is not above the surface
 //
 // Degenerate: l = -v has no half vector and gives a finite number.
-// Error: see docs/accuracy.md, "Charlie lobe".
+// Error: see docs/measured/accuracy.md, "Charlie lobe".
 fn steradian_charlie_lobe(lobe: SteradianCharlieLobe, l: vec3f) -> f32 {
     let h = l + lobe.view;
     let across = h.x * h.x + h.y * h.y;
@@ -127,7 +127,7 @@ fn steradian_charlie_lobe(lobe: SteradianCharlieLobe, l: vec3f) -> f32 {
 //   CosineLobe lobe = lobe_product_isotropic(p);
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A cosine lobe: scale (u.axis)^exponent.
 struct SteradianCosineLobe {

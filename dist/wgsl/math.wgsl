@@ -245,7 +245,7 @@ fn steradian_trig_atan_over_argument_24_bits(q: f32) -> f32 {
 //   t        1 - c, in [0, 1]
 //   returns  1 at t = 0 to pi/2 at t = 1
 //
-// Error: see docs/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
+// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
 fn steradian_trig_angle_over_sine_acute(t: f32) -> f32 {
     return steradian_trig_angle_over_sine_24_bits(t);
 }
@@ -268,7 +268,7 @@ fn steradian_trig_angle_over_sine(c: f32, s2: f32) -> f32 {
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
 //
 // Degenerate: (0, 0) gives 0. Scale does not matter as long as the smaller over the larger does not underflow.
-// Error: see docs/accuracy.md, "atan2".
+// Error: see docs/measured/accuracy.md, "atan2".
 fn steradian_trig_atan2(y: f32, x: f32) -> f32 {
     let ax = abs(x);
     let ay = abs(y);

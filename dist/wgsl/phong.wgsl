@@ -32,7 +32,7 @@
 //
 // With m = n + 1, theta the angle from r and psi the azimuth about r,
 //     m * moment = closed integral over the outline of (1 - max(cos theta, 0)^m) dpsi
-// for any real n > -1, as long as -r is not inside (docs/moments.md derives it). No parity of n, no solid angle, no
+// for any real n > -1, as long as -r is not inside (docs/theory/moments.md derives it). No parity of n, no solid angle, no
 // vertices on the lobe's equator. On an edge, phi is the angle along its great circle from the foot, the point
 // nearest to r, where u.r = c; s = sin of the angle from r to the circle's plane; x = u.r = c cos phi and
 // y = c sin phi. The edge's share is
@@ -182,10 +182,10 @@ fn steradian_moment_phong_radiance(sum: f32, reversed: bool) -> f32 {
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides moment_quadrature_piece until it converges (source/integrals/exact_moment.cpp); moment_quadrature_front
+// subdivides moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
-// Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
+// Source: this project (docs/theory/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 
 // The values that the integrand needs from an edge and a lobe.
 //   t0, t1   ends of the part in front
@@ -273,7 +273,7 @@ fn steradian_moment_quadrature_piece(q: SteradianMomentQuadrature, low: f32, hig
 //   moment   |s| times the integral of (1 - x^m)/(1 - x^2) dphi, m = n + 1
 //   power    the integral of x^m dphi
 //
-// Error: see docs/accuracy.md, "phong quadrature".
+// Error: see docs/measured/accuracy.md, "phong quadrature".
 fn steradian_moment_quadrature_front(edge: SteradianMomentEdge, n: f32) -> SteradianMomentIntegrands {
     let q = steradian_moment_quadrature_prepare(edge, n);
     let to0 = steradian_moment_quadrature_piece(q, 0.0, q.t0);
@@ -295,7 +295,7 @@ fn steradian_moment_quadrature_front(edge: SteradianMomentEdge, n: f32) -> Stera
 // amplitudes depend on kap^2 and 1/m alone and carry the factor 1 - kap^2 = c^m, so that the error vanishes away
 // from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
 // Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 
 // A lobe's series: amplitude of harmonic k is (1 - kap2) times a cubic in kap2, constant first.
 struct SteradianMomentSeries {
@@ -457,7 +457,7 @@ fn steradian_moment_warp(edge: SteradianMomentEdge, m: f32) -> SteradianMomentWa
 //   edge     by moment_edge
 //   series   by moment_series_prepare, n >= 1
 //
-// Error: see docs/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
+// Error: see docs/measured/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
 fn steradian_moment_series_front(edge: SteradianMomentEdge, series: SteradianMomentSeries) -> f32 {
     let warp = steradian_moment_warp(edge, series.m);
     let t = warp.kap2;
@@ -497,7 +497,7 @@ fn steradian_moment_series_high_front(edge: SteradianMomentEdge, series: Steradi
 // The integral of cos^n from the foot is an incomplete beta function. With v^2 = -2 log cos phi it becomes that of
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
-// Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
+// Source: this project (docs/theory/moments.md); the double-axis moment: Arvo 1995, sec. 5.
 
 // The integral of cos^n phi from the foot to the end (x, y) = (c cos phi, c sin phi), |phi| <= pi/2, n >= 4.
 //

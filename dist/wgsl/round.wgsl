@@ -139,7 +139,7 @@ fn steradian_light_elements_irradiance_vector(e: SteradianLightElements) -> vec3
 // irradiance vector is  1/2 INT u x u' / |u|^2 dtau,  a quadratic over a quartic. The quartic |u|^2 is positive: its
 // two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
-// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
+// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/theory/ggx.md has the derivation.
 
 // A prepared arc, in units of tau in which the poles' distances from 0 have the product 1.
 //   u0..u2      the curve
@@ -353,7 +353,7 @@ fn steradian_conic_vector_approximate(arc: SteradianConicArc, wanted: bool) -> v
 
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
-// Error: docs/accuracy.md, "Float against double", conic vector.
+// Error: docs/measured/accuracy.md, "Float against double", conic vector.
 fn steradian_conic_vector(arc: SteradianConicArc) -> vec3f {
     var e = steradian_conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + steradian_conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the
@@ -417,7 +417,7 @@ fn steradian_ellipse_arc(e: SteradianEllipse, begin: f32, end: f32) -> Steradian
 //   e        of ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
-// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
 fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     let up = vec2f(e.axis_a.z, e.axis_b.z);
@@ -566,7 +566,7 @@ fn steradian_ellipse_nearest(e: SteradianEllipse) -> vec2f {
 // fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/theory/ggx.md, section 6.
 fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan {
     let e = usual.ellipse;
     var fan = usual;
@@ -592,7 +592,7 @@ fn steradian_ellipse_fan_near(usual: SteradianEllipseFan) -> SteradianEllipseFan
 //
 // A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
 // the lobe's width over the rim's size say.
-// Source: this project; table of errors in docs/ggx.md.
+// Source: this project; table of errors in docs/theory/ggx.md.
 fn steradian_ellipse_fan_concentrated(e: SteradianEllipse, r: vec3f, width: f32) -> SteradianEllipseFan {
     let normal = cross(e.axis_a, e.axis_b);
     let n2 = max(dot(normal, normal), steradian_smallest_divisor());
@@ -708,7 +708,7 @@ fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
 //
-// Error: docs/accuracy.md, "Float against double", ellipse.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse.
 fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
@@ -892,7 +892,7 @@ fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: 
 //   c        of capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
-// Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
 fn steradian_capsule_irradiance_vector(c: SteradianCapsule) -> vec3f {
     var e = steradian_capsule_whole_vector(c);
     let cut = min(c.end_a.z, c.end_b.z) < c.radius;
@@ -931,7 +931,7 @@ fn steradian_capsule_irradiance_vector(c: SteradianCapsule) -> vec3f {
 //   end_a, end_b  from the shading point
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
-// Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
+// Error: docs/measured/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
 // Source: as for any linear light; here the limit of capsule_whole_vector.
 fn steradian_line_irradiance_vector(end_a: vec3f, end_b: vec3f) -> vec3f {
     let wa = abs(end_a.z);
@@ -1094,7 +1094,7 @@ fn steradian_capsule_fan(c: SteradianCapsule, r: vec3f, width: f32, count: i32) 
 // Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
 // corners of the two ends lie in different planes.
 //
-// Error: see docs/ggx.md, "Round lights".
+// Error: see docs/theory/ggx.md, "Round lights".
 fn steradian_capsule_fan_corner(fan: SteradianCapsuleFan, k: i32) -> vec3f {
     let first = f32(k) < fan.a.corners;
     var end: SteradianCapsuleEnd;

@@ -7,7 +7,7 @@
 namespace steradian {
 
 // Fraction of a uniform sky's light that the lobe with F = 1 sends to the view, in (0, 1]: one bounce between the facets. Isotropic lobes
-// use the shipped table, anisotropic ones 128 nodes over the visible normals; error: docs/ltc.md, "Layers".
+// use the shipped table, anisotropic ones 128 nodes over the visible normals; error: docs/theory/ltc.md, "Layers".
 double ggx_albedo(const Material& material, const ShadingPoint& at);
 
 // The same for Charlie's sheen of colour 1, by its table. cosine: cosine of the view to the normal.

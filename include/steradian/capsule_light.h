@@ -1,5 +1,5 @@
 // Tubes as lights, capsules and lines: their irradiance without approximation, and polygons that replace them for all other lobes.
-// docs/ggx.md, "Round lights".
+// docs/theory/ggx.md, "Round lights".
 #pragma once
 
 #include "steradian/area_light.h"  // Capsule
@@ -8,7 +8,8 @@
 namespace steradian {
 
 // Irradiance [radiance times sr] of radiance 1 at a point with a unit normal, of the part above the horizon, in [0, pi]. Exact: the
-// outline's arcs and edges in closed form. 0 from inside, and for a radius of 0. Error: docs/accuracy.md, "Float against double", capsule.
+// outline's arcs and edges in closed form. 0 from inside, and for a radius of 0. Error: docs/measured/accuracy.md, "Float against double",
+// capsule.
 double capsule_irradiance(const Capsule& capsule, Vec3d position, Vec3d normal);
 float capsule_irradiance_float(const Capsule& capsule, Vec3d position, Vec3d normal);
 

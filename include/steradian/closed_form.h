@@ -1,4 +1,4 @@
-// Polygon lights on microfacet surfaces without sampling: GGX in closed form. docs/ggx.md derives it.
+// Polygon lights on microfacet surfaces without sampling: GGX in closed form. docs/theory/ggx.md derives it.
 #pragma once
 
 #include "steradian/material.h"
@@ -10,7 +10,7 @@ namespace steradian {
 
 // Radiance towards the view of a GGX surface (Brdf::ggx, isotropic or anisotropic, with or without shadowing).
 // 0 for a view below the surface, a light seen from behind (unless two-sided) and a light without area.
-// Error: docs/accuracy.md, "GGX with shadowing and Fresnel". Throws Error for another lobe.
+// Error: docs/measured/accuracy.md, "GGX with shadowing and Fresnel". Throws Error for another lobe.
 Vec3d closed_form_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                            Quality quality = Quality::normal);
 Vec3d closed_form_radiance_float(const PreparedPolygon& light, const ShadingPoint& at, const Material& material,

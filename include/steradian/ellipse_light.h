@@ -1,5 +1,5 @@
 // Disks, ellipses, spheres and ellipsoids as lights: their irradiance without approximation, and polygons that replace them for all other
-// lobes. docs/ggx.md, "Round lights".
+// lobes. docs/theory/ggx.md, "Round lights".
 #pragma once
 
 #include "steradian/area_light.h"  // Ellipse, silhouette
@@ -10,7 +10,7 @@ namespace steradian {
 
 // Irradiance [radiance times sr] of radiance 1 at a point with a unit normal, of the part above the horizon, in [0, pi].
 // Exact: arcs of the ellipse in closed form. 0 from behind (the side from which x cross y points away) and in its plane.
-// Error: docs/accuracy.md, "Float against double", ellipse.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse.
 double ellipse_irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal);
 float ellipse_irradiance_float(const Ellipse& ellipse, Vec3d position, Vec3d normal);
 

@@ -59,8 +59,8 @@ struct LobeFitOptions {
   std::function<void()> cell_done;  // called after every node, from any thread
 };
 
-// Fits a table and writes it in the format of the path's ending: .json (for `render --table`), .h, .glsl, .dds, .exr; docs/ltc.md. The
-// bytes are the same on any number of threads. Throws Error for other endings and if the file cannot be written.
+// Fits a table and writes it in the format of the path's ending: .json (for `render --table`), .h, .glsl, .dds, .exr; docs/theory/ltc.md.
+// The bytes are the same on any number of threads. Throws Error for other endings and if the file cannot be written.
 LobeFit fit_lobe_table(const LobeFamily& family, const std::string& path, const LobeFitOptions& options = {});
 
 // A measured BRDF; values are luminances of f [1/sr].

@@ -19,7 +19,7 @@ bool serves(LtcMethod method, const Material& material);
 
 // Radiance towards the view from a light of its radiance, with Fresnel by the split into n_A and f_A (except fresnel). 0 for a view below
 // the surface, exactly 0 for a light entirely below the horizon (except clipless), 0 from behind. Precondition: serves(method, material).
-// Error against GGX: docs/ltc.md.
+// Error against GGX: docs/theory/ltc.md.
 Vec3d ltc_radiance(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
 // The same with arithmetic in float.
 Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const ShadingPoint& at, const Material& material);
@@ -27,7 +27,7 @@ Vec3d ltc_radiance_float(LtcMethod method, const PreparedPolygon& light, const S
 // The GGX tables that the library ships: raw values, for textures and for shaders.
 struct LtcTableView {
   int classic_size;
-  const float* matrix;     // classic_size^2 RGBA: M^-1 over its middle element, as in docs/ltc.md
+  const float* matrix;     // classic_size^2 RGBA: M^-1 over its middle element, as in docs/theory/ltc.md
   const float* magnitude;  // classic_size^2 RGBA: n_A, f_A, 0, form factor of a clipped sphere
   int shape_size;
   const float* shapes;  // shape_size^2 times 4: the arguments of ltc_from_compact

@@ -6,7 +6,7 @@
 //
 // Radiance = albedo (n + 1)/(2 pi) integral over the light of max(u.r, 0)^n, where r is the mirrored view. There is no foreshortening
 // unless the material asks for it. Then the integrand is max(u.r, 0)^n max(u.normal, 0), by exact, arvo and series.
-// Derivation, errors and speed of the methods: docs/moments.md.
+// Derivation, errors and speed of the methods: docs/theory/moments.md.
 #pragma once
 
 #include "steradian/material.h"
@@ -16,7 +16,7 @@
 
 namespace steradian {
 
-// The peak fits' f in their integrand (f - x^m)/(1 - x^2): docs/moments.md, "The published fits".
+// The peak fits' f in their integrand (f - x^m)/(1 - x^2): docs/theory/moments.md, "The published fits".
 enum class PeakForm {
   best,       // the one that is closer, for each fit
   one,        // f = 1

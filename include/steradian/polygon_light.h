@@ -46,7 +46,7 @@ struct PreparedPolygon {
 PreparedPolygon prepare_polygon(const PolygonLight& light);
 
 // Irradiance [radiance times sr] of radiance 1 at a point with a unit normal, in double, in [0, pi].
-// 0 from behind (unless two-sided), and in the light's plane. Error: docs/accuracy.md, "polygon irradiance".
+// 0 from behind (unless two-sided), and in the light's plane. Error: docs/measured/accuracy.md, "polygon irradiance".
 double polygon_irradiance(const PreparedPolygon& light, Vec3d position, Vec3d normal);
 float polygon_irradiance_float(const PreparedPolygon& light, Vec3d position, Vec3d normal);
 

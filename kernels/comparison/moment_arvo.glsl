@@ -22,7 +22,7 @@ real moment_solid_angle_front(MomentEdge edge) {
 //   can_stop 1: stop when what is left is below relative_precision of the sum; 0: sum everything. Every lane waits for
 //            the slowest: at grazing views, where c is near 1, the stop comes late or never.
 //
-// Error: see docs/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
+// Error: see docs/measured/accuracy.md, "phong recurrence"; the recurrence is stable, its factor is below c^2.
 real moment_arvo_front(MomentEdge edge, int n, int can_stop, real relative_precision) {
     int odd_m = 1 - (n - (n / 2) * 2);
     real c2 = edge.c * edge.c;

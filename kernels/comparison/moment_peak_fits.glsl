@@ -4,7 +4,7 @@
 // and 1 otherwise, but each serves every n.
 // Each fit is a peak P with an antiderivative, scaled to I's largest and smallest value and to its value at the half
 // width x_w; the blends also meet I at a place in the tail. For comparison with moment_series.glsl, which is both
-// faster and closer. Corrected against the paper where its prints do not hold (docs/moments.md lists the places).
+// faster and closer. Corrected against the paper where its prints do not hold (docs/theory/moments.md lists the places).
 // Source: Lecocq, Dufay, Sourimant, Marvie, "Analytic approximations for real-time area light shading", 2017,
 // eq. 5 to 16; its order N is n - 1 here.
 // Needs: constants.glsl, moment_arvo.glsl, phong.glsl
@@ -196,7 +196,7 @@ real moment_fit_front(MomentEdge edge, MomentPeak p, MomentFit fit, int f_is_x) 
     return max(front, 0.0);
 }
 
-// The Lorentzian for one edge. Error: see docs/accuracy.md, "phong peak fits".
+// The Lorentzian for one edge. Error: see docs/measured/accuracy.md, "phong peak fits".
 real moment_lorentzian_front(MomentEdge edge, real n, int f_is_x) {
     MomentPeak p = moment_peak_prepare(edge, n, f_is_x);
     return moment_fit_front(edge, p, moment_fit_lorentzian(p), f_is_x);

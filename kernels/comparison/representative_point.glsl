@@ -72,7 +72,7 @@ vec3 representative_direction(RepresentativeWalk walk, vec3 mirror, mask reverse
 //
 // Degenerate: 0 where the representative direction is below the horizon. For a mirror inside the light: at most 1, and
 // towards alpha = 0 it is 1.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 real representative_radiance(RepresentativeWalk walk, vec3 view, vec3 mirror, real solid_angle, real alpha, mask reversed) {
     vec3 l = representative_direction(walk, mirror, reversed);
     vec3 h = microfacet_half_vector(l, view);

@@ -84,7 +84,7 @@ CharlieCubature charlie_cubature_edge(CharlieCubature c, vec3 a, vec3 b) {
 
 // Radiance of colour 1 for radiance 1, at least 0.
 //
-// Error: see docs/accuracy.md, "Sheen".
+// Error: see docs/measured/accuracy.md, "Sheen".
 real charlie_cubature_finish(CharlieCubature c) {
     return max(c.sum + c.at_centre * charlie_lobe(c.lobe, c.centre), 0.0);
 }

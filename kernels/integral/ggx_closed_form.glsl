@@ -9,7 +9,7 @@
 //   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
 //   negated where the light is seen from behind; then ggx_unshadowed(view, E).
 //
-// docs/ggx.md has the derivation.
+// docs/theory/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
 // Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl
 // Topics: ggx

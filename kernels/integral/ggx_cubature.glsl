@@ -187,7 +187,7 @@ vec2 ggx_limited(real amount, vec2 mean, real smith) {
 //   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
 //
 // Degenerate: weights that cancel leave the centre's value.
-// Error: see docs/accuracy.md, "GGX with shadowing and Fresnel".
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
 vec2 ggx_cubature_finish(GgxCubature c) {
     // The centre's values are known all along, its weight only now.
     real o = c.centre_weight * max(dot(c.view.w, c.centre), 0.0);

@@ -42,7 +42,7 @@ real half_vector_split_uniform(ConicArc edge, real share) {
 // Newton's steps where they halve what is left, else the middle of a bracket: 5 or 6 as a rule, 24 at most; to the last
 // digits, since a light that is thin, or seen edge-on, is what two edges leave of each other's errors: both must be split
 // at the same places.
-// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/ggx.md).
+// Source: this project; the share 0.3 keeps arcs for where the lobe is dim (table in docs/theory/ggx.md).
 real half_vector_split_pole_mapped(ConicArc edge, real share) {
     real first = trig_atan2(edge.scale * edge.begin, 1.0);
     real last = trig_atan2(edge.scale * edge.end, 1.0);
@@ -118,7 +118,7 @@ struct HalfVectorNode {
 // between them has the solid angle -g n.(x dx) / |x|^3 at the middle. In tau the nodes lie by the map of ends to ends that is
 // a quotient of lines and has the slopes of the splits: dense where the arc passes the lobe.
 // Degenerate: an arc of no length has no sliver.
-// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/accuracy.md, "Half vectors".
+// Error: of the rule, with four nodes a tenth to a hundredth of what the great circle alone is off; docs/measured/accuracy.md, "Half vectors".
 // Source: this project.
 HalfVectorNode half_vector_between(GgxView view, ConicArc edge, ConicNode first, ConicNode last, vec3 a, vec3 b, vec2 rule) {
     real bend = sqrt(first.density / max(last.density, smallest_divisor()));
@@ -184,7 +184,7 @@ real blinn_phong_arc(vec3 a, vec3 b, vec3 v, real n) {
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
 //
-// Error: of the series, see docs/accuracy.md, "phong series".
+// Error: of the series, see docs/measured/accuracy.md, "phong series".
 real blinn_phong_arc_approximate(vec3 a, vec3 b, vec3 v, MomentSeries series, real n, int range) {
     vec3 z = vec3(0.0, 0.0, 1.0);
     MomentEdge edge = moment_edge(a, b, z);
@@ -225,7 +225,7 @@ MomentSeriesHigh beckmann_series() {
 //
 // In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
 // w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
-// Error: of the series; see docs/accuracy.md, "half vector".
+// Error: of the series; see docs/measured/accuracy.md, "half vector".
 real beckmann_arc(GgxView view, vec3 a, vec3 b, MomentSeriesHigh series) {
     real za = 1.0 / max(a.z, 1.0e-6);
     real zb = 1.0 / max(b.z, 1.0e-6);

@@ -2,7 +2,7 @@
 //
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
-// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/ltc.md.
+// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/theory/ltc.md.
 // Needs: constants.glsl inverse_trig.glsl polygon.glsl microfacet.glsl
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.

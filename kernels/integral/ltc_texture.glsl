@@ -3,7 +3,7 @@
 // The mean of a texture over a light, weighted with the lobe, is read from blurred copies of the texture: around the
 // point where the irradiance vector of the light under M^-1, brought back by M, meets the light's plane. The footprint is a
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
-// cone, per radian; the caller multiplies them by the widths of docs/ltc.md, "Textured lights":
+// cone, per radian; the caller multiplies them by the widths of docs/theory/ltc.md, "Textured lights":
 //
 //   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
 //   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
@@ -60,7 +60,7 @@ vec3 ltc_texture_irradiance_vector(LtcWalk walk, mask reversed) {
 // A direction w turned by a small angle e across itself meets the plane at M w t + e (M c - M w (n.Mc)/(n.Mw)) t.
 //
 // Degenerate: a light that sends nothing, or a vector along the plane, has a footprint of size 0 that is not valid.
-// Error: docs/ltc.md, "Textured lights".
+// Error: docs/theory/ltc.md, "Textured lights".
 LtcTextureFootprint ltc_texture_footprint(LtcMatrix m, vec3 phi, vec3 normal, real height) {
     real p2 = dot(phi, phi);
     mask lit = p2 > smallest_divisor();

@@ -2,7 +2,7 @@
 //
 // With m = n + 1, theta the angle from r and psi the azimuth about r,
 //     m * moment = closed integral over the outline of (1 - max(cos theta, 0)^m) dpsi
-// for any real n > -1, as long as -r is not inside (docs/moments.md derives it). No parity of n, no solid angle, no
+// for any real n > -1, as long as -r is not inside (docs/theory/moments.md derives it). No parity of n, no solid angle, no
 // vertices on the lobe's equator. On an edge, phi is the angle along its great circle from the foot, the point
 // nearest to r, where u.r = c; s = sin of the angle from r to the circle's plane; x = u.r = c cos phi and
 // y = c sin phi. The edge's share is

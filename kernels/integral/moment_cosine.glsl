@@ -3,7 +3,7 @@
 // The integral of cos^n from the foot is an incomplete beta function. With v^2 = -2 log cos phi it becomes that of
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
-// Source: this project (docs/moments.md); the double-axis moment: Arvo 1995, sec. 5.
+// Source: this project (docs/theory/moments.md); the double-axis moment: Arvo 1995, sec. 5.
 // Needs: constants.glsl, moment_series.glsl, phong.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.

@@ -4,7 +4,7 @@
 // subdivides moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
-// Source: this project (docs/moments.md); nodes: roots of the Legendre polynomial of degree 14.
+// Source: this project (docs/theory/moments.md); nodes: roots of the Legendre polynomial of degree 14.
 // Needs: constants.glsl moment.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
@@ -95,7 +95,7 @@ MomentIntegrands moment_quadrature_piece(MomentQuadrature q, real low, real high
 //   moment   |s| times the integral of (1 - x^m)/(1 - x^2) dphi, m = n + 1
 //   power    the integral of x^m dphi
 //
-// Error: see docs/accuracy.md, "phong quadrature".
+// Error: see docs/measured/accuracy.md, "phong quadrature".
 MomentIntegrands moment_quadrature_front(MomentEdge edge, real n) {
     MomentQuadrature q = moment_quadrature_prepare(edge, n);
     MomentIntegrands to0 = moment_quadrature_piece(q, 0.0, q.t0);

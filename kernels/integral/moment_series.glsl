@@ -7,7 +7,7 @@
 // amplitudes depend on kap^2 and 1/m alone and carry the factor 1 - kap^2 = c^m, so that the error vanishes away
 // from the highlight. Valid for n >= 1; moment_cosine.glsl serves 0 <= n < 1.
 // Coefficients: tools/fit_phong_series finds them; the test PhongSeries.CoefficientsAreTheFittedOnes compares.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 // Needs: constants.glsl moment.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
@@ -172,7 +172,7 @@ MomentWarp moment_warp(MomentEdge edge, real m) {
 //   edge     by moment_edge
 //   series   by moment_series_prepare, n >= 1
 //
-// Error: see docs/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
+// Error: see docs/measured/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
 real moment_series_front(MomentEdge edge, MomentSeries series) {
     MomentWarp warp = moment_warp(edge, series.m);
     real t = warp.kap2;

@@ -74,7 +74,7 @@ CharlieLobe charlie_prepare(vec3 v, real alpha) {
 //   l        unit; 0 where it is not above the surface
 //
 // Degenerate: l = -v has no half vector and gives a finite number.
-// Error: see docs/accuracy.md, "Charlie lobe".
+// Error: see docs/measured/accuracy.md, "Charlie lobe".
 real charlie_lobe(CharlieLobe lobe, vec3 l) {
     vec3 h = l + lobe.view;
     real across = h.x * h.x + h.y * h.y;

@@ -37,7 +37,7 @@ real lambert_grazing_of_sky(real v_z) {
 //   e        irradiance vector of the light above the horizon; e.z its irradiance, in [0, pi]
 //   v        unit view
 //
-// Exact for small lights and for the whole sky. Error: see docs/accuracy.md, "Diffuse under Fresnel".
+// Exact for small lights and for the whole sky. Error: see docs/measured/accuracy.md, "Diffuse under Fresnel".
 // Degenerate: no light gives a number in [0, 1].
 real lambert_grazing_of_light(vec3 e, vec3 v) {
     vec3 mean = e * inversesqrt(max(dot(e, e), smallest_square()));

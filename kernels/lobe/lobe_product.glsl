@@ -11,7 +11,7 @@
 //   CosineLobe lobe = lobe_product_isotropic(p);
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
-// Source: this project (docs/moments.md).
+// Source: this project (docs/theory/moments.md).
 // Needs: constants.glsl frame.glsl
 // Topics: lobe_product, cosine_lobe, stretched_lobe
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.

@@ -97,7 +97,7 @@ real trig_atan_over_argument_53_bits(real q) {
 //   t        1 - c, in [0, 1]
 //   returns  1 at t = 0 to pi/2 at t = 1
 //
-// Error: see docs/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
+// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
 real trig_angle_over_sine_acute(real t) {
     if (real_digits() > 24) {
         return trig_angle_over_sine_53_bits(t);
@@ -123,7 +123,7 @@ real trig_angle_over_sine(real c, real s2) {
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
 //
 // Degenerate: (0, 0) gives 0. Scale does not matter as long as the smaller over the larger does not underflow.
-// Error: see docs/accuracy.md, "atan2".
+// Error: see docs/measured/accuracy.md, "atan2".
 real trig_atan2(real y, real x) {
     real ax = abs(x);
     real ay = abs(y);

@@ -178,7 +178,7 @@ PolygonWalk capsule_add_arc(PolygonWalk walk, vec3 center, real radius, vec3 mid
 //   c        of capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
-// Error: docs/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
 vec3 capsule_irradiance_vector(Capsule c) {
     vec3 e = capsule_whole_vector(c);
     mask cut = min(c.end_a.z, c.end_b.z) < c.radius;
@@ -217,7 +217,7 @@ vec3 capsule_irradiance_vector(Capsule c) {
 //   end_a, end_b  from the shading point
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
-// Error: docs/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
+// Error: docs/measured/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
 // Source: as for any linear light; here the limit of capsule_whole_vector.
 vec3 line_irradiance_vector(vec3 end_a, vec3 end_b) {
     real wa = abs(end_a.z);
@@ -380,7 +380,7 @@ CapsuleFan capsule_fan(Capsule c, vec3 r, real width, int count) {
 // Corner k of the polygon, k from 0, as a vector from the shading point, in walk order. Only its direction counts: the
 // corners of the two ends lie in different planes.
 //
-// Error: see docs/ggx.md, "Round lights".
+// Error: see docs/theory/ggx.md, "Round lights".
 vec3 capsule_fan_corner(CapsuleFan fan, int k) {
     mask first = real(k) < fan.a.corners;
     CapsuleEnd end;

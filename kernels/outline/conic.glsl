@@ -4,7 +4,7 @@
 // irradiance vector is  1/2 INT u x u' / |u|^2 dtau,  a quadratic over a quartic. The quartic |u|^2 is positive: its
 // two conjugate pairs of roots, the poles, say where the curve passes the origin and how closely, and the integral is a
 // sum of residues times logarithms. Straight edges, circles and ellipses are such curves, and so is the half vector of
-// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/ggx.md has the derivation.
+// a light's edge stretched by a GGX surface (ggx_closed_form.glsl). docs/theory/ggx.md has the derivation.
 // Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -227,7 +227,7 @@ vec3 conic_vector_approximate(ConicArc arc, mask wanted) {
 
 // An arc's share of the irradiance vector: 1/2 INT u x u' / |u|^2 dtau [rad].
 //
-// Error: docs/accuracy.md, "Float against double", conic vector.
+// Error: docs/measured/accuracy.md, "Float against double", conic vector.
 vec3 conic_vector(ConicArc arc) {
     vec3 e = conic_residue(arc, arc.z1, arc.z2, arc.sweep.x) + conic_residue(arc, arc.z2, arc.z1, arc.sweep.y);
     // Poles nearer to each other than this share of their heights, squared: residues lose the inverse of the share, and the

@@ -48,7 +48,7 @@ ConicArc ellipse_arc(Ellipse e, real begin, real end) {
 //   e        of ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
-// Error: docs/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
 vec3 ellipse_irradiance_vector(Ellipse e) {
     // Axes from the highest place: axis_a up the ellipse, axis_b level.
     vec2 up = vec2(e.axis_a.z, e.axis_b.z);
@@ -203,7 +203,7 @@ vec2 ellipse_nearest(Ellipse e) {
 // fixed share of the radius stands out, or leaves out, would else be the half of what is seen.
 //
 // From the rim's nearest place, steps as long as half the distance, growing with it by a constant factor: to the eye all
-// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/ggx.md, section 6.
+// are alike. The other half stays with the lobe, which may meet the rim elsewhere. Of 32 corners, errors: docs/theory/ggx.md, section 6.
 EllipseFan ellipse_fan_near(EllipseFan usual) {
     Ellipse e = usual.ellipse;
     EllipseFan fan = usual;
@@ -229,7 +229,7 @@ EllipseFan ellipse_fan_near(EllipseFan usual) {
 //
 // A map of the circle onto itself (Moebius) concentrates the corners; how far, the distance of the axis from the rim and
 // the lobe's width over the rim's size say.
-// Source: this project; table of errors in docs/ggx.md.
+// Source: this project; table of errors in docs/theory/ggx.md.
 EllipseFan ellipse_fan_concentrated(Ellipse e, vec3 r, real width) {
     vec3 normal = cross(e.axis_a, e.axis_b);
     real n2 = max(dot(normal, normal), smallest_divisor());
@@ -345,7 +345,7 @@ vec3 ellipse_pushed_corner(EllipseFan fan, vec2 before, vec2 here, vec2 after) {
 
 // Corner k of the polygon with count corners (even, 6 to 64), k from 0, as a vector from the shading point, in walk order.
 //
-// Error: docs/accuracy.md, "Float against double", ellipse.
+// Error: docs/measured/accuracy.md, "Float against double", ellipse.
 vec3 ellipse_fan_corner(EllipseFan fan, int k, int count) {
     return ellipse_pushed_corner(fan, ellipse_corner(fan, k - 1, count), ellipse_corner(fan, k, count), ellipse_corner(fan, k + 1, count));
 }

@@ -33,7 +33,7 @@ vec3 polygon_direction(vec3 v) {
 //   returns  its z is what the edge sends to a surface with normal z; divided by pi: the form factor's share
 //
 // Degenerate: a = b gives 0; a = -b spans no plane and gives 0.
-// Error: see docs/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
+// Error: see docs/measured/accuracy.md, "polygon edge"; the normal is taken from the ends' difference, so that the rounding of the
 // product is a share of the edge's length and not of 1.
 // Source: Lambert 1760; Baum, Rushmeier, Winget, "Improving radiosity solutions through the use of analytically
 // determined form-factors", 1989, eq. 6.
@@ -102,7 +102,7 @@ vec3 polygon_irradiance_vector(PolygonWalk walk, mask reversed) {
 
 // Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
 //
-// Error: see docs/accuracy.md, "polygon irradiance".
+// Error: see docs/measured/accuracy.md, "polygon irradiance".
 real polygon_irradiance(PolygonWalk walk, mask reversed) {
     vec3 e = polygon_irradiance_vector(walk, reversed);
     return e.z;
@@ -144,7 +144,7 @@ SolidAngleWalk solid_angle_add_edge(SolidAngleWalk walk, vec3 a, vec3 b) {
 //
 //   reversed true where the light is seen from behind, so that the walk ran the wrong way round
 //
-// Error: see docs/accuracy.md, "polygon solid angle".
+// Error: see docs/measured/accuracy.md, "polygon solid angle".
 real solid_angle_finish(SolidAngleWalk walk, mask reversed) {
     real y = select(reversed, -walk.product.y, walk.product.y);
     return max(2.0 * trig_atan2_unwrapped(y, walk.product.x), 0.0);

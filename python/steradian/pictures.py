@@ -55,7 +55,7 @@ def render(scene: Union[_core.Scene, Path], width: int = 1280, height: int = 720
     """A scene as a picture of linear radiance, (height, width, 3) float32, the top row first.
 
     scene     what load_scene returned, or a path
-    method    of the specular lobe: a name of `steradian render --help`
+    method    of the specular lobe: a name that `steradian methods` lists
     shadows   "on", "exact" (never by rays) or "off"
     lights    "all" one by one, "tree": far ones together, each within light_error of its light, or "auto": the tree from 64 on
     indirect  one bounce: "off", "ltc", "ggx" or "path"

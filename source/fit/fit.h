@@ -22,7 +22,7 @@ struct LtcCell {
   double f_a() const { return grazing / above_horizon; }
 };
 
-// Distance that the optimiser minimises: |difference| to the power 1, 2 or 3. docs/ltc.md compares them.
+// Distance that the optimiser minimises: |difference| to the power 1, 2 or 3. docs/theory/ltc.md compares them.
 enum class FitNorm { l1 = 1, l2 = 2, l3 = 3 };
 
 struct FitOptions {

@@ -186,8 +186,8 @@ TEST(LtcTable, KeepsTheErrorThatIsClaimed) {
               classic_smooth, compact_smooth);
 }
 
-// Errors of dielectrics that docs/ltc.md states: by n_A and f_A, and by the table of Fresnel's lobe. 2^12 directions instead of 2^17 have
-// an error of 2^(-9) of the signal, whose square adds to the error's.
+// Errors of dielectrics that docs/theory/ltc.md states: by n_A and f_A, and by the table of Fresnel's lobe. 2^12 directions instead of 2^17
+// have an error of 2^(-9) of the signal, whose square adds to the error's.
 TEST(LtcTable, OfFresnelsLobeKeepsTheErrorThatIsClaimed) {
   const auto classic = [](double r, double c) { return ggx_classic_table().look_up(r, c); };
   const auto fresnel = [](double r, double c) { return ggx_fresnel_table().look_up(r, c); };

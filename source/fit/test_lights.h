@@ -14,7 +14,7 @@ namespace steradian::fit {
 using TestRectangle = std::array<Vec3d, 4>;
 
 // Centres uniform over the directions above -6 degrees, at distance 1, half sides of 0.2 to 1, tilted up to 60 degrees away from the
-// origin. The error figures of docs/ltc.md use these.
+// origin. The error figures of docs/theory/ltc.md use these.
 std::vector<TestRectangle> test_rectangles(int count, std::uint64_t seed);
 
 // The same, but every other centre is in a direction to which the lobe sends light: a narrow lobe misses most others.

@@ -1,4 +1,4 @@
-// Error of the look-up of a textured light against the integral of texture times lobe: the table of docs/ltc.md.
+// Error of the look-up of a textured light against the integral of texture times lobe: the table of docs/theory/ltc.md.
 #pragma once
 
 #include <string>

@@ -22,8 +22,8 @@ Material material(Brdf brdf, double width) {
   return m;
 }
 
-// Largest error of a method, as a fraction of the full lobe. It is the largest error of docs/accuracy.md for lights of ordinary size, plus
-// a rounding. That is the rounding of vertices that lie `size` times as far away as the visible part of the light.
+// Largest error of a method, as a fraction of the full lobe. It is the largest error of docs/measured/accuracy.md for lights of ordinary
+// size, plus a rounding. That is the rounding of vertices that lie `size` times as far away as the visible part of the light.
 double stated(Method method, const Material& m, Precision precision, double size) {
   const double rounding = precision == Precision::float_ ? 2e-5 : 1e-10 + 1e-15 * size;
   switch (method) {

@@ -156,48 +156,36 @@ constexpr const char* kNoQualities = "";
 
 // A new method is a row here and a name in include/steradian/method.h.
 constexpr Row kMethods[] = {
-    {Method::series, "series", "phong", phong_lobes, true, "normal, high",
-     "constant time: 1.3e-3 of the full lobe at worst, 4.5e-4 in high quality", phong<Method::series>, radiance_derivatives, any_density},
+    {Method::series, "series", "phong", phong_lobes, true, "normal, high", "1.3e-3; high: 4.5e-4", "constant an edge",
+     phong<Method::series>, radiance_derivatives, any_density},
     {Method::exact, "exact", "lambert; phong; ggx without shadowing and with f0 = f90", exact_lobes, true, kNoQualities,
-     "closed form without approximation; phong by quadrature along the outline to 1e-10 of the full lobe", exact, exact_derivatives,
-     exact_density},
-    {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities,
-     "Arvo's recurrence: exact, time grows with the exponent", phong<Method::arvo>},
-    {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities,
-     "published peak fit, for comparison: errors of 1e-2", phong<Method::lorentzian>},
-    {Method::pearson, "pearson", "phong without foreshortening", plain_phong, true, kNoQualities,
-     "the same, a blend of Lorentzian and Pearson VII", phong<Method::pearson>},
-    {Method::ellipsoid, "ellipsoid", "phong without foreshortening", plain_phong, true, kNoQualities, "the same, a blend of ellipsoids",
+     "rounding; phong: 1e-10", "phong: quadrature", exact, exact_derivatives, exact_density},
+    {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities, "rounding",
+     "grows with exponent", phong<Method::arvo>},
+    {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
+     phong<Method::lorentzian>},
+    {Method::pearson, "pearson", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
+     phong<Method::pearson>},
+    {Method::ellipsoid, "ellipsoid", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
      phong<Method::ellipsoid>},
-    {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high",
-     "the distribution's integral exactly, times the mean of shadowing and Fresnel: 0.1 to 0.2 % rms", closed_form, radiance_derivatives,
-     any_density},
-    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, "normal, high",
-     "linearly transformed cosines by the classic table of 64 x 64: 3 % rms of metals; in high quality 2 % of dielectrics, by a table "
-     "of Fresnel's own",
-     ltc<LtcMethod::classic, Method::ltc>, ltc_derivatives<LtcMethod::classic>, ltc_density<LtcMethod::classic>},
-    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true, kNoQualities,
-     "the same by a table of 4 KB about the mirrored view", ltc<LtcMethod::compact, Method::ltc_compact>,
-     ltc_derivatives<LtcMethod::compact>, ltc_density<LtcMethod::compact>},
+    {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high", "0.1 to 0.2 % rms", "constant an edge", closed_form,
+     radiance_derivatives, any_density},
+    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, "normal, high", "3 % rms",
+     "constant an edge", ltc<LtcMethod::classic, Method::ltc>, ltc_derivatives<LtcMethod::classic>, ltc_density<LtcMethod::classic>},
+    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true, kNoQualities, "3 % rms",
+     "constant an edge", ltc<LtcMethod::compact, Method::ltc_compact>, ltc_derivatives<LtcMethod::compact>,
+     ltc_density<LtcMethod::compact>},
     {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::clipless>, true, kNoQualities,
-     "ltc with a sphere's form factor in place of clipping, for comparison", ltc<LtcMethod::clipless, Method::ltc_clipless>},
+     "above ltc's at the horizon", "constant an edge", ltc<LtcMethod::clipless, Method::ltc_clipless>},
     {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::representative_point>,
-     true, kNoQualities, "one point of the light, Karis 2013, for comparison",
-     ltc<LtcMethod::representative_point, Method::representative_point>},
+     true, kNoQualities, "no bound; for comparison", "constant", ltc<LtcMethod::representative_point, Method::representative_point>},
     {Method::half_vector, "half-vector", "blinn-phong; beckmann; ggx", half_vector_lobes, true, "draft, normal, high",
-     "edges split into 3, 4 or 8 great-circle arcs in half-vector space, with what lies between arcs and images: 0.02 % rms; ggx takes "
-     "shadowing and Fresnel as closed-form does",
-     half_vector},
-    {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high",
-     "one stretched lobe of the product's height and curvature at its peak, by the series: 1 % of the product on most lights, more where "
-     "its axes are near 90 degrees apart",
+     "0.02 %; ggx: closed-form's", "3, 4 or 8 arcs", half_vector},
+    {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high", "1 % of most lights", "constant an edge",
      matched_lobe},
-    {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities,
-     "a few nodes about the light's mean direction: 0.1 % rms, 0.4 % on lights five times as large as their distance", cubature},
-    {Method::reference, "reference", "all", every_lobe, false, kNoQualities,
-     "adaptive quadrature (render: path tracing until converged); tells a bound of its error", reference},
-    {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities, "light and lobe sampling, --spp pairs; tells its standard error",
-     sampled},
+    {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities, "0.1 % rms", "a few nodes", cubature},
+    {Method::reference, "reference", "all", every_lobe, false, kNoQualities, "printed bound", "adaptive quadrature", reference},
+    {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities, "printed standard error", "grows with --spp", sampled},
 };
 
 }  // namespace
@@ -248,12 +236,6 @@ std::string names() {
   std::string names = "auto";
   for (const Row& row : kMethods) names += std::string(", ") + row.name;
   return names;
-}
-
-std::string help() {
-  std::string text = "Methods, in the order in which auto looks for one that serves a lobe (a draft takes ltc-compact before closed-form):";
-  for (const Row& row : kMethods) text += std::string("\n  ") + row.name + ": " + row.lobes + ". " + row.help;
-  return text;
 }
 
 }  // namespace steradian::methods

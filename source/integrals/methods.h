@@ -16,11 +16,12 @@ namespace steradian::methods {
 struct Row {
   Method method;
   const char* name;
-  const char* lobes;  // description of the lobes that `serves` accepts
+  const char* lobes;  // names of the lobes that `serves` accepts, for the table of `steradian methods`
   bool (*serves)(const Material& lobe);
   bool in_float;          // has Precision::float_
   const char* qualities;  // the supported ones, in words; empty: none
-  const char* help;       // one line
+  const char* error;      // the largest or the rms, for the table
+  const char* time;       // its growth with light and lobe, for the table
   // Radiance that the lobe sends to the view under a light. Precondition: serves(lobe).
   RadianceResult (*polygon)(const PreparedPolygon&, const ShadingPoint&, const Material&, const RadianceOptions&);
   // Derivatives by the light's vertices and the normal; null: the method has none. Throws Error for lobes without derivatives.
@@ -50,6 +51,5 @@ constexpr HalfVectorOptions half_vector_options(Quality quality) {
 RadianceResult nothing(Method method);
 
 std::string names();  // "auto, series, exact, ..."
-std::string help();   // a line a method, for --help
 
 }  // namespace steradian::methods

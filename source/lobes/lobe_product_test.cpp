@@ -82,8 +82,8 @@ TEST(ProductOfLobes, QuadratureKeepsItsBoundAndSamplingItsError) {
   EXPECT_LE(beyond, 2) << "of " << lit;
 }
 
-// Error of the one lobe that replaces the product, as a fraction of the product's height. The table of docs/moments.md has 2.9 % at most
-// for the whole lobe, as under a large light, and 1 % for parts of it: 4 % together. Here the axes are up to 75 degrees apart.
+// Error of the one lobe that replaces the product, as a fraction of the product's height. The table of docs/theory/moments.md has 2.9 % at
+// most for the whole lobe, as under a large light, and 1 % for parts of it: 4 % together. Here the axes are up to 75 degrees apart.
 TEST(ProductOfLobes, TheMatchedLobeIsNear) {
   Random random(64);
   double worst = 0, squares = 0;

@@ -34,7 +34,7 @@ template <class S>
 struct AboutLobe {
   typename Kernels<S>::vec3 axis;
   Real<S> width;
-  int corners;  // 12, or 16 for high quality (docs/ggx.md)
+  int corners;  // 12, or 16 for high quality (docs/theory/ggx.md)
 };
 inline constexpr int kMostCorners = 32;  // near a rim: ellipse.h
 template <class S>

@@ -268,7 +268,7 @@ TEST(CapsulePolygons, PhongLobesHoldTheirError) {
     // at most the square of the steps' ratio.
     EXPECT_LE(squares[1], squares[0] * std::pow(8.0 / 12, 4)) << "n " << n;
     EXPECT_LE(squares[2], squares[1] * std::pow(12.0 / 16, 4)) << "n " << n;
-    EXPECT_LE(worst[2], 0.0014) << "n " << n << ": what docs/ggx.md states of round lights";
+    EXPECT_LE(worst[2], 0.0014) << "n " << n << ": what docs/theory/ggx.md states of round lights";
     // Gathered corners have steps as fine as the lobe is narrow, so sharper lobes must gain more from them.
     EXPECT_LE(worst[1], even_worst * std::min(1.0, std::sqrt(40 / n)) + 1e-9) << "n " << n;
   }

@@ -214,7 +214,7 @@ TEST(EllipsePolygons, HoldTheirErrorNearTheRim) {
           if (gap < 0.05 && alpha >= 0.1) worst_beside = std::max(worst_beside, std::fabs(value - truth));
           largest = std::max(largest, truth);
         }
-  EXPECT_LE(worst_beside, 0.0014);  // as docs/ggx.md states
+  EXPECT_LE(worst_beside, 0.0014);  // as docs/theory/ggx.md states
   EXPECT_LE(worst, 0.0025);         // a tenth of the radius away and more, with the usual 12 corners
   EXPECT_LE(worst_sharp, 0.006);
   EXPECT_GT(largest, 0.9);
@@ -249,7 +249,7 @@ TEST(EllipsePolygons, HoldTheirErrorWhereTheLobeMeetsARimThatIsNearElsewhere) {
   }
   std::printf("%d of 400 near, largest error of the full lobe %.5f\n", near, worst);
   EXPECT_GT(near, 100);
-  EXPECT_LE(worst, 0.0014);  // as docs/ggx.md states
+  EXPECT_LE(worst, 0.0014);  // as docs/theory/ggx.md states
 }
 
 TEST(EllipsePolygons, RefuseOddNumbersOfVertices) {

@@ -1,4 +1,4 @@
-// accuracy FILE: measures the values of docs/accuracy.md, and writes the page.
+// accuracy FILE: measures the values of docs/measured/accuracy.md, and writes the page.
 #include <cstdio>
 #include <fstream>
 #include <sstream>

@@ -156,7 +156,7 @@ void write_ggx(std::ostream& out) {
   };
   out << "\nThe same for each pair of roughness (downwards) and view, drawn by `tools/draw_accuracy.py`; the tables below hold the "
          "figures.\n\n"
-         "![Maps of the relative RMSE of GGX's methods](images/accuracy-ggx.svg)\n";
+         "![Maps of the relative RMSE of GGX's methods](../images/accuracy-ggx.svg)\n";
   for (const char* name :
        {"closed-form, draft", "closed-form, normal", "closed-form, high", "ltc", "ltc, high", "ltc-compact", "representative-point"}) {
     write_map(out, fmt::format("`{}`, F0 = 1:", name).c_str(), map_of(metal, by_name(name)));

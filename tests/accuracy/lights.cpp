@@ -146,7 +146,8 @@ void write_lights(std::ostream& out) {
   const auto rows = measure_textured_error(options);
   out << "\n## Textured lights\n\nRelative L2 error of the radiance over 24 square lights, GGX with F = 1 or a diffuse surface (roughness "
          "0), by distance in sides "
-         "(docs/ltc.md says of which kind); in brackets the error of the summed energy. The grid that judges is itself good to 0.3 %.\n\n"
+         "(docs/theory/ltc.md says of which kind); in brackets the error of the summed energy. The grid that judges is itself good to 0.3 "
+         "%.\n\n"
       << textured_error_text(rows);
 }
 

@@ -1,4 +1,4 @@
-// The sections of docs/accuracy.md. A new section needs a file here with a function, and a line in accuracy.cpp.
+// The sections of docs/measured/accuracy.md. A new section needs a file here with a function, and a line in accuracy.cpp.
 #pragma once
 
 #include <iosfwd>

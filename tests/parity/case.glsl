@@ -1,7 +1,7 @@
 // Declarations for all parity cases. A case is a kernel as a function of sixteen reals, so that one harness runs it in every language.
 //
 // How to add a case: write a function `vec4 case_NAME(CaseInput i)` in the dialect, in kernels/FOLDER/x_cases.glsl beside the
-// kernel's x.glsl. Its comment's first line is the row's title in docs/accuracy.md; the lines after it say where the inputs come from,
+// kernel's x.glsl. Its comment's first line is the row's title in docs/measured/accuracy.md; the lines after it say where the inputs come from,
 //     //   a.xyz  direction                 members of the input, then a domain (below); members not named are 0
 //   then `Error: relative` or `Error: absolute` (the default), `Values: N`, how many of the four results count, and
 //   `Bound: statistical` with its reason above the case, where running error analysis finds no bound (shaken.h).

@@ -38,7 +38,7 @@ std::vector<Table2Row> measure_table2(const Table2Options& options);
 // Markdown: a table for each light, the published figures below.
 std::string table2_text(const std::vector<Table2Row>& rows, const Table2Options& options);
 
-// Writes the pictures and plots of docs/moments.md into an existing folder; returns the files' names.
+// Writes the pictures and plots of docs/theory/moments.md into an existing folder; returns the files' names.
 std::vector<std::string> write_table2_figures(const std::string& folder, Simd simd);
 
 }  // namespace steradian::moment

@@ -1,4 +1,4 @@
-// The figures of docs/moments.md: the integrand, its half width and the fits as plots; the scene and the errors.
+// The figures of docs/theory/moments.md: the integrand, its half width and the fits as plots; the scene and the errors.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -55,7 +55,7 @@ struct Case {
   Material material;
   Method method;
   Quality quality;
-  double error;  // error of the method on polygons (docs/accuracy.md, docs/moments.md) plus 0.01 for K = 12, 0.002 for 16
+  double error;  // error of the method on polygons (docs/measured/accuracy.md, docs/theory/moments.md) plus 0.01 for K = 12, 0.002 for 16
 };
 std::vector<Case> cases() {
   Material phong = material_of(Brdf::phong), sharp = phong, blinn = material_of(Brdf::blinn_phong);

@@ -81,8 +81,8 @@ TEST(Eval, AnswersEveryMaterialMethodAndLight) {
         EXPECT_EQ(a.contains("standard_error"), method == "sampled");
         EXPECT_EQ(a.contains("bound"), a["method"] == "reference");
         if (method == "reference") truth = a;
-        // Errors from docs/accuracy.md, as fractions of the full lobe: the largest errors of single points, under lights of radiance 3 at
-        // most. For `sampled` its standard error.
+        // Errors from docs/measured/accuracy.md, as fractions of the full lobe: the largest errors of single points, under lights of
+        // radiance 3 at most. For `sampled` its standard error.
         const double of_method = resolved == "exact" ? 1e-9 : resolved == "series" ? 1.3e-3 : resolved == "closed-form" ? 0.02 : 0.03;
         const bool is_point = light.find("point") != std::string::npos;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -100,7 +100,7 @@ TEST(Eval, PhongMethodsAgreeWithTheReference) {
   const double truth = reference["radiance"][0];
   struct Bound {
     const char* method;
-    double of_full_lobe;  // docs/moments.md
+    double of_full_lobe;  // docs/theory/moments.md
   };
   for (const Bound& b : {Bound{"exact", 1e-10}, Bound{"arvo", 1e-10}, Bound{"series", 1.3e-3}, Bound{"lorentzian", 0.1},
                          Bound{"pearson", 0.1}, Bound{"ellipsoid", 0.1}})
@@ -118,7 +118,7 @@ TEST(Eval, MicrofacetMethodsAgreeWithTheReference) {
   struct Bound {
     const char* material;
     const char* method;
-    double error;  // docs/accuracy.md, "GGX with shadowing and Fresnel" and "Half vectors": the largest rms is far below
+    double error;  // docs/measured/accuracy.md, "GGX with shadowing and Fresnel" and "Half vectors": the largest rms is far below
   };
   for (const Bound& b : {Bound{R"({"brdf":"ggx","roughness":0.5,"f0":[1,0.04,0.5]})", R"("method":"closed-form")", 0.005},
                          Bound{R"({"brdf":"ggx","roughness":0.5})", R"("method":"closed-form","quality":"high")", 0.002},

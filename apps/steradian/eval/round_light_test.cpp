@@ -64,7 +64,8 @@ TEST(EvalRoundLight, EveryLobeAgreesWithTheReference) {
     Material material;
     Method method;
     Quality quality;
-    double error;  // error of the method on polygons (docs/accuracy.md, docs/moments.md) plus 0.0011 for K = 12, 0.003 for GGX
+    double
+        error;  // error of the method on polygons (docs/measured/accuracy.md, docs/theory/moments.md) plus 0.0011 for K = 12, 0.003 for GGX
   };
   Material phong = material_of(Brdf::phong), sharp = phong, blinn = material_of(Brdf::blinn_phong);
   phong.exponent = 10;

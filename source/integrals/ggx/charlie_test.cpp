@@ -68,7 +68,7 @@ TEST(Sheen, KernelAndReferenceHaveTheSameLobe) {
   }
 }
 
-// Lights of all sizes, roughness and views, within the error that docs/accuracy.md, "Sheen", states for each.
+// Lights of all sizes, roughness and views, within the error that docs/measured/accuracy.md, "Sheen", states for each.
 TEST(Sheen, IsWithinThreePercentRms) {
   for (double side : {0.05, 0.5, 2.0, 5.0}) {
     reference::RelativeRms all;

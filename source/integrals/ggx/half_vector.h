@@ -61,7 +61,7 @@ class HalfVector {
   Part<S> at(const vec3& u) const { return lobe_.at(view_, u); }
 
  private:
-  static constexpr int kSliverNodes = 4;  // three have four to ten times the error (docs/accuracy.md, "Half vectors")
+  static constexpr int kSliverNodes = 4;  // three have four to ten times the error (docs/measured/accuracy.md, "Half vectors")
 
   Lobe lobe_;
   HalfVectorOptions options_;

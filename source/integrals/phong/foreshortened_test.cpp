@@ -22,9 +22,9 @@ Material foreshortened(double n) {
 
 struct Allowed {
   PhongOptions options;
-  // exact: converged quadrature, to 1e-10. arvo: the fixed quadrature of the cosines, and its recurrence; docs/accuracy.md has the former
-  // at 1e-6. series: an edge's 2e-4 and 5.5e-5 of the full lobe (docs/moments.md), and the cosines' 9e-5 of a half circle over 2 pi an
-  // edge. Edges' errors partly cancel, and four of them count.
+  // exact: converged quadrature, to 1e-10. arvo: the fixed quadrature of the cosines, and its recurrence; docs/measured/accuracy.md has the
+  // former at 1e-6. series: an edge's 2e-4 and 5.5e-5 of the full lobe (docs/theory/moments.md), and the cosines' 9e-5 of a half circle
+  // over 2 pi an edge. Edges' errors partly cancel, and four of them count.
   double in_double, in_float;
 };
 

@@ -211,14 +211,14 @@ TEST(LobeProduct, NewtonFindsThePeakOfThree) {
   EXPECT_LT(worst[2], 1e-5);
 }
 
-// Two lobes over random quads against cubature: the table of docs/moments.md, row by row and digit by digit.
+// Two lobes over random quads against cubature: the table of docs/theory/moments.md, row by row and digit by digit.
 TEST(LobeProduct, TwoLobesAsOne) {
   struct Row {
     double n1, n2, degrees;
   };
   const Row rows[] = {{1, 10, 30},   {1, 10, 60},    {1, 100, 30},   {1, 100, 80},   {10, 10, 60},
                       {10, 100, 60}, {100, 100, 30}, {100, 100, 60}, {100, 1000, 80}};
-  std::ifstream file(test::kSourceDir + "/docs/moments.md");
+  std::ifstream file(test::kSourceDir + "/docs/theory/moments.md");
   const std::string page((std::istreambuf_iterator<char>(file)), {});
   K k;
   for (const Row& row : rows) {

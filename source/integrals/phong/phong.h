@@ -7,8 +7,8 @@
 STERADIAN_BEGIN_ISA
 namespace integrals {
 
-// The best form of each fit, over quad, star and triangle and n from 37 to 5001 (docs/moments.md). For the ellipsoid it is f = 1, to which
-// it is exact where x^m vanishes; for the two others f = x.
+// The best form of each fit, over quad, star and triangle and n from 37 to 5001 (docs/theory/moments.md). For the ellipsoid it is f = 1, to
+// which it is exact where x^m vanishes; for the two others f = x.
 inline bool takes_x(const PhongOptions& options, bool even_n) {
   switch (options.form) {
     case PeakForm::one: return false;

@@ -215,7 +215,7 @@ TEST(PhongPeakFits, MeetTheIntegrandAtItsFootAndHalfWidth) {
       }
 }
 
-// Every place and width of the fits by its equation in the paper (with what docs/moments.md corrects), in the library's arithmetic.
+// Every place and width of the fits by its equation in the paper (with what docs/theory/moments.md corrects), in the library's arithmetic.
 TEST(PhongPeakFits, PlacesAndWidthsAreThePapers) {
   using K = Kernels<double>;
   K k;

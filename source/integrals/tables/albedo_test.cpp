@@ -64,7 +64,7 @@ TEST(Albedo, OfGgxIsNearQuadrature) {
       double& worst = r > 0.29 ? rough : smooth;
       worst = std::max(worst, error);
     }
-  // These bounds on the table are stated in docs/ltc.md.
+  // These bounds on the table are stated in docs/theory/ltc.md.
   EXPECT_LT(rough, 0.02);
   EXPECT_LT(smooth, 0.045);
   RecordProperty("rough", std::to_string(rough));
@@ -94,7 +94,7 @@ TEST(Albedo, OfCharlieIsNearQuadratureAndBelowOne) {
       worst = std::max(worst, std::fabs(charlie_albedo(r * r, c) - q));
       EXPECT_LT(q, 1) << r << " " << c;
     }
-  EXPECT_LT(worst, 0.02);  // as stated in docs/ltc.md
+  EXPECT_LT(worst, 0.02);  // as stated in docs/theory/ltc.md
   std::printf("albedo of charlie by its table: error %.4f\n", worst);
 }
 

@@ -18,7 +18,7 @@ struct LtcValue {
   double f_a = 0;
 };
 
-// The element of M^-1 that is 1. Engines expect the middle one; docs/ltc.md describes the effect of each between the nodes.
+// The element of M^-1 that is 1. Engines expect the middle one; docs/theory/ltc.md describes the effect of each between the nodes.
 enum class ClassicNormalisation { middle, last };
 
 // Two textures as engines sample them: roughness along a row, sqrt(1 - cos theta) from row to row, nodes on the ends.

@@ -109,7 +109,7 @@ real ltc_texture_cell_value(LtcTextureCellView view, vec3 r) {
 // The bound on the error uses t of light_elements.glsl. It is t^3 / 8 times the difference of the cell's mean from the expected one, plus
 // t^2 / 2 times its deviation. Both are times the largest value of the lobe there, det / (pi |M^-1 l|^3). Its denominator is reduced by at
 // most the cell's reach, and not below its least.
-// Error: docs/ltc.md, "Textured lights". Source: this project.
+// Error: docs/theory/ltc.md, "Textured lights". Source: this project.
 LtcTextureCellSeen ltc_texture_cell_seen(LtcTextureCell cell, LtcTextureCellView view, vec3 expected) {
     vec3 center = view.origin + (view.x * cell.center.x + view.y * cell.center.y);
     vec3 a = view.x * cell.axis_a.x + view.y * cell.axis_a.y;

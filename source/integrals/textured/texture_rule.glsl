@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Cells are split until the sum of their error bounds is this fraction of the mean. The sum assumes that every cell has the full error of
-// its bound, with the same sign. As measured, the mean's error is less than a tenth of it (docs/ltc.md, "Textured lights").
+// its bound, with the same sign. As measured, the mean's error is less than a tenth of it (docs/theory/ltc.md, "Textured lights").
 const float kTextureTolerance = 0.15f;
 // Limits of one evaluation: passes over the cells, and splits in one pass.
 const int kTexturePasses = 16;

@@ -1,5 +1,5 @@
 // TexturedLight: the mean radiance of a textured light under a lobe. It uses cells of the light (texture_tree.h) where the lobe is wider
-// than they are, else one look-up in its blurred copies. Approximate; the error is measured in docs/ltc.md, "Textured lights".
+// than they are, else one look-up in its blurred copies. Approximate; the error is measured in docs/theory/ltc.md, "Textured lights".
 #pragma once
 
 #include "integrals/textured/filtered_texture.h"

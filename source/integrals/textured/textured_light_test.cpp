@@ -231,7 +231,8 @@ TEST(FilteredTexture, ConstantStaysConstantEverywhere) {
   }
 }
 
-// Every table row is within the accuracy that docs/ltc.md promises for its texture: 2 %, plus half a percent for the grid of the test.
+// Every table row is within the accuracy that docs/theory/ltc.md promises for its texture: 2 %, plus half a percent for the grid of the
+// test.
 TEST(TexturedLight, ErrorsAreThoseOfTheTable) {
   TexturedErrorOptions options;
   options.setups = 12;

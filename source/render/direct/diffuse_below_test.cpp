@@ -70,7 +70,7 @@ TEST(LambertUnderFresnel, IsFarNearerToTheLobeThanAConstantWeight) {
       const auto e = reference::measure_diffuse_below(side, degrees, 60, 11);
       std::printf("side %.2f view %.0f: %.4f, constant %.4f\n", side, degrees, e.ours, e.constant);
       EXPECT_LT(e.ours, 0.7 * e.constant) << side << " " << degrees;
-      EXPECT_LT(e.ours, side < 0.1 ? 0.001 : 0.02) << side << " " << degrees;  // docs/accuracy.md, "Diffuse under Fresnel"
+      EXPECT_LT(e.ours, side < 0.1 ? 0.001 : 0.02) << side << " " << degrees;  // docs/measured/accuracy.md, "Diffuse under Fresnel"
     }
 }
 
@@ -140,7 +140,7 @@ TEST(LambertUnderFresnel, PicturesShowIt) {
       std::printf("%s: relative L2 %.4f, of a constant weight %.4f\n", method.c_str(), std::sqrt(error / signal),
                   std::sqrt(constant / signal));
       EXPECT_GT(std::sqrt(constant / signal), 0.05);
-      EXPECT_LT(std::sqrt(error / signal), 0.02) << method;  // docs/accuracy.md, "Diffuse under Fresnel": 0.010 at 85 degrees
+      EXPECT_LT(std::sqrt(error / signal), 0.02) << method;  // docs/measured/accuracy.md, "Diffuse under Fresnel": 0.010 at 85 degrees
     }
 }
 

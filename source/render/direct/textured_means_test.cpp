@@ -51,7 +51,7 @@ Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(
 
 // Every point against its own double, for every instruction set. Each stops splitting cells when their bounds sum to kTolerance of the
 // mean. A pack splits the cells that any of its points needs split. On such a rough texture, the two therefore differ by the error of
-// either. That is 2.3 % at most (docs/ltc.md, "Textured lights"), and a quarter of it in the mean square.
+// either. That is 2.3 % at most (docs/theory/ltc.md, "Textured lights"), and a quarter of it in the mean square.
 TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
   Random random(21);
   const Window window(random);

@@ -111,8 +111,8 @@ TEST(TexturedRender, ReferenceIsTheIntegralOfTextureTimesCosine) {
   EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma";
 }
 
-// docs/ltc.md, "Textured lights": the mean is off by at most 2 % in L2 and in energy. The tables themselves are off by 3 % and
-// 2 % (docs/ltc.md), the reference by its target, which is itself uncertain by a quarter.
+// docs/theory/ltc.md, "Textured lights": the mean is off by at most 2 % in L2 and in energy. The tables themselves are off by 3 % and
+// 2 % (docs/theory/ltc.md), the reference by its target, which is itself uncertain by a quarter.
 TEST(TexturedRender, EveryMethodIsNearTheReference) {
   const Scene scene = load_scene(test::kSourceDir + "/scenes/textured_floor.glb").scene;
   RenderOptions options = small("reference");

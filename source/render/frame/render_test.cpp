@@ -90,7 +90,7 @@ TEST(Render, DiffuseFloorIsThePolygonIntegralAtEveryPixel) {
         expected += light.radiance * (polygon_irradiance(prepare_polygon(flat_polygon(light)), p, {0, 1, 0}) * 0.5 / M_PI);
       worst = std::max(worst, length(static_cast<Vec3d>(picture.at(x, y)) - expected));
     }
-  // Radiance up to 5: float irradiances are accurate to 5e-7 (docs/accuracy.md), hit points to 2e-6 of 10 m.
+  // Radiance up to 5: float irradiances are accurate to 5e-7 (docs/measured/accuracy.md), hit points to 2e-6 of 10 m.
   EXPECT_LT(worst, 2e-5);
 }
 
@@ -156,7 +156,7 @@ TEST(Render, LargeLightsAreTheSumOfTheirParts) {
       }
       EXPECT_GT(largest, 0.1f);
       // Planes of edges are accurate to 1e-5, for four of them and two lobes. The other two methods average shadowing and Fresnel over
-      // nodes along the given edges, to 0.15 % (docs/ggx.md).
+      // nodes along the given edges, to 0.15 % (docs/theory/ggx.md).
       const bool table = method.starts_with("ltc");
       EXPECT_LT(worst, (table ? 1e-4f : 1.5e-3f) * largest) << method << " " << size;
     }
@@ -239,8 +239,8 @@ TEST(Render, RoundLightsOnGlossAgreeWithFinePolygons) {
         worst = std::max(worst, std::fabs(static_cast<double>(round.at(x, y).x - truth.at(x, y).x)));
         largest = std::max(largest, static_cast<double>(truth.at(x, y).x));
       }
-    // The full lobe, K = 12, is off by 0.003 (ellipse_light_test.cpp). Cubature nodes differ with the edges: 0.003 more (docs/accuracy.md,
-    // "GGX with shadowing and Fresnel").
+    // The full lobe, K = 12, is off by 0.003 (ellipse_light_test.cpp). Cubature nodes differ with the edges: 0.003 more
+    // (docs/measured/accuracy.md, "GGX with shadowing and Fresnel").
     EXPECT_LT(worst, 0.006) << "roughness " << roughness;
     EXPECT_GT(largest, 0.02) << "roughness " << roughness;
     std::printf("roughness %.1f: largest difference %.1e of %.2f\n", static_cast<double>(roughness), worst, largest);

@@ -283,7 +283,7 @@ TEST(ManyLights, EveryPixelIsWithinItsBound) {
 
 // Glossy lobes under flat lights also use elements. Under the map of transformed cosines an edge appears at a hundred times its length
 // more often than from the surface: hence the larger rounding. The closed form itself has a cubature of shadowing: its error is up to 2.5
-// % for dim lights (docs/ggx.md). An element has no such error.
+// % for dim lights (docs/theory/ggx.md). An element has no such error.
 TEST(ManyLights, LobesAreWithinTheirBound) {
   for (const char* method : {"ltc", "ltc-compact", "closed-form"})
     for (const float roughness : {0.25f, 0.5f, 0.9f}) {

@@ -154,14 +154,14 @@ TEST(Surface, PicturesShowTheCoatAboutItsOwnNormal) {
       worst = std::max(worst, std::fabs(static_cast<double>(picture.at(x, y).x) - expected));
       largest = std::max(largest, expected);
     }
-  EXPECT_LT(worst, 5e-5);  // radiance up to 5 in float: hit points to 2e-6 of 10 m, lobes to 1e-5 (docs/accuracy.md)
+  EXPECT_LT(worst, 5e-5);  // radiance up to 5 in float: hit points to 2e-6 of 10 m, lobes to 1e-5 (docs/measured/accuracy.md)
   EXPECT_GT(largest, 0.03);
   std::printf("largest error of the radiance %.1e of %.2f\n", worst, largest);
 
   options.method = "reference";
   options.target_error = 0.04;
   const Picture reference = render(scene, options);
-  // Three times the closed form's own error with Fresnel, of rms 0.0021 (docs/accuracy.md).
+  // Three times the closed form's own error with Fresnel, of rms 0.0021 (docs/measured/accuracy.md).
   const ZTest test = z_test(picture, reference, 0.0063);
   EXPECT_GE(test.share(), 0.9975) << test.tested << " tested, worst " << test.worst << " sigma, threshold " << test.threshold;
 }

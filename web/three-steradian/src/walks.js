@@ -17,7 +17,7 @@ const WGSL = {
 	declare: ( name, params ) => `fn ${name}( ${params.map( ( [ type, n ] ) => `${n} : ${WGSL_TYPES[ type ]}` ).join( ', ' )} ) -> vec4<f32>`
 };
 
-const ROUND_CORNERS = 12; // of a polygon that stands for a round light about a lobe (docs/ggx.md)
+const ROUND_CORNERS = 12; // of a polygon that stands for a round light about a lobe (docs/theory/ggx.md)
 
 // Corners d[ 0 ], d[ 1 ], ... in the shading frame, and `diffuse`: of the light, radiance 1 from a white surface.
 function outline( L, kind, count ) {
