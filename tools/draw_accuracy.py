@@ -51,7 +51,7 @@ def panel(title, views, rows):
 
 
 def main():
-    page = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "docs" / "accuracy.md")
+    page = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "docs" / "measured" / "accuracy.md")
     picture = Path(sys.argv[2] if len(sys.argv) > 2 else ROOT / "docs" / "images" / "accuracy-ggx.svg")
     maps = maps_of(page.read_text())
     width = LEFT + CELL_W * len(maps[0][1]) + RIGHT

@@ -35,27 +35,31 @@ class OneLineHelp : public CLI::Formatter {
     return value.empty() || value == "[]" ? text : text + " [" + value + "]";
   }
 
-  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
-    std::string text;
-    int left_out = 0;
-    for (const std::string& group : app->get_groups()) {
-      const std::vector<const CLI::Option*> options =
-          app->get_options([&](const CLI::Option* o) { return o->get_group() == group && o->nonpositional(); });
-      if (group.empty() || options.empty()) continue;
-      if (is_more(group) && mode != CLI::AppFormatMode::All) {
-        left_out += static_cast<int>(options.size());
-        continue;
-      }
-      text += make_group(is_more(group) ? group.substr(0, group.size() - std::strlen(kMore)) : group, false, options);
-    }
-    if (left_out > 0) text += "\n--help-all prints " + std::to_string(left_out) + " more options.\n";
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    all_ = mode == CLI::AppFormatMode::All;
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     return text;
+  }
+
+  std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override {
+    if (!is_more(group)) return CLI::Formatter::make_group(group, is_positional, options);
+    return all_ ? CLI::Formatter::make_group(group.substr(0, group.size() - std::strlen(kMore)), is_positional, options) : std::string();
+  }
+
+  std::string make_footer(const CLI::App* app) const override {
+    const std::size_t more = app->get_options([](const CLI::Option* o) { return is_more(o->get_group()); }).size();
+    const std::string hint = all_ || more == 0 ? std::string() : "\n--help-all prints " + std::to_string(more) + " more options.\n";
+    return hint + CLI::Formatter::make_footer(app);
   }
 
   // --help-all of the program lists the verbs, as --help does.
   std::string make_subcommands(const CLI::App* app, CLI::AppFormatMode) const override {
     return CLI::Formatter::make_subcommands(app, CLI::AppFormatMode::Normal);
   }
+
+ private:
+  mutable bool all_ = false;  // the help being made is that of --help-all
 };
 
 // A range as --help prints it.
