@@ -112,7 +112,8 @@ TEST_F(Program, HelpHasALineAnOption) {
       for (std::string line; std::getline(lines, line);) {
         EXPECT_LE(line.size(), 100u) << verb << ": " << line;
         const std::size_t dash = line.find_first_not_of(' ');
-        if (dash != std::string::npos && line[dash] == '-') EXPECT_NE(line.find("  ", dash), std::string::npos) << verb << ": " << line;
+        const bool is_option = dash != std::string::npos && line[dash] == '-' && line.compare(dash, 11, "--help-all ") != 0;
+        EXPECT_TRUE(!is_option || line.find("  ", dash) != std::string::npos) << verb << ": " << line;
       }
     }
   const std::string few = run({"render", "--help"}).out, all = run({"render", "--help-all"}).out;
