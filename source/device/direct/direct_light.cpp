@@ -265,11 +265,6 @@ void DirectLight::put_radiance(std::size_t place, const SurfaceTile& tile) {
              tile.coat);
 }
 
-void DirectLight::put_what_is_left(std::size_t place, const SurfaceTile& tile) {
-  if (tile.any_coat) put_vector(planes_of(place), kTangent, tile.tangent, tile.coat);
-  put_radiance(place, tile);
-}
-
 void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
   const Vec4Floats* from = static_cast<const Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance);
   for (std::size_t i = 0; i < kTilePixels; ++i) {

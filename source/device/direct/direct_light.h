@@ -46,8 +46,8 @@ class DirectLight {
 
   // Writes the data of a tile, which is number `place` of the batch. Threads may write different places at the same time.
   void put(std::size_t place, const SurfaceTile& tile);
-  // The same if the device already has the surfaces: their radiance, and the coats that the host has not lit (TileLighting::add_hidden).
-  void put_what_is_left(std::size_t place, const SurfaceTile& tile);
+  // The same if the device already has the surfaces: their radiance alone.
+  void put_radiance(std::size_t place, const SurfaceTile& tile);
 
   // Buffers that others than put may write: planes of shaders/layout.glsl.
   Buffer& surfaces() { return kept_.surfaces.get(); }
@@ -95,7 +95,6 @@ class DirectLight {
   struct Pass;
   struct Work;
   Vec4Floats* planes_of(std::size_t place);
-  void put_radiance(std::size_t place, const SurfaceTile& tile);
   static bool is_cut(const Tile& tile, const PackLight& light);
   bool brings_diffuse(const Square& square, const PackLight& light) const;
   void list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass);

@@ -110,15 +110,4 @@ std::size_t OwnLobes::number_of(const SurfaceMaterial* material) const {
   return static_cast<std::size_t>(material - scene_.materials.data()) + 1;
 }
 
-bool OwnLobes::has_all(const SurfaceTile& tile) const {
-  const SurfaceMaterial* last = nullptr;
-  for (const SurfaceMaterial* surface : tile.material) {
-    if (surface == nullptr || surface == last) continue;
-    last = surface;
-    if (!std::all_of(surface->specular_override.begin(), surface->specular_override.end(), [&](const Material& m) { return has(m); }))
-      return false;
-  }
-  return true;
-}
-
 }  // namespace steradian::vulkan

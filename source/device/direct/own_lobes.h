@@ -33,9 +33,8 @@ class OwnLobes {
   // The details of lights contain the lobes from vector `first` on. The scene must outlive this object.
   OwnLobes(const Scene& scene, const DirectMethod& method, std::size_t first);
 
-  // Return true if the shaders have a lobe by its method, or all lobes of the surfaces of a tile.
+  // Returns true if the shaders have a lobe by its method.
   bool has(const Material& lobe) const;
-  bool has_all(const SurfaceTile& tile) const;
   // Number of a surface's material, counted from 1, for use in `of`; 0: it has no such lobes.
   std::size_t number_of(const SurfaceMaterial* material) const;
   std::span<const Lobe> of(std::size_t number) const { return lobes_[number - 1]; }

@@ -8,21 +8,24 @@
 namespace steradian::vulkan {
 
 Picture render_on_device(const Scene& scene, const RenderOptions& options, RenderCache* cache, RenderStats* stats, RenderState* state) {
-  if (runs_on_host_alone(scene, options)) {
-    const Device device({options.device, false});
-    Picture picture = render_on_cpu(scene, options, cache, stats, state);
-    if (stats != nullptr)
-      stats->warnings.push_back(
-          "the CPU renders all of this picture: " + (options.lights == LightSum::tree ? "--lights tree" : "the method " + options.method) +
-          " has nothing for the device '" + device.info().name + "'");
-    return picture;
-  }
+  std::string lacks = lack_of_devices(scene, options);
   Picture picture;
   try {
-    picture = Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::automatic, cache).render(stats);
+    if (lacks.empty()) {
+      Frame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::automatic, cache);
+      lacks = frame.lacks();
+      if (lacks.empty()) picture = frame.render(stats);
+    } else {
+      const Device device({options.device, false});  // throws if there is none of that name
+    }
   } catch (...) {  // a lost device is not used again
     if (cache != nullptr) cache->parts().on_device = {};
     throw;
+  }
+  if (!lacks.empty()) {
+    picture = render_on_cpu(scene, options, cache, stats, state);
+    if (stats != nullptr) stats->warnings.push_back("the CPU renders this picture, not the Vulkan device: " + lacks);
+    return picture;
   }
   if (state != nullptr) state->complete = options.stop == nullptr || !options.stop->load(std::memory_order_relaxed);
   return picture;

@@ -22,48 +22,38 @@
 namespace steradian::vulkan {
 namespace {
 
-// Returns true for bounce features that only the CPU supports.
-bool bounce_on_host(const IndirectOptions& options) { return options.mode == IndirectMode::path || options.shadow_rays > 0; }
-
-bool has_own_lobes(const Scene& scene) {
-  return std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                     [&](const Mesh& mesh) { return !scene.materials[static_cast<std::size_t>(mesh.material)].specular_override.empty(); });
+bool has_bent_coats(const SurfaceMaterial& m) {
+  return m.clearcoat > 0 && (m.normal_texture.image >= 0 || m.clearcoat_normal_texture.image >= 0);
 }
 
-// Features that the shaders do not have, so that the host lights them: one sentence each.
-std::vector<std::string> lit_by_host(const Scene& scene, const RenderOptions& options, const DirectMethod& method,
-                                     const std::vector<PackLight>& lights, const DirectLight& direct) {
-  std::vector<std::string> sentences;
-  const auto say = [&](const std::string& what) {
-    const std::string sentence = "the CPU lights " + what + ": the shaders do not have that yet";
-    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
-  };
-  if (options.indirect.mode != IndirectMode::off && bounce_on_host(options.indirect))
-    say(options.indirect.mode == IndirectMode::path ? "the bounce by paths" : "the bounce behind its shadow rays");
-  if (!DirectLight::has(method)) say(std::string("lobes by the method ") + name_of(method.ggx));
-  for (const PackLight& light : lights) {
-    if (direct.has(light)) {
-      if (light.profiled != nullptr && has_own_lobes(scene))
-        say("tiles with lobes of extras.steradian by the measured lamp '" + light.area->name + "'");
-    } else
-      sentences.push_back("the CPU lights by " +
-                          (light.area == nullptr
-                               ? std::string("a measured lamp")
-                               : (light.textured != nullptr ? "the textured light '" : "the measured lamp '") + light.area->name + "'") +
-                          ": too much for the device's buffers or loops");
-  }
+// The first feature of the picture that the device does not have; empty: it has all.
+std::string first_lack(const Scene& scene, const RenderOptions& options, const std::vector<PackLight>& lights, const DirectLight& direct) {
+  if (options.indirect.mode == IndirectMode::path) return "it has no bounce by paths";
+  if (options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0) return "it has no --indirect-shadows";
+  bool own = false;
   for (const Mesh& mesh : scene.meshes) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
     if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
-    const std::string of = " of material '" + m.name + "'";
+    own = own || !m.specular_override.empty();
     for (const Material& lobe : m.specular_override)
-      if (!direct.own_lobes().has(lobe)) say(std::string("the ") + name_of(lobe.brdf) + " lobe" + of);
+      if (!direct.own_lobes().has(lobe))
+        return std::string("it has no shader for the ") + name_of(lobe.brdf) + " lobe of material '" + m.name + "'";
+    if (options.shadows != steradian::Shadows::off && has_bent_coats(m))
+      return "it has no shadows for the coat of material '" + m.name + "', whose normal is not the surface's";
   }
-  return sentences;
+  for (const PackLight& light : lights) {
+    const std::string name = light.area == nullptr       ? std::string("a profiled point light")
+                             : light.textured != nullptr ? "the textured light '" + light.area->name + "'"
+                                                         : "the profiled light '" + light.area->name + "'";
+    if (!direct.has(light)) return name + " exceeds its buffers or loops";
+    if (own && light.profiled != nullptr) return "it has no shader for custom lobes under " + name;
+  }
+  return {};
 }
 
 DirectMethod chosen(const Scene& scene, const RenderOptions& options) {
-  if (runs_on_host_alone(scene, options)) throw UsageError("--backend vulkan", "has no part in this picture", "use --backend cpu");
+  const std::string lack = lack_of_devices(scene, options);
+  if (!lack.empty()) throw UsageError("--backend vulkan", "cannot render this picture: " + lack, "use --backend cpu");
   return choose_method(scene, options);
 }
 
@@ -103,8 +93,9 @@ struct Job {
 
 }  // namespace
 
-bool runs_on_host_alone(const Scene& scene, const RenderOptions& options) {
-  return options.lights == LightSum::tree || choose_method(scene, options).estimates();
+std::string lack_of_devices(const Scene& scene, const RenderOptions& options) {
+  if (options.lights == LightSum::tree) return "it has no --lights tree";
+  return choose_method(scene, options).estimates() ? "it has no method " + options.method : std::string();
 }
 
 struct Frame::Parts {
@@ -125,7 +116,9 @@ struct Frame::Parts {
         many_edges(Shadows::finds_many_edges(device->info()) &&
                    (many == ManyEdgesBy::device || (many == ManyEdgesBy::automatic && !device->info().software))) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
-    const bool bounces = has_bounce() && !bounce_on_host(o.indirect), maps = bounces && all_cast_exactly(s);
+    lacks = first_lack(s, o, lights, direct);
+    if (!lacks.empty()) return;
+    const bool bounces = has_bounce(), maps = bounces && all_cast_exactly(s);
     if ((maps || host.has_shadows()) && (rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)))
       device_rays = rays_of(s, device, cache);
     if (bounces) {
@@ -136,7 +129,7 @@ struct Frame::Parts {
     if (by == SurfacesBy::device && !kept_on_host.empty())
       throw UsageError("--backend vulkan", "the device cannot find the surfaces (" + kept_on_host + ")");
     if (by == SurfacesBy::device || (by == SurfacesBy::automatic && kept_on_host.empty() && !device->info().software))
-      raster.emplace(made(kept->raster, *device), s, *parts.maps, surfaces.camera(), o, direct.tiles_of_batch(), host_adds());
+      raster.emplace(made(kept->raster, *device), s, *parts.maps, surfaces.camera(), o, direct.tiles_of_batch(), host_needs_surfaces());
     build_ms = ms_since(start);
   }
 
@@ -153,38 +146,8 @@ struct Frame::Parts {
     });
   }
 
-  // Lights on the host: (1) lights that the device cannot evaluate, and (2) occluded lights, except for those left to the device. Both
-  // leave the list. (3) Some lobes under the other lights; these lobes leave the tile.
-  void light_on_host(SurfaceTile& tile, std::vector<const PackLight*>& reaching, TileShadows& left) {
-    left.clear();
-    const bool own = tile.any_override && direct.own_lobes().has_all(tile);
-    const bool all_lobes = DirectLight::has(method) && (own || !tile.any_override);
-    const auto unknown = std::stable_partition(reaching.begin(), reaching.end(), [&](const PackLight* light) {
-      return direct.has(*light) && !(own && light->profiled != nullptr);  // no shader evaluates a profile for those lobes
-    });
-    if (unknown != reaching.end())
-      host.has_shadows() ? host.add_shadowed(tile, {unknown, reaching.end()}) : host.add(tile, {unknown, reaching.end()});
-    reaching.erase(unknown, reaching.end());
-    reaching = host.add_hidden(tile, reaching, all_lobes ? &left : nullptr);
-
-    const bool diffuse = std::exchange(tile.any_diffuse, false), sheen = std::exchange(tile.any_sheen, false);
-    const bool layers = DirectLight::has(method);
-    const bool specular = tile.any_specular, coat = tile.any_coat;
-    if (layers) tile.any_specular = tile.any_coat = false;
-    if (own) tile.any_override = false;
-    if (tile.any_specular || tile.any_coat || tile.any_override) host.add(tile, reaching);
-    tile.any_diffuse = diffuse;
-    tile.any_sheen = sheen;
-    tile.any_specular = layers && specular;
-    tile.any_coat = layers && coat;
-    tile.any_override = own;
-  }
-
-  // Returns true if the host adds light to surfaces that the device finds, and so needs them.
-  bool host_adds() const {
-    return host.has_shadows() || has_bounce() || surfaces.environment() != nullptr || !DirectLight::has(method) ||
-           !std::all_of(lights.begin(), lights.end(), [&](const PackLight& light) { return direct.has(light); });
-  }
+  // Returns true if the host needs the surfaces that the device finds.
+  bool host_needs_surfaces() const { return host.has_shadows() || has_bounce() || surfaces.environment() != nullptr; }
 
   // Lists the lights that may reach a tile whose surfaces the device has found and the host does not need.
   void list_found(std::size_t place, DirectLight::Tile& tile) {
@@ -205,7 +168,7 @@ struct Frame::Parts {
     each(jobs.size(), [&](std::size_t i) {
       Job& job = jobs[i];
       const bool found = drawn && !RasterSurfaces::is_for_host(direct.radiance(), i);
-      if (found && !host_adds()) {
+      if (found && !host_needs_surfaces()) {
         shadowed[i].clear();
         return lists_clock.run([&] { list_found(i, tiles[i]); });
       }
@@ -222,12 +185,13 @@ struct Frame::Parts {
       if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
       surfaces.add_environment(tile);
       lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
-      light_on_host(tile, tiles[i].lights.lights, shadowed[i]);
+      shadowed[i].clear();
+      tiles[i].lights.lights = host.hand_over_shadows(tile, tiles[i].lights.lights, shadowed[i]);
       lists_clock.run([&] {
         direct.find_squares(tile, tiles[i]);
         direct.list_lights(tiles[i]);
       });
-      upload_clock.run([&] { found ? direct.put_what_is_left(i, tile) : direct.put(i, tile); });
+      upload_clock.run([&] { found ? direct.put_radiance(i, tile) : direct.put(i, tile); });
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
       // The fractions of this layer are still needed; those of the next one are stored beside them.
@@ -329,7 +293,6 @@ struct Frame::Parts {
       if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
       if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
     }
-    for (PassTime pass : {host.direct_time(threads), host.specular_time(threads)}) stats.passes.push_back({"host: " + pass.name, pass.ms});
     if (const auto* environment = surfaces.environment()) {
       stats.passes.front().ms -= surfaces.environment_build_ms();
       stats.passes.push_back({"environment: maps", surfaces.environment_build_ms()});
@@ -351,7 +314,6 @@ struct Frame::Parts {
       for (std::string& sentence : materials_for_host(scene)) stats.warnings.push_back(std::move(sentence));
     else if (!device->info().software)
       stats.warnings.push_back("the CPU finds the surfaces (" + kept_on_host + ")");
-    for (std::string& sentence : lit_by_host(scene, options, method, lights, direct)) stats.warnings.push_back(std::move(sentence));
   }
 
   const Clock::time_point start = Clock::now();
@@ -368,11 +330,12 @@ struct Frame::Parts {
   TileLighting host;
   DirectLight direct;
   std::shared_ptr<const SceneRays> device_rays;  // null: the host's rays
+  std::string lacks;
   std::string kept_on_host;
   std::optional<Shadows> shadows;             // created on first use
   std::vector<TileShadows> shadowed;          // by job
   std::optional<RasterSurfaces> raster;       // none if the host finds the surfaces
-  Bounce* bounce = nullptr;                   // null without a bounce, or if the host computes it
+  Bounce* bounce = nullptr;                   // null without a bounce
   std::optional<indirect::Pipeline> bounced;  // bounce of one frame
   tbb::task_arena arena;
   const bool many_edges;  // the device finds the visible parts behind many edges
@@ -390,7 +353,10 @@ Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<c
     : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache, many_edges)) {}
 Frame::~Frame() = default;
 
+const std::string& Frame::lacks() const { return parts_->lacks; }
+
 Picture Frame::render(RenderStats* stats) {
+  if (!lacks().empty()) throw UsageError("--backend vulkan", "cannot render all of this picture: " + lacks(), "use --backend cpu");
   const auto start = Clock::now();
   Picture picture = parts_->render();
   if (stats != nullptr) {

@@ -1,8 +1,9 @@
-// Frames on a Vulkan device. As for the CPU, the host finds the surfaces, the lights that may reach them, and their occluders. The device
-// adds the light of unoccluded lights.
+// Frames on a Vulkan device: all of a picture's light, or none. The host finds the lights that may reach surfaces, and their occluders. The
+// device finds the visible parts and adds the light.
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "device/vulkan/device.h"
 #include "steradian/render.h"
@@ -10,8 +11,8 @@
 
 namespace steradian::vulkan {
 
-// Returns true if the device would have nothing to do: estimates by samples, and many lights summed together.
-bool runs_on_host_alone(const Scene& scene, const RenderOptions& options);
+// The first option for which no device has a part: estimates by samples, and many lights summed together. Empty: a device may have all.
+std::string lack_of_devices(const Scene& scene, const RenderOptions& options);
 
 // Choice of who finds the surfaces that pixels see. automatic: the device, unless it is software (slower at that than the host) or
 // something keeps the host at it.
@@ -37,7 +38,11 @@ class Frame {
         ManyEdgesBy many_edges = ManyEdgesBy::automatic);
   ~Frame();
 
-  // Sets stats of this frame alone. Returns early, with an unfinished picture, when options.stop becomes true.
+  // The reason why this device cannot do all of the picture; empty: it can.
+  const std::string& lacks() const;
+
+  // Throws UsageError if the device lacks something. Sets stats of this frame alone. Returns early, with an unfinished picture, when
+  // options.stop becomes true.
   Picture render(RenderStats* stats = nullptr);
 
  private:

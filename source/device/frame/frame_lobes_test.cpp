@@ -140,15 +140,25 @@ TEST_F(VulkanFrame, LightsNothingUnlit) {
   EXPECT_GT(std::count_if(cpu.pixels.begin(), cpu.pixels.end(), [&](Vec3f p) { return length(p - base) < 1e-6f; }), 500);
 }
 
-// The table of the facets' loss by the angle of the view is on the host.
-TEST_F(VulkanFrame, SaysWhichLobesTheHostLights) {
+// The device does all of a picture or none. It has no table of the energy that single scattering loses.
+TEST_F(VulkanFrame, LeavesPicturesWithLobesThatItLacksToTheCpu) {
   Scene scene = strips({ggx(0.4, 0.4, true, {1, 1, 1}, {1, 1, 1})});
   scene.materials[0].specular_override[0].multiple_scattering = true;
   scene.area_lights = {kQuad};
-  const std::vector<std::string> warnings = warnings_of(scene, tiny("auto"));
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("the ggx lobe of material 'strip 0'"), std::string::npos) << warnings[0];
-  expect_same("a lobe by the host", scene, tiny("auto"));
+  expect_rendered_by_cpu(scene, tiny("auto"), "no shader for the ggx lobe of material 'strip 0'");
+  EXPECT_THROW(Frame(scene, tiny("auto")).render(), Error);
+}
+
+TEST_F(VulkanFrame, LeavesBentCoatsInShadowToTheCpu) {
+  Scene scene = strips({phong(20)});
+  SurfaceMaterial& coated = scene.materials[0];
+  coated.clearcoat = 1;
+  coated.clearcoat_normal_texture.image = 0;
+  scene.images.push_back({"bumps", 1, 1, {128, 160, 250, 255}});
+  scene.area_lights = {kQuad};
+  RenderOptions options = tiny("auto");
+  options.shadows = Shadows::on;
+  expect_rendered_by_cpu(scene, options, "no shadows for the coat of material 'strip 0'");
 }
 
 }  // namespace steradian::vulkan::frame_lobes_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -132,6 +133,23 @@ inline std::vector<std::string> warnings_of(const Scene& scene, RenderOptions op
   RenderStats stats;
   Frame(scene, options).render(&stats);
   return stats.warnings;
+}
+
+// The CPU renders the picture, with one warning that has these words.
+inline void expect_rendered_by_cpu(const Scene& scene, RenderOptions options, const std::string& words) {
+  options.width = 48;
+  options.height = 27;
+  const Picture cpu = render(scene, options);
+  options.backend = Backend::vulkan;
+  RenderStats stats;
+  const Picture picture = render(scene, options, &stats);
+  EXPECT_TRUE(picture.pixels == cpu.pixels) << words;
+  EXPECT_EQ(std::count_if(stats.warnings.begin(), stats.warnings.end(),
+                          [&](const std::string& w) {
+                            return w.find("the CPU renders this picture") != std::string::npos && w.find(words) != std::string::npos;
+                          }),
+            1)
+      << words << ": " << (stats.warnings.empty() ? "no warning" : stats.warnings.back());
 }
 
 class VulkanFrame : public testing::Test {

@@ -85,16 +85,10 @@ void TileLighting::add_shadowed(SurfaceTile& tile, const std::vector<const PackL
   put_back_coats(work.coats, tile);
 }
 
-std::vector<const PackLight*> TileLighting::add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker) {
+std::vector<const PackLight*> TileLighting::hand_over_shadows(SurfaceTile& tile, const std::vector<const PackLight*>& lights,
+                                                              ShadowTaker& taker) {
   if (lights.empty() || !shadows_) return lights;
-  Work& work = *work_.local();
-  if (tile.any_coat && take_coats(tile, work.coats)) {
-    const std::vector<const PackLight*> plain = add_past_blockers(work.coats, lights, work);
-    if (!plain.empty()) add(work.coats, plain);
-    for (std::size_t i = 0; i < kTilePixels; ++i)
-      if (work.coats.material[i] != nullptr) add_radiance(tile, i, radiance_in(work.coats, i));
-  }
-  return add_past_blockers(tile, lights, work, taker);
+  return add_past_blockers(tile, lights, *work_.local(), &taker);
 }
 
 const TileShadow& TileLighting::find_at(const TilePoints& points, const PackLight& light) {

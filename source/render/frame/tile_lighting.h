@@ -36,9 +36,8 @@ class TileLighting {
   }
   // Adds the light of lights that may be occluded.
   void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
-  // Adds the light of those lights that are occluded, and returns the others. Coats with a normal of their own are then complete: they
-  // weigh nothing in the tile. taker: if not null, it adds the light of these lights.
-  std::vector<const PackLight*> add_hidden(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker* taker = nullptr);
+  // Finds the lights that are occluded from the tile: `taker` takes their visibility, and adds their light. Returns the others.
+  std::vector<const PackLight*> hand_over_shadows(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker& taker);
   // Visibility of an area light from some points. The result is valid until the thread asks again.
   const TileShadow& find_at(const TilePoints& points, const PackLight& light);
 
