@@ -49,13 +49,11 @@ bool share_an_end(uvec2 e, uvec2 f) {
 }
 
 // Pieces of segments at the lowest count so far: fractions of the way at which each begins and ends.
-SHARED vec2 pieces[PIECE_SPACE];
-SHARED int piece_segments[PIECE_SPACE];
+shared vec2 pieces[PIECE_SPACE];
+shared int piece_segments[PIECE_SPACE];
 int piece_count;
 int level;
 bool too_many_pieces;
-
-#ifdef MANY_EDGES
 
 // Pieces of the segment that this lane handles.
 const int TAKEN_SPACE = kCrossings + 1;
@@ -84,17 +82,6 @@ void gather_pieces() {
     taken_count = 0;
     taken_level = level;
 }
-
-#else
-
-#define TAKEN_SPACE PIECE_SPACE
-#define taken pieces
-#define taken_segments piece_segments
-#define taken_count piece_count
-#define taken_level level
-void gather_pieces() {}
-
-#endif
 
 void take_piece(vec2 ways, int segment, int left) {
     int weight = weights[segment];

@@ -1,8 +1,7 @@
-// The threads that work on a point: one thread, or all lanes of a subgroup, each on every LANES-th edge or segment. Results of lanes are
-// stored in the order of the edges, so nothing depends on timing. Segments and pieces are in shared memory; all else uses the subgroup.
+// The threads that work on a point: all lanes of a subgroup, each on every LANES-th edge or segment. Results of lanes are stored in the
+// order of the edges, so nothing depends on timing. Segments and pieces are in shared memory; all else uses the subgroup.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-#ifdef MANY_EDGES
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
@@ -12,7 +11,6 @@
 layout(local_size_x_id = 2) in;
 #define LANE gl_SubgroupInvocationID
 #define LANES gl_WorkGroupSize.x
-#define SHARED shared
 
 // Makes what lanes have written visible to all of them. Every lane must call this and all functions below, without divergent branches.
 void meet() { subgroupBarrier(); }
@@ -31,24 +29,5 @@ float most_of_lanes(float x) { return subgroupMax(x); }
 bool any_of_lanes(bool x) { return subgroupAny(x); }
 uint of_first_lane(uint x) { return subgroupBroadcastFirst(x); }
 
-#else
-
-const uint LANES = 1u;
-layout(local_size_x = 64) in;
-#define LANE 0u
-#define SHARED
-
-void meet() {}
-vec4 sum_of_lanes(vec4 x) { return x; }
-int sum_of_lanes(int x) { return x; }
-int least_of_lanes(int x) { return x; }
-int most_of_lanes(int x) { return x; }
-float least_of_lanes(float x) { return x; }
-float most_of_lanes(float x) { return x; }
-bool any_of_lanes(bool x) { return x; }
-uint of_first_lane(uint x) { return x; }
-
-#endif
-
 // Returns true if this lane's element exists. Lane by lane, i is first, first + 1 and so on.
-bool is_mine(uint i, uint count) { return LANES == 1u || i < count; }
+bool is_mine(uint i, uint count) { return i < count; }

@@ -48,9 +48,8 @@ const int kAskHost = 2;
 const int kNoRoom = 3;       // no capacity for the visible part
 const int kSeesPart = 4;     // plus the place of its record
 
-// Points that exceed the capacity of a thread: kGroupPoints times the number of the group, plus the point's number in it.
+// Name of a point: kGroupPoints times the number of its group, plus the point's number in the group.
 const int kGroupPoints = 64;
-const int kMostMany = 65535;  // work groups in a row
 
 // States of slots before a light: kSeesNone, kSeesWhole or kSeesPart.
 //

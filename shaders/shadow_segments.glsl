@@ -2,17 +2,15 @@
 // source/shadow/edges/edge_arrays.cpp and lanes_see_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-SHARED ivec4 cells[SEGMENT_SPACE];  // start, end
-SHARED uvec2 names[SEGMENT_SPACE];
-SHARED int weights[SEGMENT_SPACE];
+shared ivec4 cells[SEGMENT_SPACE];  // start, end
+shared uvec2 names[SEGMENT_SPACE];
+shared int weights[SEGMENT_SPACE];
 int segment_count;
 bool too_much;  // the capacity is exceeded
 
 const int kHidden = 1048576;  // source/shadow/edges/segments.h
 
 ivec4 displacements(uvec2 named) { return ivec4(displacement(named.x), displacement(named.y)); }
-
-#ifdef MANY_EDGES
 
 shared ivec2 heights[SEGMENT_SPACE];  // displacements of both ends in y: the most frequent query
 
@@ -58,32 +56,6 @@ void add_weight(int i, int weight) { atomicAdd(weights[i], weight); }
 
 ivec4 shifts_of(int i) { return displacements(names[i]); }
 ivec2 height_shifts(int i) { return heights[i]; }
-
-#else
-
-ivec4 shifts[SEGMENT_SPACE];  // displacements of both ends
-
-void add_segment(ivec4 ends, uvec2 named, int weight) {
-    if (segment_count == SEGMENT_SPACE) {
-        too_much = true;
-        return;
-    }
-    cells[segment_count] = ends;
-    shifts[segment_count] = displacements(named);
-    names[segment_count] = named;
-    weights[segment_count] = weight;
-    ++segment_count;
-}
-
-int gather_segments(int before) { return segment_count > before ? segment_count - 1 : -1; }
-void keep_gathered(int before, int own, bool keep) {
-    if (!keep) segment_count = before;
-}
-void add_weight(int i, int weight) { weights[i] += weight; }
-ivec4 shifts_of(int i) { return shifts[i]; }
-ivec2 height_shifts(int i) { return shifts[i].yw; }
-
-#endif
 
 // A point in front of a light's plane.
 struct Eye {

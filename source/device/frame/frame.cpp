@@ -27,7 +27,10 @@ bool has_bent_coats(const SurfaceMaterial& m) {
 }
 
 // The first feature of the picture that the device does not have; empty: it has all.
-std::string first_lack(const Scene& scene, const RenderOptions& options, const std::vector<PackLight>& lights, const DirectLight& direct) {
+std::string first_lack(const Scene& scene, const RenderOptions& options, const DeviceInfo& device, const std::vector<PackLight>& lights,
+                       const DirectLight& direct) {
+  if (options.shadows != steradian::Shadows::off && !Shadows::has(device))
+    return "'" + device.name + "' has no shadows: its subgroups cannot add";
   if (options.indirect.mode == IndirectMode::path) return "it has no bounce by paths";
   if (options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0) return "it has no --indirect-shadows";
   bool own = false;
@@ -99,8 +102,7 @@ std::string lack_of_devices(const Scene& scene, const RenderOptions& options) {
 }
 
 struct Frame::Parts {
-  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays, RenderCache* cache,
-        ManyEdgesBy many)
+  Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays, RenderCache* cache)
       : scene(s),
         options(o),
         threads(o.threads > 0 ? o.threads : tbb::info::default_concurrency()),
@@ -112,11 +114,9 @@ struct Frame::Parts {
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
         direct(kept->direct, s, method, o.table, lights),
-        arena(threads),
-        many_edges(Shadows::finds_many_edges(device->info()) &&
-                   (many == ManyEdgesBy::device || (many == ManyEdgesBy::automatic && !device->info().software))) {
+        arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
-    lacks = first_lack(s, o, lights, direct);
+    lacks = first_lack(s, o, device->info(), lights, direct);
     if (!lacks.empty()) return;
     const bool bounces = has_bounce(), maps = bounces && all_cast_exactly(s);
     if ((maps || host.has_shadows()) && (rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)))
@@ -161,7 +161,7 @@ struct Frame::Parts {
   // Finds the surfaces of the jobs, puts them on the device, and lists the lights that may reach them.
   std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
     std::vector<DirectLight::Tile> tiles(jobs.size());
-    if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size(), TileShadows(many_edges));
+    if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size(), TileShadows());
     const bool drawn = raster && layer == 0;
     if (drawn)
       device_clock.run([&] { raster->find(jobs.front().tile, static_cast<int>(jobs.size()), direct.surfaces(), direct.radiance()); });
@@ -209,7 +209,7 @@ struct Frame::Parts {
     const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
     if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, device_rays.get(), many_edges);
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, device_rays.get());
     for (std::size_t first = 0; first < tiles.size();) {
       const std::size_t count =
           shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
@@ -338,7 +338,6 @@ struct Frame::Parts {
   Bounce* bounce = nullptr;                   // null without a bounce
   std::optional<indirect::Pipeline> bounced;  // bounce of one frame
   tbb::task_arena arena;
-  const bool many_edges;  // the device finds the visible parts behind many edges
   double build_ms = 0;
   PassClock lists_clock{"lists"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
       capture_clock{"indirect: surfaces"};
@@ -349,8 +348,8 @@ struct Frame::Parts {
 };
 
 Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces, RaysBy rays,
-             RenderCache* cache, ManyEdgesBy many_edges)
-    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache, many_edges)) {}
+             RenderCache* cache)
+    : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache)) {}
 Frame::~Frame() = default;
 
 const std::string& Frame::lacks() const { return parts_->lacks; }

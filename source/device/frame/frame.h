@@ -22,10 +22,6 @@ enum class SurfacesBy { automatic, host, device };
 // unless it is software, slower at that than the host.
 enum class RaysBy { automatic, host, device };
 
-// Choice of who finds the visible parts of lights behind more edges than one thread handles. automatic: the device, with a subgroup per
-// point, unless it is software: its threads are the host's, whose search is not quadratic.
-enum class ManyEdgesBy { automatic, host, device };
-
 // Buffers and pipelines are created once, for any number of frames of a scene.
 class Frame {
  public:
@@ -34,8 +30,7 @@ class Frame {
   // UsageError for pictures that the host renders alone, and for options that this back end does not support yet. Throws Error if there is
   // no such device.
   Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
-        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr,
-        ManyEdgesBy many_edges = ManyEdgesBy::automatic);
+        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr);
   ~Frame();
 
   // The reason why this device cannot do all of the picture; empty: it can.

@@ -197,34 +197,27 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   EXPECT_LE(share, 0.02);
 }
 
-// Each point sees four segments of the light and three of every triangle, none of which crosses another. A thread has capacity for 256, a
-// subgroup for 640, the host for any number.
+// Each point sees four segments of the light and three of every triangle, none of which crosses another. A subgroup has capacity for 640,
+// the host for any number.
 TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   RenderOptions options = small("ltc-compact");
   options.shadows = Shadows::on;
   options.width = 64;
   options.height = 36;
-  const auto by_host = [&](int triangles, ManyEdgesBy many) {
-    return expect_same(std::to_string(triangles) + " apart", under_triangles(triangles, kSquare, kFlatBeforeSquare), options, 0, many);
+  const auto by_host = [&](int triangles) {
+    return expect_same(std::to_string(triangles) + " apart", under_triangles(triangles, kSquare, kFlatBeforeSquare), options);
   };
-  EXPECT_EQ(by_host(84, ManyEdgesBy::host), 0);
-  EXPECT_EQ(by_host(85, ManyEdgesBy::host), 1);
-  EXPECT_EQ(by_host(85, ManyEdgesBy::device), 0);
-  EXPECT_EQ(by_host(212, ManyEdgesBy::device), 0);
-  EXPECT_EQ(by_host(213, ManyEdgesBy::device), 1);
-  // Triangles overlap: their crossings do or do not fit a thread's loop turns.
+  EXPECT_EQ(by_host(212), 0);
+  EXPECT_EQ(by_host(213), 1);
+  // Triangles overlap: their crossings do or do not fit the turns of the loops.
   for (const int triangles : {80, 200}) {
-    const std::string name = std::to_string(triangles) + " triangles";
-    const double without = expect_same(name, under_triangles(triangles), options, 0, ManyEdgesBy::host);
-    const double with = expect_same(name, under_triangles(triangles), options, 0, ManyEdgesBy::device);
-    std::printf("%s: %.2f %% of the parts by the host, %.2f %% with subgroups\n", name.c_str(), 100 * without, 100 * with);
-    EXPECT_LE(with, without);
+    const double share = expect_same(std::to_string(triangles) + " triangles", under_triangles(triangles), options);
+    std::printf("%d triangles: %.2f %% of the parts by the host\n", triangles, 100 * share);
   }
 }
 
-// Lights of every shape: fractions of polygons, frames of the points' own, sections of triangles by the light's plane. Some groups have
-// more edges than a thread handles.
-TEST_F(VulkanFrame, FindsPartsBehindManyEdgesBySubgroups) {
+// Lights of every shape: fractions of polygons, frames of the points' own, sections of triangles by the light's plane.
+TEST_F(VulkanFrame, FindsPartsBehindManyEdges) {
   RenderOptions options = small("ltc-compact");
   options.shadows = Shadows::on;
   options.width = 64;
@@ -235,17 +228,12 @@ TEST_F(VulkanFrame, FindsPartsBehindManyEdgesBySubgroups) {
       {"90 across", Polygon{{{-1, 0.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 0.5, 1}}, {}}, {}},
   };
   for (const auto& [name, light, spread] : lights) {
-    const Scene scene = under_triangles(90, light, spread);
-    const double without = expect_same(name, scene, options, 0, ManyEdgesBy::host);
-    const double with = expect_same(name, scene, options, 0, ManyEdgesBy::device);
-    std::printf("%s: %.2f %% of the parts by the host, %.2f %% with subgroups\n", name, 100 * without, 100 * with);
-    EXPECT_LE(with, without / 2) << name;
-    EXPECT_GT(without, 0) << name;
+    const double share = expect_same(name, under_triangles(90, light, spread), options);
+    std::printf("%s: %.2f %% of the parts by the host\n", name, 100 * share);
+    EXPECT_LE(share, 0.5) << name;
   }
-  options = small("ltc-compact");
-  options.shadows = Shadows::on;
   for (const char* name : {"gallery", "tubes"}) {
-    const double share = expect_same(std::string(name) + ", shadows", scene_of(name), options, 0, ManyEdgesBy::device);
+    const double share = expect_same(std::string(name) + ", shadows", scene_of(name), options);
     std::printf("%s: %.2f %% of the parts by the host\n", name, 100 * share);
     EXPECT_LE(share, 0.01) << name;
   }
@@ -312,7 +300,7 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
     options.width = 48;  // the layer checks the calls, not their results
     options.height = 27;
     options.shadows = shadows;
-    Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device, nullptr, ManyEdgesBy::device);
+    Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device);
     for (int i = 0; i < 2; ++i) frame.render();
   }
   EXPECT_TRUE(device->validation_messages().empty())

@@ -30,15 +30,12 @@ inline RenderOptions small(const std::string& method) {
 // Prints the error, and where it is largest. The bound is the back end's promise (docs/vulkan.md): float's own error along an outline is a
 // hundredth of it. outliers: number of pixels whose error may exceed a thousandth of the picture's mean. There, a rounding changes how
 // many nodes or corners represent a light. The bound is that of the others. Returns RenderStats::shadow_on_host.
-inline double expect_same(const std::string& name, const Scene& scene, RenderOptions options, int outliers = 0,
-                          ManyEdgesBy many_edges = ManyEdgesBy::automatic) {
+inline double expect_same(const std::string& name, const Scene& scene, RenderOptions options, int outliers = 0) {
   options.backend = Backend::cpu;
   const Picture cpu = render(scene, options);
   options.backend = Backend::vulkan;
   RenderStats stats;
-  const Picture device = many_edges == ManyEdgesBy::automatic
-                             ? render(scene, options, &stats)
-                             : Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::automatic, nullptr, many_edges).render(&stats);
+  const Picture device = render(scene, options, &stats);
   const auto square = [](Vec3f v) { return static_cast<double>(dot(v, v)); };
   double squares = 0;
   for (const Vec3f& p : cpu.pixels) squares += square(p);

@@ -16,16 +16,15 @@ constexpr std::size_t kVector = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
 // Limits of one search: work groups in a row, points whose parts fill a quarter of a buffer, lights and groups whose values fill half of
 // one.
-constexpr std::size_t kMostGroups = 65535, kMostPoints = 65536, kMostLights = 16384,
+constexpr std::size_t kMostGroups = 65535, kMostPoints = 65535, kMostLights = 16384,
                       kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
 constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
-constexpr int kMorePieces = 16;             // than segments
 // Limits of a subgroup for one point: segments, and pieces of them; bytes of one of each in shared memory (shaders/shadow_lanes.glsl).
-constexpr std::size_t kManySegments = 640, kSegmentBytes = 48;
+constexpr std::size_t kMostSegments = 640, kLeastSegments = 256, kSegmentBytes = 48;
 
 // Layout of Answers in shaders/shadow_parts.comp.
 struct AnswersHead {
-  std::uint32_t parts_begin, parts_used, parts_room, first_many, many_groups[3], many;
+  std::uint32_t parts_begin, parts_used, parts_room, first_name;
 };
 struct Answer {
   Vec3f origin;
@@ -33,7 +32,7 @@ struct Answer {
   Vec3f way;
   std::uint32_t sees;
 };
-static_assert(sizeof(AnswersHead) == 2 * kVector && sizeof(Answer) == kShadowAnswer * kVector);
+static_assert(sizeof(AnswersHead) == kVector && sizeof(Answer) == kShadowAnswer * kVector);
 
 constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow_rays.comp
 
@@ -60,19 +59,19 @@ struct Shadows::Batch {
 
   std::span<TileShadows> tiles;
   std::vector<Begin> begins;
-  std::vector<std::uint32_t> many;  // numbers of points behind so many edges that no thread tries them
-  Answer* answers = nullptr;        // by point
+  std::vector<std::uint32_t> names;  // of all points
+  Answer* answers = nullptr;         // by point
 };
 
 Shadows::Kept::Kept(const Device& d)
     : device(d), program(d, shadow_shaders(), 4), groups(d), answers(d, BufferUse::host_reads), parts(d), states(d) {}
 
-bool Shadows::finds_many_edges(const DeviceInfo& device) {
-  return device.adds && device.subgroup > 0 && device.shared_memory >= static_cast<std::size_t>(kMostSpace) * kSegmentBytes;
+bool Shadows::has(const DeviceInfo& device) {
+  return device.adds && device.subgroup > 0 && device.shared_memory >= kLeastSegments * kSegmentBytes;
 }
 
-Shadows::Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays, bool many_edges)
-    : kept_(kept), rays_(*parts.rays), device_rays_(rays), many_edges_(many_edges), host_(host) {}
+Shadows::Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays)
+    : kept_(kept), rays_(*parts.rays), device_rays_(rays), host_(host) {}
 
 std::size_t Shadows::most_of_buffer() const { return std::min<std::size_t>(kLargestBuffer, kept_.device.info().storage_buffer); }
 
@@ -91,18 +90,16 @@ void Shadows::upload(Batch& batch) {
   const std::size_t headers = batch.all().group * kHeader;
   auto* to = static_cast<std::uint32_t*>(fitting(kept_.groups, (headers + batch.all().row) * kVector, "the edges before lights").mapped());
   std::size_t row = 0;
-  for (const int space : kSpaces)
-    for (std::size_t i = 0; i < batch.tiles.size(); ++i)
-      for (const TileShadows::Search& group : batch.tiles[i].groups) {
-        if (group.space != space) continue;
-        for (std::size_t k = 0; space == kManyEdges && k < group.points; ++k)
-          batch.many.push_back(number(row / kHeader * static_cast<std::size_t>(kGroupPoints) + k));
-        auto header = group.header;
-        for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + batch.begins[i].row);
-        header[9] += number(batch.begins[i].point);
-        std::memcpy(to + 4 * row, header.data(), sizeof header);
-        row += kHeader;
-      }
+  for (std::size_t i = 0; i < batch.tiles.size(); ++i)
+    for (const TileShadows::Search& group : batch.tiles[i].groups) {
+      for (std::size_t k = 0; k < group.points; ++k)
+        batch.names.push_back(number(row / kHeader * static_cast<std::size_t>(kGroupPoints) + k));
+      auto header = group.header;
+      for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + batch.begins[i].row);
+      header[9] += number(batch.begins[i].point);
+      std::memcpy(to + 4 * row, header.data(), sizeof header);
+      row += kHeader;
+    }
   for (std::size_t i = 0; i < batch.tiles.size(); ++i)
     std::memcpy(to + 4 * (headers + batch.begins[i].row), batch.tiles[i].values.data(),
                 batch.tiles[i].values.size() * sizeof(std::uint32_t));
@@ -110,8 +107,8 @@ void Shadows::upload(Batch& batch) {
 
 // Returns the number of vectors that the parts' records need.
 std::size_t Shadows::search(Batch& batch) {
-  const std::size_t count = batch.all().point, many = std::min(batch.many.size(), static_cast<std::size_t>(kMostMany));
-  AnswersHead head{0, 0, number(parts().bytes() / kVector), number(count) * kShadowAnswer, {number(many), 1, 1}, number(many)};
+  const std::size_t count = batch.all().point;
+  AnswersHead head{0, 0, number(parts().bytes() / kVector), number(count) * kShadowAnswer};
   const std::size_t list = sizeof head + count * sizeof(Answer);
   Buffer& answers = fitting(kept_.answers, list + (count + 3) / 4 * kVector, "points before lights");
   answers.write(&head, sizeof head);
@@ -119,26 +116,15 @@ std::size_t Shadows::search(Batch& batch) {
   for (std::size_t i = 0; i < batch.tiles.size(); ++i)
     for (std::size_t k = 0; k < batch.tiles[i].points.size(); ++k)
       batch.answers[batch.begins[i].point + k] = {static_cast<Vec3f>(batch.tiles[i].points[k].at.position), 0, {}, kAskHost};
-  std::memcpy(static_cast<char*>(answers.mapped()) + list, batch.many.data(), many * sizeof(std::uint32_t));
+  std::memcpy(static_cast<char*>(answers.mapped()) + list, batch.names.data(), batch.names.size() * sizeof(std::uint32_t));
   std::vector<ComputeProgram::Dispatch> dispatches;
-  std::uint32_t first = 0;
-  for (const int space : kSpaces) {
-    if (space == kManyEdges) continue;
-    std::uint32_t groups = 0;
-    for (const TileShadows& tile : batch.tiles)
-      groups += number(
-          static_cast<std::size_t>(std::count_if(tile.groups.begin(), tile.groups.end(), [&](const auto& g) { return g.space == space; })));
-    if (groups > 0) dispatches.push_back({kept_.program.pipeline(0, {space, space + kMorePieces}), groups, 1, first});
-    first += groups;
-  }
-  if (many_edges_ && count > 0) {
+  if (count > 0) {
     const DeviceInfo& device = kept_.device.info();
-    const std::size_t space = std::min(device.shared_memory / kSegmentBytes, kManySegments);
-    dispatches.push_back({kept_.program.pipeline(1, {static_cast<int>(space), static_cast<int>(space), static_cast<int>(device.subgroup)}),
-                          0, 0, 0, &answers, offsetof(AnswersHead, many_groups)});
+    const int space = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kMostSegments));
+    dispatches.push_back({kept_.program.pipeline(0, {space, space, static_cast<int>(device.subgroup)}), number(count)});
   }
   if (device_rays_ != nullptr && count > 0)
-    dispatches.push_back({kept_.program.pipeline(2), number((count + kThreads - 1) / kThreads), 1, number(count)});
+    dispatches.push_back({kept_.program.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
   const std::vector<double> times = kept_.program.run(
       {&kept_.groups.get(), &kept_.parts.get(), &answers, device_rays_ != nullptr ? &device_rays_->hierarchy() : &answers}, dispatches);
   for (std::size_t i = 0; i < times.size(); ++i) (device_rays_ != nullptr && i + 1 == times.size() ? rays_time_ : time_) += times[i];

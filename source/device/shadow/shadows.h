@@ -1,7 +1,6 @@
-// Shadows on a device: finds the visible parts of lights behind edges (shaders/shadow_parts.comp). One ray per point tests that the part
-// is unoccluded, on the device (shaders/shadow_rays.comp) or on the host. The host's rays also serve if a buffer has no capacity for the
-// triangles, or if a traversal does not end. A subgroup handles points that exceed a thread's capacity (shaders/shadow_many.comp). The
-// host handles points that exceed both capacities or are uncertain.
+// Shadows on a device: a subgroup per point finds the visible parts of lights behind edges (shaders/shadow_parts.comp). One ray per point
+// tests that the part is unoccluded, on the device (shaders/shadow_rays.comp) or on the host. The host's rays also serve if a buffer has no
+// capacity for the triangles, or if a traversal does not end. The host handles points that exceed the capacity or are uncertain.
 #pragma once
 
 #include <map>
@@ -29,11 +28,10 @@ class Shadows {
   };
 
   // Returns true if a device supports a subgroup per point.
-  static bool finds_many_edges(const DeviceInfo& device);
+  static bool has(const DeviceInfo& device);
 
-  // All arguments must outlive this object; parts: with edges. rays: null for the host's. many_edges: true: a subgroup per point finds the
-  // visible parts behind many edges; else the host finds them.
-  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays, bool many_edges);
+  // All arguments must outlive this object; parts: with edges. rays: null for the host's.
+  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays);
 
   // Finds the shadows of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
   // one is too many. Calls each(count, work) for work in parallel.
@@ -65,7 +63,6 @@ class Shadows {
   Kept& kept_;
   const RayScene& rays_;
   const SceneRays* const device_rays_;  // null: the host's rays
-  const bool many_edges_;
   TileLighting& host_;
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;

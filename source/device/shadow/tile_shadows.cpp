@@ -12,10 +12,10 @@ namespace {
 
 using shadow::Viewpoint;
 
-constexpr std::size_t kMostEdgesOfThread = 5120, kMostEdges = 20480, kMostIncidences = 1024;  // per group: shaders/shadow_turns.glsl
-constexpr std::size_t kMostValues = std::size_t{1} << 23;                                     // per tile: a quarter of a buffer
-constexpr std::uint32_t kMostNumber = 1 << 27;                                                // vertex or edge: names have 28 bits
-constexpr std::size_t kMostPlaces = 1 << 16;                                                  // vertices and planes per group
+constexpr std::size_t kMostEdges = 20480, kMostIncidences = 1024, kMostCorners = 126;  // per group: shaders/shadow_turns.glsl
+constexpr std::size_t kMostValues = std::size_t{1} << 23;                              // per tile: a quarter of a buffer
+constexpr std::uint32_t kMostNumber = 1 << 27;                                         // vertex or edge: names have 28 bits
+constexpr std::size_t kMostPlaces = 1 << 16;                                           // vertices and planes per group
 
 static_assert(std::tuple_size_v<decltype(TileShadows::Search::header)> == 4 * static_cast<std::size_t>(kShadowHeader));
 
@@ -140,7 +140,7 @@ bool TileShadows::find(const Group& asked) {
   const std::vector<shadow::EdgeArrays::Triangle>& crossing = edges.crossing();
   // A triangle takes one and a half times as many loop turns as an edge.
   const std::size_t turns = all.edge_count + crossing.size() + crossing.size() / 2;
-  if (values.size() > kMostValues || turns > (many_edges_ ? kMostEdges : kMostEdgesOfThread)) return false;
+  if (values.size() > kMostValues || turns > kMostEdges) return false;
   for (const auto& triangle : crossing)
     if (triangle.number >= kMostNumber || *std::max_element(std::begin(triangle.edges), std::end(triangle.edges)) >= kMostNumber)
       return false;
@@ -167,7 +167,7 @@ bool TileShadows::find(const Group& asked) {
   if (found.empty()) return true;
   const std::vector<shadow::Segment>& outline = *found.front().side->outline;
   const std::size_t corners = outline.size();
-  const bool fits = corners + 2 <= static_cast<std::size_t>(kMostSpace) / 2 && (!asked.shares || is_one_contour(outline)) &&
+  const bool fits = corners <= kMostCorners && (!asked.shares || is_one_contour(outline)) &&
                     std::all_of(found.begin(), found.end(), [&](const Point& p) { return p.side->outline->size() == corners; });
   if (!fits) {
     sides.resize(sides_before);
@@ -175,9 +175,6 @@ bool TileShadows::find(const Group& asked) {
   }
 
   Search group{};
-  const std::size_t segments = all.edge_count + crossing.size() + corners + 2;
-  group.space = *std::find_if(kSpaces.begin(), kSpaces.end() - 2, [&](int space) { return static_cast<std::size_t>(space) >= segments; });
-  if (turns > kMostEdgesOfThread) group.space = kManyEdges;
   group.points = found.size();
   const bool turned = asked.base != nullptr;
   add_edges(edges, values, group.header);

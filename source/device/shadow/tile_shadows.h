@@ -12,16 +12,8 @@
 
 namespace steradian::vulkan {
 
-// Capacities of a thread for segments: shaders/shadow_turns.glsl explains their limit. The last entry is for groups that no single thread
-// tries.
-inline constexpr int kMostSpace = 256, kManyEdges = 0;
-inline constexpr std::array<int, 5> kSpaces = {32, 64, 128, kMostSpace, kManyEdges};
-
 class TileShadows : public ShadowTaker {
  public:
-  // many_edges: true: the device also takes groups behind more edges than a thread handles.
-  explicit TileShadows(bool many_edges) : many_edges_(many_edges) {}
-
   void clear();
 
   bool find(const Group& group) override;
@@ -45,7 +37,6 @@ class TileShadows : public ShadowTaker {
   struct Search {
     std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
     std::size_t points;
-    int space;  // capacity for segments: a thread's, or kManyEdges
   };
   std::vector<Light> by_light;
   std::vector<Vec4Floats> records;  // records of parts
@@ -55,7 +46,6 @@ class TileShadows : public ShadowTaker {
   std::deque<LightSide> sides;  // sides that are not stored elsewhere
 
  private:
-  bool many_edges_;
   std::size_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
   std::size_t add_outline(const packed::Pieces& pieces, std::size_t point, float weight, int& edges);
   std::uint32_t add_part(const TileShadow::Batch& batch, std::size_t point, Light& to);

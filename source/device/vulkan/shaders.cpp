@@ -40,9 +40,6 @@ constexpr std::uint32_t kArcsLobe[] =
 constexpr std::uint32_t kShadowParts[] =
 #include "shadow_parts.comp.inc"
     ;
-constexpr std::uint32_t kShadowMany[] =
-#include "shadow_many.comp.inc"
-    ;
 constexpr std::uint32_t kShadowRays[] =
 #include "shadow_rays.comp.inc"
     ;
@@ -94,7 +91,7 @@ std::span<const std::uint32_t> texture_means_shader() { return kTextureMeans; }
 std::span<const std::uint32_t> profile_means_shader() { return kProfileMeans; }
 std::span<const std::uint32_t> phong_lobe_shader() { return kPhongLobe; }
 std::span<const std::uint32_t> arcs_lobe_shader() { return kArcsLobe; }
-std::vector<std::span<const std::uint32_t>> shadow_shaders() { return {kShadowParts, kShadowMany, kShadowRays}; }
+std::vector<std::span<const std::uint32_t>> shadow_shaders() { return {kShadowParts, kShadowRays}; }
 std::span<const std::uint32_t> shadow_shares_shader() { return kShadowShares; }
 std::span<const std::uint32_t> bounce_rays_shader() { return kBounceRays; }
 std::span<const std::uint32_t> bounce_lobes_shader() { return kBounceLobes; }
