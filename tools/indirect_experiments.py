@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The experiments of docs/indirect.md: renders them, writes their pictures, prints their tables.
+"""The experiments of docs/measured/indirect.md: renders them, writes their pictures, prints their tables.
 
 usage: indirect_experiments.py [--program build/release/bin/steradian] [--images docs/images] [NAME ...]
 

@@ -1,5 +1,5 @@
 // measure_jitter SCENE [FRAMES]: measures the change of the bounce's own error from frame to frame of a moving camera, at silhouettes and
-// elsewhere, with the filter and without it. Writes the table of docs/indirect.md.
+// elsewhere, with the filter and without it. Writes the table of docs/measured/indirect.md.
 //
 // The camera moves sideways by a quarter of a pixel a frame. Each frame's error is its difference from the sum of all virtual lights at
 // every pixel, so that changes from the motion itself do not count. The jitter is the mean absolute change of an error from one frame to

@@ -1,4 +1,4 @@
-// OpenLights: finds the lights that nothing occludes for a whole tile, all together. Section "Open shafts" of docs/shadows.md.
+// OpenLights: finds the lights that nothing occludes for a whole tile, all together. Section "Open shafts" of docs/theory/shadows.md.
 #pragma once
 
 #include <cstdint>

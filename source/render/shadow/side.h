@@ -11,7 +11,7 @@
 
 namespace steradian {
 
-// Number of corners of polygons that stand for round lights. Penumbrae are then 4.5e-5 rms off (docs/shadows.md).
+// Number of corners of polygons that stand for round lights. Penumbrae are then 4.5e-5 rms off.
 inline constexpr int kRoundCorners = 24;
 
 // One prepared side of a flat light.

@@ -1,4 +1,4 @@
-// Gathering: the edges that a group of points needs to test for a light. See section "A picture" of docs/shadows.md.
+// Gathering: the edges that a group of points needs to test for a light. See section "A picture" of docs/theory/shadows.md.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Open shafts: a test whether anything at all can lie between a group of points and lights, as a whole. See section "Open shafts" of
-// docs/shadows.md.
+// docs/theory/shadows.md.
 #pragma once
 
 #include <algorithm>

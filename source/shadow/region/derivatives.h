@@ -1,5 +1,5 @@
 // Derivatives of the light that arrives past triangles: how the boundary of the visible part moves with the light, the triangles
-// and the point. See docs/shadows.md, "Derivatives".
+// and the point. See docs/theory/shadows.md, "Derivatives".
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct BoundaryDerivatives {
 // Sections of triangles by the light's plane move with the triangles and the point. Their motion with a light whose plane turns is left
 // out. Degenerate cases: an edge that points at the point has no derivative and is skipped. A vertex of one surface on an edge of another
 // opens a slit where it moves; there, this is one of two one-sided derivatives. Error: quadrature along arcs to 1e-9 of the largest
-// piece's; pieces are 1.2e-7 of the light's half side off (docs/shadows.md).
+// piece's; pieces are 1.2e-7 of the light's half side off (docs/theory/shadows.md).
 BoundaryDerivatives boundary_derivatives(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from,
                                          const std::function<Vec3d(Vec3d)>& density);
 

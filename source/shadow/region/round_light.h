@@ -13,7 +13,7 @@ namespace steradian::shadow {
 // stand before the light. A sphere's plane is that of its silhouette. A tube's plane contains its axis and faces the point; near the axis,
 // it crosses the nearer ball.
 //
-//   corners  of equal area: 24 are 4.5e-5 rms off in penumbrae (docs/shadows.md)
+//   corners  of equal area: 24 are 4.5e-5 rms off in penumbrae
 //   returns  no vertices if nothing is visible
 PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d position, int corners);
 
