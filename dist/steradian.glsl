@@ -4711,7 +4711,7 @@ float steradian_representative_v_dot_h(SteradianRepresentativeWalk walk, vec3 vi
 //   t        tan f, f in (-pi/2, pi/2)
 //   f        the angle; read for n = 2 and n = 0 only
 //
-// Error: docs/plane.md, "closed forms"; against quadrature in plane_kernel_test.
+// Error: docs/theory/plane.md, "closed forms"; against quadrature in plane_kernel_test.
 float steradian_plane_power_integral(int n, float t, float f) {
     float sec2 = 1.0 + t * t;
     float sec = sqrt(sec2);

@@ -167,7 +167,7 @@ void add_bench(CommandLine& line) {
   verb.add_flag("--table2", options->table2, "errors and times of the Phong methods (docs/theory/moments.md)").group("Studies");
   verb.add("--figures", options->figures, "of --table2: folder for the page's figures").group("Studies").existing_folder();
   verb.add_flag("--textured", options->textured, "errors of textured lights (docs/theory/ltc.md)").group("Studies");
-  verb.add_flag("--plane", options->plane, "times and errors of the plane's methods (docs/plane.md)").group("Studies");
+  verb.add_flag("--plane", options->plane, "times and errors of the plane's methods (docs/measured/plane.md)").group("Studies");
   verb.callback([options, &exit = line.exit()] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);

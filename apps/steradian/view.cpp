@@ -42,7 +42,7 @@ void add_view(CommandLine& line) {
   auto options = std::make_shared<ViewArguments>();
   Verb verb = line.verb("view", "Open a scene in a window and move its lights by hand");
   verb.group("Pictures");
-  verb.footer("F1 in the window lists its keys. docs/view.md describes scripts.");
+  verb.footer("F1 in the window lists its keys. docs/view-scripts.md describes scripts.");
   verb.add("SCENE", options->scene, "scene file (.gltf, .glb, .svg)").required();
   verb.add("--size", options->size, "WIDTHxHEIGHT of the window in pixels");
   verb.add("--method", options->render.method, "method of the specular lobe").check([](const std::string& name) {

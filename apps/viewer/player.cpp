@@ -180,7 +180,7 @@ void set_value(ViewState& state, const std::string& what, const nlohmann::json& 
   if (set_of_picture(state, what, value)) return;
   if (state.drawing != nullptr && set_of_drawing(*state.drawing, what, value)) return;
   if (state.session == nullptr || !set_of_session(*state.session, what, value))
-    throw Error("set " + what, "is no value of what is selected", "docs/view.md lists them");
+    throw Error("set " + what, "is no value of what is selected", "docs/view-scripts.md lists them");
   state.session->document().close_step();
   state.session->changed();
 }

@@ -3,7 +3,7 @@
 //   {"press": "left", "at": [400, 300]}   {"move": [420, 300]}   {"release": "left"}
 //   {"drag": "left", "from": [400, 300], "to": [500, 260], "steps": 10}      "shift": true with press and drag
 //   {"click": [400, 300]}   {"wheel": 2, "at": [400, 300]}   {"key": "Ctrl+Z"}   {"select": "star"}
-//   {"set": "intensity", "value": 9}      of the selected light; "color", "size", "type", ... of docs/view.md
+//   {"set": "intensity", "value": 9}      of the selected light; "color", "size", "type", ... of docs/view-scripts.md
 //   {"wait": "settled"}   {"wait": "picture"}   {"wait": 0.5}   {"time": "first picture"}   the last prints the seconds since the start
 //   {"shot": "a.png"}   {"picture": "a.exr"}   {"save": "scene.glb"}
 //   {"resize": [800, 450]}   {"minimise": true}   {"restore": true}   {"open": "other.glb"}   {"quit": true}

@@ -3,7 +3,7 @@
 import math
 
 # The roughness and the factor that bring the albedos of Disney's sheen (1 - l.h)^5 and of glTF's Charlie lobe together: 9 % rms over the
-# views, weighted by their cosine (docs/blender.md).
+# views, weighted by their cosine (docs/blender-conversion.md).
 SHEEN_ROUGHNESS, SHEEN_FACTOR = 0.38, 0.122
 # Blender's coat is a quarter of glTF's.
 COAT_FACTOR = 0.25

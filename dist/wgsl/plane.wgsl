@@ -40,7 +40,7 @@
 //   t        tan f, f in (-pi/2, pi/2)
 //   f        the angle; read for n = 2 and n = 0 only
 //
-// Error: docs/plane.md, "closed forms"; against quadrature in plane_kernel_test.
+// Error: docs/theory/plane.md, "closed forms"; against quadrature in plane_kernel_test.
 fn steradian_plane_power_integral(n: i32, t: f32, f: f32) -> f32 {
     let sec2 = 1.0 + t * t;
     let sec = sqrt(sec2);

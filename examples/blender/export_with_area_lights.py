@@ -3,7 +3,7 @@
     blender -b room.blend --python export_with_area_lights.py -- room.glb
 
 What it writes is the exporter's file with a node for each area light. An area light of power P [W] and area A shines with the radiance
-P / (4 A) in Blender, whatever its shape: that is what Cycles renders (docs/blender.md says how that was measured). Light that a node tree
+P / (4 A) in Blender, whatever its shape: that is what Cycles renders (docs/lights.md says how that was measured). Light that a node tree
 makes is not known to this script: it takes the light's colour and power, and says so.
 """
 

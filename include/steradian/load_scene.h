@@ -61,7 +61,7 @@ struct LoadedScene {
 };
 
 // Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file without lights, or with no other
-// light than weak emissive textures on most of its surface (docs/scenes.md), gets a default area light. A file without cameras gets a
+// light than weak emissive textures on most of its surface (docs/scene-lights.md), gets a default area light. A file without cameras gets a
 // camera that frames the scene. A warning states both. Throws Error with file, place in the file and what to do for everything that is
 // broken or required but unsupported.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});

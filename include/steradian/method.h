@@ -1,4 +1,4 @@
-// Selection of the method, quality and arithmetic of an integral. `steradian eval --help` and docs/eval.md describe each method and the
+// Selection of the method, quality and arithmetic of an integral. `steradian eval --help` and docs/methods.md describe each method and the
 // lobes that it serves.
 #pragma once
 

@@ -196,7 +196,7 @@ struct PlaneSvg {
   std::vector<std::string> ignored;  // unsupported elements and attributes that the file uses, each once
 };
 
-// Reads an SVG file as a scene; docs/plane.md defines lights and occluders. Throws Error with file, line and a hint.
+// Reads an SVG file as a scene; docs/plane-drawings.md defines lights and occluders. Throws Error with file, line and a hint.
 // load_plane_scene_from_text takes the SVG itself; `name` is the file's name in messages.
 PlaneSvg load_plane_scene(const std::string& path, const Limits& limits = {});
 PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name, const Limits& limits = {});

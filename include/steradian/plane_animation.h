@@ -3,7 +3,7 @@
 //   PlaneAnimation animation("level.svg");
 //   PlaneScene scene = animation.at(1.5).scene;     // after a second and a half
 //
-// docs/plane.md says which animations are supported; PlaneSvg::ignored names the others.
+// docs/plane-drawings.md says which animations are supported; PlaneSvg::ignored names the others.
 #pragma once
 
 #include <string>

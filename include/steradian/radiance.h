@@ -8,7 +8,7 @@
 //   const RadianceResult r = radiance(panel, {{0, 0, 0}, {0, 1, 0}, {0.6, 0.8, 0}}, lobe);
 //   // r.radiance; name_of(r.method) is "closed-form"
 //
-// The methods and their selection are those of `steradian eval` (docs/eval.md). For many evaluations, prepare the light once.
+// The methods and their selection are those of `steradian eval` (docs/methods.md). For many evaluations, prepare the light once.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ struct RadianceResult {
 RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 // Radiance of polygons, disks, spheres and capsules; a textured light counts with its mean radiance. Round lights are exact for Lambert by
-// `exact`. For other methods they are polygons, and the bound of reference includes the difference (docs/eval.md).
+// `exact`. For other methods they are polygons, and the bound of reference includes the difference (docs/theory/round-lights.md).
 RadianceResult radiance(const AreaLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 
 }  // namespace steradian

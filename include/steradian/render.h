@@ -14,8 +14,8 @@
 
 namespace steradian {
 
-// Shadows of direct light. on: exact for flat lights, for round ones by polygons of 24 corners. Rays are used if a point sees more than 512
-// edges before a light (RenderStats::shadow_fallback says how often). exact: never by rays.
+// Shadows of direct light. on: exact for flat lights, for round ones by polygons of 24 corners. A point with more than 2,048 segments
+// before a light takes rays (RenderStats::shadow_fallback says how often). exact: never by rays.
 enum class Shadows { off, on, exact };
 
 // Horizon of curved surfaces that turn away from a light. strict: that of their triangles, facets included. smooth: that of the surface
@@ -26,8 +26,8 @@ enum class Terminator { strict, smooth };
 // is summed together, within a bound; see docs/manylights.md. automatic: tree from 64 lights on.
 enum class LightSum { automatic, all, tree };
 
-// vulkan: the same picture. The device computes direct light of metallic-roughness surfaces if nothing blocks it, the host the rest
-// (docs/vulkan.md). The bounce is a UsageError there, a missing device an Error.
+// vulkan: the same picture. The device renders all of it, or the CPU does and RenderStats::warnings names the reason (docs/vulkan.md).
+// A missing device is an Error.
 enum class Backend { cpu, vulkan };
 
 struct RenderOptions {

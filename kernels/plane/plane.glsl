@@ -12,7 +12,7 @@
 //   t        tan f, f in (-pi/2, pi/2)
 //   f        the angle; read for n = 2 and n = 0 only
 //
-// Error: docs/plane.md, "closed forms"; against quadrature in plane_kernel_test.
+// Error: docs/theory/plane.md, "closed forms"; against quadrature in plane_kernel_test.
 real plane_power_integral(int n, real t, real f) {
     real sec2 = 1.0 + t * t;
     real sec = sqrt(sec2);

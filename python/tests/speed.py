@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times a million points under a quad: the table of docs/python.md."""
+"""Times a million points under a quad: the table of docs/python-module.md."""
 import time
 
 import numpy as np

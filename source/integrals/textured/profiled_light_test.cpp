@@ -153,7 +153,7 @@ TEST(ProfiledLight, OnlyRectsAndDisksShineByAProfile) {
   EXPECT_EQ(radiance(light, kBelow, {}).radiance.x, 0);
 }
 
-// The error that docs/lights.md states: random places of a light of a metre or so, from 0.1 to 4 m, each quality.
+// The error that docs/theory/ltc.md states: random places of a light of a metre or so, from 0.1 to 4 m, each quality.
 TEST(ProfiledLight, ErrorsAreMeasured) {
   struct Kind {
     const char* name;

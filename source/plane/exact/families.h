@@ -26,7 +26,7 @@ struct FamilyError {
 // The error of `method` relative to `exact`.
 FamilyError measure_family(int family, PlaneMethod method, int scenes, int points_per_scene, const PlaneSampling& sampling = {});
 
-// The table of docs/plane.md, as Markdown.
+// The table of docs/measured/plane.md, as Markdown.
 std::string plane_error_table(int scenes, int points_per_scene);
 
 }  // namespace steradian::plane

@@ -299,7 +299,7 @@ TEST(EnvironmentRender, DiffuseAgreesWithTheReference) {
   }
 }
 
-// Error of the specular lobe, as docs/render.md states it.
+// Error of the specular lobe, as docs/environments.md states it.
 TEST(EnvironmentRender, SpecularAgreesWithTheReference) {
   for (const float roughness : {0.1f, 0.3f, 0.6f, 1.0f})
     for (const bool room : {false, true}) {
