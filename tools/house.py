@@ -7,6 +7,8 @@
                                    mirrors    a shader says that its text repeats a file of source/
                                    types      two types have one name
                                    folders    a folder of source/ holds more than 25 files
+                                   pages      a page of docs/ (not of theory/ or measured/) has more than 900 words, README.md more than
+                                              120 lines, or an entry of CHANGELOG.md more than 160 characters
     tools/house.py --test          exit 1 when a broken rule, made up for the purpose, is not found
 
 Tests (x_test.cpp) count apart. Only files that git tracks are read.
@@ -20,6 +22,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER_LIMIT = 25
+PAGE_LIMIT, README_LIMIT, ENTRY_LIMIT = 900, 120, 160
 TEXTS = {".h": "//", ".cpp": "//", ".glsl": "//", ".comp": "//", ".vert": "//", ".frag": "//", ".js": "//", ".py": "#", ".cmake": "#"}
 FIRST_WORDS = re.compile(r"(Of|What|Whether|Where|Those|Who)\b")
 
@@ -88,7 +91,19 @@ def folders(texts):
             yield folder, 1, f"{count} files, more than {FOLDER_LIMIT}"
 
 
-RULES = {"comments": comments, "mirrors": mirrors, "types": types, "folders": folders}
+def pages(texts):
+    for path, text in texts.items():
+        if path.parent == Path("docs") and path.suffix == ".md" and len(text.split()) > PAGE_LIMIT:
+            yield path, 1, f"{len(text.split())} words, more than {PAGE_LIMIT}"
+        if path == Path("README.md") and text.count("\n") > README_LIMIT:
+            yield path, 1, f"{text.count(chr(10))} lines, more than {README_LIMIT}"
+        if path == Path("CHANGELOG.md"):
+            for number, line in enumerate(text.split("\n"), 1):
+                if len(line) > ENTRY_LIMIT:
+                    yield path, number, f"{len(line)} characters, more than {ENTRY_LIMIT}"
+
+
+RULES = {"comments": comments, "mirrors": mirrors, "types": types, "folders": folders, "pages": pages}
 
 
 def room_of(path):
@@ -124,8 +139,12 @@ def self_test():
         Path("shaders/a.comp"): "// The same text as source/a/a.h\n",
     }
     bad.update({Path(f"source/full/{i}.h"): "" for i in range(FOLDER_LIMIT + 1)})
+    bad[Path("docs/long.md")] = "word " * (PAGE_LIMIT + 1)
+    bad[Path("docs/theory/long.md")] = "word " * (PAGE_LIMIT + 1)
+    bad[Path("README.md")] = "\n" * (README_LIMIT + 1)
+    bad[Path("CHANGELOG.md")] = "# Changelog\n" + "-" * (ENTRY_LIMIT + 1) + "\n"
     expected = {"comments": [(Path("source/a/a.h"), 1)], "mirrors": [(Path("shaders/a.comp"), 1)], "types": [(Path("source/a/a.h"), 1)],
-                "folders": [(Path("source/full"), 1)]}
+                "folders": [(Path("source/full"), 1)], "pages": [(Path("docs/long.md"), 1), (Path("README.md"), 1), (Path("CHANGELOG.md"), 2)]}
     wrong = 0
     for rule, check in RULES.items():
         found = [(path, number) for path, number, _ in check(bad)]
