@@ -18,14 +18,16 @@ PolygonLight quad() {
   return light;
 }
 
-ShadingPoint at(std::size_t i) { return {{1e-3 * static_cast<double>(i), 0.1, 0.0}, {0, 0, 1}, normalized(Vec3d{0.3, 0.2, 0.9})}; }
+ShadingPoint derivatives_at(std::size_t i) {
+  return {{1e-3 * static_cast<double>(i), 0.1, 0.0}, {0, 0, 1}, normalized(Vec3d{0.3, 0.2, 0.9})};
+}
 
 // Sums over the points a number that only `evaluate` computes.
-void add(BenchList& list, const std::string& name, const std::function<double(const ShadingPoint&)>& evaluate) {
+void derivatives_add(BenchList& list, const std::string& name, const std::function<double(const ShadingPoint&)>& evaluate) {
   list.add(name, [name, evaluate](const BenchOptions&) -> Bench {
     return {name, kPoints, "scalar", [evaluate] {
               double sum = 0;
-              for (std::size_t i = 0; i < kPoints; ++i) sum += evaluate(at(i));
+              for (std::size_t i = 0; i < kPoints; ++i) sum += evaluate(derivatives_at(i));
               keep(static_cast<float>(sum));
             }};
   });
@@ -36,22 +38,25 @@ void add(BenchList& list, const std::string& name, const std::function<double(co
 void add_derivatives(BenchList& list) {
   const auto light = std::make_shared<PolygonLight>(quad());
   const auto prepared = std::make_shared<PreparedPolygon>(prepare_polygon(*light));
-  add(list, "kernel/lambert/quad/double", [=](const ShadingPoint& p) { return polygon_irradiance(*prepared, p.position, p.normal); });
-  add(list, "kernel/lambert/quad/derivatives",
-      [=](const ShadingPoint& p) { return polygon_irradiance_derivatives(*light, p.position, p.normal).position.x; });
+  derivatives_add(list, "kernel/lambert/quad/double",
+                  [=](const ShadingPoint& p) { return polygon_irradiance(*prepared, p.position, p.normal); });
+  derivatives_add(list, "kernel/lambert/quad/derivatives",
+                  [=](const ShadingPoint& p) { return polygon_irradiance_derivatives(*light, p.position, p.normal).position.x; });
 
   const Material phong{.brdf = Brdf::phong, .exponent = 20.0};
-  add(list, "kernel/phong/quad/double", [=](const ShadingPoint& p) { return phong_radiance(*prepared, p, phong).x; });
-  add(list, "kernel/phong/quad/derivatives",
-      [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, phong))[0].x; });
+  derivatives_add(list, "kernel/phong/quad/double", [=](const ShadingPoint& p) { return phong_radiance(*prepared, p, phong).x; });
+  derivatives_add(list, "kernel/phong/quad/derivatives",
+                  [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, phong))[0].x; });
 
   Material ggx{.brdf = Brdf::ggx};
   ggx.alpha_x = ggx.alpha_y = 0.3;
-  add(list, "kernel/ggx/quad/double", [=](const ShadingPoint& p) { return closed_form_radiance(*prepared, p, ggx).x; });
-  add(list, "kernel/ggx/quad/derivatives", [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, ggx))[0].x; });
-  add(list, "kernel/ltc/quad/double", [=](const ShadingPoint& p) { return ltc_radiance(LtcMethod::classic, *prepared, p, ggx).x; });
-  add(list, "kernel/ltc/quad/derivatives",
-      [=](const ShadingPoint& p) { return by_position(ltc_radiance_derivatives(LtcMethod::classic, *light, p, ggx))[0].x; });
+  derivatives_add(list, "kernel/ggx/quad/double", [=](const ShadingPoint& p) { return closed_form_radiance(*prepared, p, ggx).x; });
+  derivatives_add(list, "kernel/ggx/quad/derivatives",
+                  [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, ggx))[0].x; });
+  derivatives_add(list, "kernel/ltc/quad/double",
+                  [=](const ShadingPoint& p) { return ltc_radiance(LtcMethod::classic, *prepared, p, ggx).x; });
+  derivatives_add(list, "kernel/ltc/quad/derivatives",
+                  [=](const ShadingPoint& p) { return by_position(ltc_radiance_derivatives(LtcMethod::classic, *light, p, ggx))[0].x; });
 }
 
 }  // namespace steradian::bench

@@ -30,15 +30,15 @@
 namespace steradian::bench {
 namespace {
 
-constexpr int kWidth = 1920, kHeight = 1080;
+constexpr int kFrameWidth = 1920, kFrameHeight = 1080;
 
 Bench direct(const Where& where, const std::string& name, const std::string& method, int threads) {
   auto frame = frame_on(where, threads);
   frame->scene = floor_scene();
   frame->scene.materials[0] = method == "exact" ? diffuse() : glossy();
   frame->scene.area_lights = {ceiling_quad(0, 0, 0.5)};
-  frame->options.width = kWidth;
-  frame->options.height = kHeight;
+  frame->options.width = kFrameWidth;
+  frame->options.height = kFrameHeight;
   frame->options.method = method;
   return bench_of(name, frame);
 }
@@ -80,15 +80,16 @@ struct Rays {
   CameraRays camera;
   tbb::task_arena arena;
 
-  Rays(Scene s, int threads) : scene(std::move(s)), rays(scene), camera(scene.cameras.at(0), kWidth, kHeight), arena(threads) {}
+  Rays(Scene s, int threads) : scene(std::move(s)), rays(scene), camera(scene.cameras.at(0), kFrameWidth, kFrameHeight), arena(threads) {}
   void call() {
-    constexpr int kAcross = (kWidth + kTileSide - 1) / kTileSide, kDown = (kHeight + kTileSide - 1) / kTileSide;
+    constexpr int kAcross = (kFrameWidth + kTileSide - 1) / kTileSide, kDown = (kFrameHeight + kTileSide - 1) / kTileSide;
     arena.execute([&] {
       tbb::parallel_for(0, kAcross * kDown, [&](int i) {
         const FlushDenormals flush;
         const int x = i % kAcross * kTileSide, y = i / kAcross * kTileSide;
         TileHits hits;
-        trace_tile(rays, camera, {x, y, std::min(kTileSide, kWidth - x), std::min(kTileSide, kHeight - y)}, pixel_place(0, 1), hits);
+        trace_tile(rays, camera, {x, y, std::min(kTileSide, kFrameWidth - x), std::min(kTileSide, kFrameHeight - y)}, pixel_place(0, 1),
+                   hits);
         keep(hits.u);
       });
     });
@@ -102,13 +103,13 @@ std::filesystem::path arcade() {
   return program.parent_path().parent_path() / "scenes" / "arcade.glb";
 }
 
-Bench rays(const std::string& name, int threads) {
+Bench frame_rays(const std::string& name, int threads) {
   auto work = std::make_shared<Rays>(load_scene(arcade().string()).scene, threads);
-  return {name, std::size_t{kWidth} * kHeight, "", [work] { work->call(); }, false, {}};
+  return {name, std::size_t{kFrameWidth} * kFrameHeight, "", [work] { work->call(); }, false, {}};
 }
 
 // Adds a bench for one thread, and one for two threads under a separate name.
-void add(BenchList& list, const std::string& name, const std::function<Bench(const std::string&, int)>& make) {
+void frame_add(BenchList& list, const std::string& name, const std::function<Bench(const std::string&, int)>& make) {
   for (const int threads : {1, 2}) {
     const std::string one = threads == 1 ? name : name + "/threads=" + std::to_string(threads);
     list.add(one, [=](const BenchOptions&) { return make(one, threads); });
@@ -123,7 +124,7 @@ void add_frame(BenchList& list, const Where& where) {
   // A device has its own threads, so there is one name, with all threads of the host.
   const auto add_by = [&](const std::string& name, auto make) {
     if (on_cpu)
-      add(list, prefix + name, make);
+      frame_add(list, prefix + name, make);
     else
       list.add(prefix + name, [=](const BenchOptions&) { return make(prefix + name, 0); });
   };
@@ -136,7 +137,7 @@ void add_frame(BenchList& list, const Where& where) {
     for (const auto& [size, width, height] : {std::tuple{"80x45", 80, 45}, {"720p", 1280, 720}})
       add_by(std::string("moved/ltc-compact/") + size,
              [=](const std::string& name, int threads) { return moved(where, name, "ltc-compact", width, height, threads); });
-  if (on_cpu && std::filesystem::exists(arcade())) add(list, "frame/rays/arcade/1080p", rays);
+  if (on_cpu && std::filesystem::exists(arcade())) frame_add(list, "frame/rays/arcade/1080p", frame_rays);
 }
 
 }  // namespace steradian::bench

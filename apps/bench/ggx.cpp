@@ -13,9 +13,9 @@
 namespace steradian::bench {
 namespace {
 
-constexpr int kSide = 128;
+constexpr int kGgxSide = 128;
 
-struct Floor {
+struct GgxFloor {
   std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, zero, alpha, plain, fresnel;
   PackLight light;
 
@@ -32,15 +32,15 @@ struct Floor {
 
 // A floor of 8 by 8 m with gentle waves in its normals, and an upright quad that dips below it. The eye is 2 m above the floor's edge. The
 // roughness rises from 0.1 to 0.85 from left to right. Pixels come in blocks of 4 by 4, as in the renderer's tiles.
-std::shared_ptr<Floor> make_floor() {
-  auto floor = std::make_shared<Floor>();
-  for (int slot = 0; slot < kSide * kSide; ++slot) {
+std::shared_ptr<GgxFloor> ggx_make_floor() {
+  auto floor = std::make_shared<GgxFloor>();
+  for (int slot = 0; slot < kGgxSide * kGgxSide; ++slot) {
     const int block = slot / 16, within = slot % 16;
-    const double i = block % (kSide / 4) * 4 + within % 4, j = block / (kSide / 4) * 4 + within / 4;
-    const Vec3d p{8 * (i + 0.5) / kSide - 4, 0, 8 * (j + 0.5) / kSide};
+    const double i = block % (kGgxSide / 4) * 4 + within % 4, j = block / (kGgxSide / 4) * 4 + within / 4;
+    const Vec3d p{8 * (i + 0.5) / kGgxSide - 4, 0, 8 * (j + 0.5) / kGgxSide};
     const Vec3d n = normalized(Vec3d{0.1 * std::sin(3 * p.x), 1.0, 0.1 * std::cos(2 * p.z)});
     const Vec3d v = normalized(Vec3d{0, 2, 9} - p);
-    const double roughness = 0.1 + 0.75 * i / kSide;
+    const double roughness = 0.1 + 0.75 * i / kGgxSide;
     const auto put = [](std::vector<float>& a, std::vector<float>& b, std::vector<float>& c, Vec3d w) {
       a.push_back(static_cast<float>(w.x));
       b.push_back(static_cast<float>(w.y));
@@ -60,38 +60,40 @@ std::shared_ptr<Floor> make_floor() {
   return floor;
 }
 
-using Run = std::function<void(Floor&, Simd)>;
+using GgxRun = std::function<void(GgxFloor&, Simd)>;
 
-Bench packs(const std::string& name, const Run& run, Simd simd) {
-  auto floor = make_floor();
+Bench ggx_packs(const std::string& name, const GgxRun& run, Simd simd) {
+  auto floor = ggx_make_floor();
   return {name, floor->x.size(), name_of(simd), [floor, run, simd] {
             run(*floor, simd);
             keep(floor->plain.front());
           }};
 }
 
-Run closed_form(Quality quality) {
-  return
-      [quality](Floor& f, Simd simd) { closed_form_table_for(simd).ggx(f.light, f.points(), quality, f.plain.data(), f.fresnel.data()); };
+GgxRun closed_form(Quality quality) {
+  return [quality](GgxFloor& f, Simd simd) {
+    closed_form_table_for(simd).ggx(f.light, f.points(), quality, f.plain.data(), f.fresnel.data());
+  };
 }
 
-Run half_vector_ggx() {
-  return [](Floor& f, Simd simd) { half_vector_table_for(simd).ggx(f.light, f.points(), {}, f.plain.data(), f.fresnel.data()); };
+GgxRun half_vector_ggx() {
+  return [](GgxFloor& f, Simd simd) { half_vector_table_for(simd).ggx(f.light, f.points(), {}, f.plain.data(), f.fresnel.data()); };
 }
 
-Run half_vector(const Material& lobe) {
-  return [lobe](Floor& f, Simd simd) { half_vector_table_for(simd).lobe(f.light, f.points(), lobe, {}, f.plain.data()); };
+GgxRun half_vector(const Material& lobe) {
+  return [lobe](GgxFloor& f, Simd simd) { half_vector_table_for(simd).lobe(f.light, f.points(), lobe, {}, f.plain.data()); };
 }
 
-Run clipless() {
-  return [tables = ltc_classic_pack_tables()](Floor& f, Simd simd) {
+GgxRun clipless() {
+  return [tables = ltc_classic_pack_tables()](GgxFloor& f, Simd simd) {
     comparison_table_for(simd).clipless(f.light, f.points(), tables, f.plain.data(), f.fresnel.data());
   };
 }
 
-Run representative_point() {
-  return
-      [](Floor& f, Simd simd) { comparison_table_for(simd).representative_point(f.light, f.points(), f.plain.data(), f.fresnel.data()); };
+GgxRun representative_point() {
+  return [](GgxFloor& f, Simd simd) {
+    comparison_table_for(simd).representative_point(f.light, f.points(), f.plain.data(), f.fresnel.data());
+  };
 }
 
 Material beckmann() {
@@ -111,7 +113,7 @@ Material blinn_phong() {
 }  // namespace
 
 void add_ggx(BenchList& list) {
-  const std::pair<const char*, Run> named[] = {
+  const std::pair<const char*, GgxRun> named[] = {
       {"kernel/closed-form/quad", closed_form(Quality::normal)},
       {"kernel/closed-form-draft/quad", closed_form(Quality::draft)},
       {"kernel/closed-form-high/quad", closed_form(Quality::high)},
@@ -123,10 +125,10 @@ void add_ggx(BenchList& list) {
   };
   for (const auto& [title, run] : named) {
     const std::string name = title;
-    list.add(name, [name, run](const BenchOptions& options) { return packs(name, run, options.simd); });
+    list.add(name, [name, run](const BenchOptions& options) { return ggx_packs(name, run, options.simd); });
     for (const Simd simd : available_simd()) {
       const std::string one = name + "/" + name_of(simd);
-      list.add(one, [one, run, simd](const BenchOptions&) { return packs(one, run, simd); });
+      list.add(one, [one, run, simd](const BenchOptions&) { return ggx_packs(one, run, simd); });
     }
   }
 }

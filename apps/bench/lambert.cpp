@@ -12,9 +12,9 @@
 namespace steradian::bench {
 namespace {
 
-constexpr std::size_t kSide = 128;
+constexpr std::size_t kLambertSide = 128;
 
-struct Floor {
+struct LambertFloor {
   std::vector<float> x, y, z, nx, ny, nz, result;
   PreparedPolygon light;
   PackLight pack_light;
@@ -23,12 +23,12 @@ struct Floor {
 };
 
 // A floor of 8 by 8 m with gentle waves in its normals, and an upright quad that dips below it.
-std::shared_ptr<Floor> make_floor() {
-  auto floor = std::make_shared<Floor>();
-  for (std::size_t j = 0; j < kSide; ++j)
-    for (std::size_t i = 0; i < kSide; ++i) {
-      const double x = 8.0 * (static_cast<double>(i) + 0.5) / kSide - 4.0;
-      const double z = 8.0 * (static_cast<double>(j) + 0.5) / kSide;
+std::shared_ptr<LambertFloor> lambert_make_floor() {
+  auto floor = std::make_shared<LambertFloor>();
+  for (std::size_t j = 0; j < kLambertSide; ++j)
+    for (std::size_t i = 0; i < kLambertSide; ++i) {
+      const double x = 8.0 * (static_cast<double>(i) + 0.5) / kLambertSide - 4.0;
+      const double z = 8.0 * (static_cast<double>(j) + 0.5) / kLambertSide;
       const Vec3d n = normalized(Vec3d{0.1 * std::sin(3 * x), 1.0, 0.1 * std::cos(2 * z)});
       floor->x.push_back(static_cast<float>(x));
       floor->y.push_back(0.0f);
@@ -59,8 +59,8 @@ PackLight pack_light(const Shape& shape) {
   return result;
 }
 
-Bench packs(const std::string& name, Simd simd, std::optional<Shape> shape = {}) {
-  auto floor = make_floor();
+Bench lambert_packs(const std::string& name, Simd simd, std::optional<Shape> shape = {}) {
+  auto floor = lambert_make_floor();
   if (shape) floor->pack_light = pack_light(*shape);
   const auto irradiance = irradiance_table_for(simd).irradiance;
   return {name, floor->x.size(), name_of(simd), [floor, irradiance] {
@@ -70,11 +70,11 @@ Bench packs(const std::string& name, Simd simd, std::optional<Shape> shape = {})
 }
 
 // The library's float function, one point after the other.
-Bench scalar(const std::string& name) {
-  auto floor = make_floor();
+Bench lambert_scalar(const std::string& name) {
+  auto floor = lambert_make_floor();
   return {
       name, floor->x.size(), "scalar", [floor] {
-        Floor& f = *floor;
+        LambertFloor& f = *floor;
         for (std::size_t i = 0; i < f.x.size(); ++i)
           f.result[i] = polygon_irradiance_float(f.light, Vec3d(Vec3f{f.x[i], f.y[i], f.z[i]}), Vec3d(Vec3f{f.nx[i], f.ny[i], f.nz[i]}));
         keep(f.result.front());
@@ -85,16 +85,16 @@ Bench scalar(const std::string& name) {
 
 void add_lambert(BenchList& list) {
   const std::string name = "kernel/lambert/quad";
-  list.add(name, [name](const BenchOptions& options) { return packs(name, options.simd); });
+  list.add(name, [name](const BenchOptions& options) { return lambert_packs(name, options.simd); });
   for (const Simd simd : available_simd()) {
     const std::string one = name + "/" + name_of(simd);
-    list.add(one, [one, simd](const BenchOptions&) { return packs(one, simd); });
+    list.add(one, [one, simd](const BenchOptions&) { return lambert_packs(one, simd); });
   }
   for (const auto& [end, shape] : {std::pair<const char*, Shape>{"sphere", kBall}, {"capsule", kTube}}) {
     const std::string other = std::string("kernel/lambert/") + end;
-    list.add(other, [other, kind = shape](const BenchOptions& options) { return packs(other, options.simd, kind); });
+    list.add(other, [other, kind = shape](const BenchOptions& options) { return lambert_packs(other, options.simd, kind); });
   }
-  list.add(name + "/scalar", [name](const BenchOptions&) { return scalar(name + "/scalar"); });
+  list.add(name + "/scalar", [name](const BenchOptions&) { return lambert_scalar(name + "/scalar"); });
 }
 
 }  // namespace steradian::bench

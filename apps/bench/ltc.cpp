@@ -14,7 +14,7 @@ namespace {
 
 using namespace fit;
 
-constexpr std::size_t kSide = 128;
+constexpr std::size_t kLtcSide = 128;
 
 struct GlossyFloor {
   std::vector<float> x, y, z, nx, ny, nz, vx, vy, vz, alpha, irradiance, specular, grazing;
@@ -27,20 +27,20 @@ struct GlossyFloor {
   }
 };
 
-std::shared_ptr<GlossyFloor> make_floor(const LtcPackTables& tables) {
+std::shared_ptr<GlossyFloor> ltc_make_floor(const LtcPackTables& tables) {
   auto floor = std::make_shared<GlossyFloor>();
   floor->tables = tables;
   const Vec3d eye = {0, 1.5, 9};
-  for (std::size_t j = 0; j < kSide; ++j)
-    for (std::size_t i = 0; i < kSide; ++i) {
-      const Vec3d p = {8.0 * (static_cast<double>(i) + 0.5) / kSide - 4.0, 0, 8.0 * (static_cast<double>(j) + 0.5) / kSide};
+  for (std::size_t j = 0; j < kLtcSide; ++j)
+    for (std::size_t i = 0; i < kLtcSide; ++i) {
+      const Vec3d p = {8.0 * (static_cast<double>(i) + 0.5) / kLtcSide - 4.0, 0, 8.0 * (static_cast<double>(j) + 0.5) / kLtcSide};
       const Vec3d n = normalized(Vec3d{0.05 * std::sin(3 * p.x), 1.0, 0.05 * std::cos(2 * p.z)});
       const Vec3d v = normalized(eye - p);
       const auto push = [](std::vector<float>& to, double value) { to.push_back(static_cast<float>(value)); };
       push(floor->x, p.x), push(floor->y, p.y), push(floor->z, p.z);
       push(floor->nx, n.x), push(floor->ny, n.y), push(floor->nz, n.z);
       push(floor->vx, v.x), push(floor->vy, v.y), push(floor->vz, v.z);
-      const double roughness = 0.1 + 0.8 * static_cast<double>(j) / kSide;
+      const double roughness = 0.1 + 0.8 * static_cast<double>(j) / kLtcSide;
       push(floor->alpha, roughness * roughness);
     }
   for (auto* out : {&floor->irradiance, &floor->specular, &floor->grazing}) out->resize(floor->x.size());
@@ -50,11 +50,11 @@ std::shared_ptr<GlossyFloor> make_floor(const LtcPackTables& tables) {
   return floor;
 }
 
-using Run = decltype(LtcPackTable::classic);
+using LtcRun = decltype(LtcPackTable::classic);
 
-Bench make(const std::string& name, Simd simd, Run LtcPackTable::*run, const LtcPackTables& tables) {
-  auto floor = make_floor(tables);
-  const Run work = ltc_pack_table_for(simd).*run;
+Bench make(const std::string& name, Simd simd, LtcRun LtcPackTable::*run, const LtcPackTables& tables) {
+  auto floor = ltc_make_floor(tables);
+  const LtcRun work = ltc_pack_table_for(simd).*run;
   return {name, floor->x.size(), name_of(simd), [floor, work] {
             GlossyFloor& f = *floor;
             work(f.light, f.points(), f.tables, {f.irradiance.data(), f.specular.data(), f.grazing.data()});
@@ -62,7 +62,7 @@ Bench make(const std::string& name, Simd simd, Run LtcPackTable::*run, const Ltc
           }};
 }
 
-void add(BenchList& list, const std::string& name, Run LtcPackTable::*run, LtcPackTables (*tables)()) {
+void ltc_add(BenchList& list, const std::string& name, LtcRun LtcPackTable::*run, LtcPackTables (*tables)()) {
   list.add(name, [=](const BenchOptions& options) { return make(name, options.simd, run, tables()); });
   for (const Simd simd : available_simd()) {
     const std::string one = name + "/" + name_of(simd);
@@ -86,9 +86,9 @@ Bench make_fit(int threads) {
 }  // namespace
 
 void add_ltc(BenchList& list) {
-  add(list, "kernel/ltc/quad", &LtcPackTable::classic, ltc_classic_pack_tables);
-  add(list, "kernel/ltc-high/quad", &LtcPackTable::classic, ltc_fresnel_pack_tables);
-  add(list, "kernel/ltc-compact/quad", &LtcPackTable::compact, ltc_compact_pack_tables);
+  ltc_add(list, "kernel/ltc/quad", &LtcPackTable::classic, ltc_classic_pack_tables);
+  ltc_add(list, "kernel/ltc-high/quad", &LtcPackTable::classic, ltc_fresnel_pack_tables);
+  ltc_add(list, "kernel/ltc-compact/quad", &LtcPackTable::compact, ltc_compact_pack_tables);
   list.add("fit/ggx/64", [](const BenchOptions&) { return make_fit(1); });
   list.add("fit/ggx/64/threads=all", [](const BenchOptions&) { return make_fit(0); });
 }

@@ -26,7 +26,7 @@
 namespace steradian::bench {
 namespace {
 
-constexpr int kWidth = 1920, kHeight = 1080;
+constexpr int kManyLightsWidth = 1920, kManyLightsHeight = 1080;
 
 // Quads of one size on a grid above the whole floor, whatever their number.
 std::vector<AreaLight> ceiling(int count) {
@@ -135,8 +135,8 @@ void add_many_lights(BenchList& list, const Where& where) {
       list.add(name, [=, sum = sum](const BenchOptions&) {
         auto frame = frame_on(where, 1);
         frame->scene = scene(count);
-        frame->options.width = kWidth;
-        frame->options.height = kHeight;
+        frame->options.width = kManyLightsWidth;
+        frame->options.height = kManyLightsHeight;
         frame->options.method = "exact";
         frame->options.lights = sum;
         change(*frame);

@@ -10,15 +10,15 @@
 namespace steradian::bench {
 namespace {
 
-struct Scene {
+struct PhongScene {
   moment::PhongPlane plane = moment::make_phong_plane(160, 144);
   PreparedPolygon light = moment::comparison_lights()[0].light;
   PackLight pack_light = prepare_light(light);
   std::vector<float> result;
 };
 
-Bench packs(const std::string& name, PhongOptions options, double n, Simd simd) {
-  auto scene = std::make_shared<Scene>();
+Bench phong_packs(const std::string& name, PhongOptions options, double n, Simd simd) {
+  auto scene = std::make_shared<PhongScene>();
   scene->result.resize(scene->plane.x.size());
   const auto radiance = phong_table_for(simd).radiance;
   return {name, scene->result.size(), name_of(simd), [=] {
@@ -29,8 +29,8 @@ Bench packs(const std::string& name, PhongOptions options, double n, Simd simd) 
 }
 
 // The library's float function, one point after the other.
-Bench scalar(const std::string& name, PhongOptions options, double n) {
-  auto scene = std::make_shared<Scene>();
+Bench phong_scalar(const std::string& name, PhongOptions options, double n) {
+  auto scene = std::make_shared<PhongScene>();
   Material material;
   material.brdf = Brdf::phong;
   material.exponent = n;
@@ -49,8 +49,8 @@ void add_phong(BenchList& list) {
   for (const PhongVariant& v : phong_variants())
     for (const int n : kPhongExponents) {
       const std::string name = "kernel/" + v.name + "/quad/n=" + std::to_string(n);
-      list.add(name, [=](const BenchOptions& options) { return packs(name, v.options, n, options.simd); });
-      list.add(name + "/scalar", [=](const BenchOptions&) { return scalar(name + "/scalar", v.options, n); });
+      list.add(name, [=](const BenchOptions& options) { return phong_packs(name, v.options, n, options.simd); });
+      list.add(name + "/scalar", [=](const BenchOptions&) { return phong_scalar(name + "/scalar", v.options, n); });
     }
 }
 

@@ -99,7 +99,8 @@ double PhongOnDevice::device_ms() const { return parts_->ms; }
 
 namespace {
 
-Bench on_device(const std::string& name, const std::string& light_name, const PhongOptions& options, int n, const std::string& device) {
+Bench phong_on_device_on_device(const std::string& name, const std::string& light_name, const PhongOptions& options, int n,
+                                const std::string& device) {
   const moment::PhongPlane plane = moment::make_phong_plane(1280, 720);
   const std::vector<moment::NamedLight> lights = moment::comparison_lights();
   const auto light = std::find_if(lights.begin(), lights.end(), [&](const moment::NamedLight& l) { return l.name == light_name; });
@@ -122,7 +123,7 @@ void add_phong_on_device(BenchList& list, const std::string& device) {
     for (const char* light : {"quad", "star", "triangle"})
       for (const int n : kPhongExponents) {
         const std::string name = "vulkan/kernel/" + v.name + "/" + light + "/n=" + std::to_string(n);
-        list.add(name, [=](const BenchOptions&) { return on_device(name, light, v.options, n, device); });
+        list.add(name, [=](const BenchOptions&) { return phong_on_device_on_device(name, light, v.options, n, device); });
       }
 }
 

@@ -63,7 +63,7 @@ Bench warm(const LightField& field, const BenchOptions& options) {
           }};
 }
 
-Bench on_device(const LightField& field, const std::string& device) {
+Bench plane_on_device(const LightField& field, const std::string& device) {
   struct Work {
     PlaneScene scene;
     PlaneDevice device;
@@ -91,7 +91,7 @@ Bench on_device(const LightField& field, const std::string& device) {
           passes};
 }
 
-Bench rays(const LightField& field) {
+Bench plane_rays(const LightField& field) {
   auto world = std::make_shared<PlaneWorld>(make_light_field(field, kSeed));
   const std::size_t count = pixels(field) / kStride;
   return {"plane/rays/" + suffix(field), count, "scalar", [world, field] {
@@ -244,7 +244,7 @@ void add_plane(BenchList& list) {
     list.add("plane/move/" + suffix(field), [field, boxes](const BenchOptions& o) { return moves(field, "move", 0, boxes, o); });
     list.add("plane/move-lamp/" + suffix(field), [=](const BenchOptions& o) { return moves(field, "move-lamp", boxes, lamps, o); });
     list.add("plane/warm/" + suffix(field), [field](const BenchOptions& o) { return warm(field, o); });
-    list.add("plane/rays/" + suffix(field), [field](const BenchOptions&) { return rays(field); });
+    list.add("plane/rays/" + suffix(field), [field](const BenchOptions&) { return plane_rays(field); });
     list.add("plane/par/" + suffix(field), [field](const BenchOptions&) { return points(field, "par", PlaneMethod::par); });
     list.add("plane/marched/" + suffix(field), [field](const BenchOptions&) { return points(field, "marched", PlaneMethod::marched); });
   }
@@ -252,7 +252,7 @@ void add_plane(BenchList& list) {
 
 void add_plane_on_device(BenchList& list, const std::string& device) {
   for (const LightField& field : kLightFields)
-    list.add("vulkan/plane/frame/" + suffix(field), [field, device](const BenchOptions&) { return on_device(field, device); });
+    list.add("vulkan/plane/frame/" + suffix(field), [field, device](const BenchOptions&) { return plane_on_device(field, device); });
 }
 
 }  // namespace steradian::bench

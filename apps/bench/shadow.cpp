@@ -38,19 +38,19 @@ Mesh grid(int columns, int rows, const std::function<Vec3f(double u, double v)>&
   return mesh;
 }
 
-Vec3f at(Vec3d v) { return static_cast<Vec3f>(v); }
+Vec3f shadow_at(Vec3d v) { return static_cast<Vec3f>(v); }
 
 Mesh body(Vec3d center, int columns, int rows, const std::function<double(double turn, double rise)>& radius) {
   return grid(columns, rows, [=](double u, double v) {
     const double turn = 2 * std::numbers::pi * u, rise = std::numbers::pi * (v - 0.5), r = radius(turn, rise);
-    return at(center + Vec3d{std::cos(rise) * std::sin(turn), std::sin(rise), std::cos(rise) * std::cos(turn)} * r);
+    return shadow_at(center + Vec3d{std::cos(rise) * std::sin(turn), std::sin(rise), std::cos(rise) * std::cos(turn)} * r);
   });
 }
 
 Mesh torus(Vec3d center, double large, double small) {
   return grid(72, 36, [=](double u, double v) {
     const double a = 2 * std::numbers::pi * u, b = 2 * std::numbers::pi * v, r = large + small * std::cos(b);
-    return at(center + Vec3d{r * std::sin(a), small * std::sin(b), r * std::cos(a)});
+    return shadow_at(center + Vec3d{r * std::sin(a), small * std::sin(b), r * std::cos(a)});
   });
 }
 
@@ -67,10 +67,10 @@ Mesh box(Vec3d low, Vec3d high, double side) {
         c[axis] = end;
         c[(axis + 1) % 3] = turned;
         c[(axis + 2) % 3] = t;
-        mesh.positions.push_back(at({c[0] < 0 ? low.x : high.x, c[1] < 0 ? low.y : high.y, c[2] < 0 ? low.z : high.z}));
+        mesh.positions.push_back(shadow_at({c[0] < 0 ? low.x : high.x, c[1] < 0 ? low.y : high.y, c[2] < 0 ? low.z : high.z}));
         double n[3] = {0, 0, 0};
         n[axis] = end * side;
-        mesh.normals.push_back(at({n[0], n[1], n[2]}));
+        mesh.normals.push_back(shadow_at({n[0], n[1], n[2]}));
       }
       for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
     }
@@ -78,7 +78,7 @@ Mesh box(Vec3d low, Vec3d high, double side) {
 }
 
 Mesh floor() {
-  return grid(1, 1, [](double u, double v) { return at({16 * u - 8, 0, 8 - 16 * v}); });
+  return grid(1, 1, [](double u, double v) { return shadow_at({16 * u - 8, 0, 8 - 16 * v}); });
 }
 
 std::vector<Mesh> objects() {

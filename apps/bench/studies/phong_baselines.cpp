@@ -166,7 +166,7 @@ double by_representative_point(const PreparedPolygon& light, const ShadingPoint&
 
 namespace {
 
-using K = Kernels<double>;
+using BaselineKernels = Kernels<double>;
 
 // x_w of one variant, divided by its limit for c -> 0. The nodes are dense towards c = 1, where it changes fastest, and even in log n.
 class HalfWidthTable {
@@ -192,7 +192,7 @@ class HalfWidthTable {
   std::array<std::array<double, kCosines>, kExponents> rows_{};
 
   static double half_width(double c, double n, int f_is_x) {
-    K k;
+    BaselineKernels k;
     const double s2 = (1 - c) * (1 + c);
     const auto height = [&](double phi) { return k.moment_peak_height(s2, c * c, n, f_is_x, std::cos(phi), std::sin(phi)).v; };
     double low = 0, high = std::numbers::pi / 2;
@@ -202,8 +202,9 @@ class HalfWidthTable {
 };
 
 // The kernel's peak with another half width: recomputes the values that depend on x_w.
-K::MomentPeak with_half_width(K::MomentPeak p, const K::MomentEdge& edge, double n, int f_is_x, double ratio) {
-  K k;
+BaselineKernels::MomentPeak with_half_width(BaselineKernels::MomentPeak p, const BaselineKernels::MomentEdge& edge, double n, int f_is_x,
+                                            double ratio) {
+  BaselineKernels k;
   const double widest = f_is_x == 1 ? std::numbers::pi / 3 : std::numbers::pi / 4;
   const auto height = [&](const auto& phi) {
     return k.moment_peak_height(edge.s * edge.s, edge.c * edge.c, n, f_is_x, k.moment_peak_cosine(phi), k.moment_peak_sine(phi));
@@ -217,8 +218,8 @@ K::MomentPeak with_half_width(K::MomentPeak p, const K::MomentEdge& edge, double
   return p;
 }
 
-K::MomentFit fit_of(Method method, const K::MomentEdge& edge, const K::MomentPeak& p) {
-  K k;
+BaselineKernels::MomentFit fit_of(Method method, const BaselineKernels::MomentEdge& edge, const BaselineKernels::MomentPeak& p) {
+  BaselineKernels k;
   if (method == Method::lorentzian) return k.moment_fit_lorentzian(p);
   if (method == Method::pearson) return k.moment_fit_blended(p, k.moment_fit_lorentzian(p), k.moment_fit_pearson(p));
   return k.moment_fit_blended(p, k.moment_fit_ellipsoid(edge, p), k.moment_fit_ellipsoid_squared(edge, p));
@@ -233,16 +234,16 @@ double by_table(const PreparedPolygon& light, const ShadingPoint& at, double n) 
 
 double by_peak_fit_with_table(Method method, const PreparedPolygon& light, const ShadingPoint& at, double n) {
   static const HalfWidthTable tables[2] = {HalfWidthTable(0), HalfWidthTable(1)};
-  K k;
+  BaselineKernels k;
   const int f_is_x = integrals::takes_x({.method = method}, false);
   const Seen seen = seen_from(light, at);
   const auto corner = [&](std::size_t i) {
     const Vec3d v = seen.corners[i % seen.corners.size()];
-    return K::vec3(v.x, v.y, v.z);
+    return BaselineKernels::vec3(v.x, v.y, v.z);
   };
   double sum = 0;
   for (std::size_t i = 0; i < seen.corners.size(); ++i) {
-    const auto edge = k.moment_edge(corner(i), corner(i + 1), K::vec3(seen.mirror.x, seen.mirror.y, seen.mirror.z));
+    const auto edge = k.moment_edge(corner(i), corner(i + 1), BaselineKernels::vec3(seen.mirror.x, seen.mirror.y, seen.mirror.z));
     const auto p = with_half_width(k.moment_peak_prepare(edge, n, f_is_x), edge, n, f_is_x, tables[f_is_x].look_up(edge.c.v, n));
     sum += k.moment_edge_share(edge, k.moment_fit_front(edge, p, fit_of(method, edge, p), f_is_x)).v;
   }

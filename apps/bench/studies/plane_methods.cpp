@@ -50,7 +50,7 @@ std::vector<Vec2d> points_among(const PlaneScene& scene, int count) {
   return points;
 }
 
-void measure(int lights, int occluders, const MethodCostOptions& options, std::vector<MethodCost>& out) {
+void plane_methods_measure(int lights, int occluders, const MethodCostOptions& options, std::vector<MethodCost>& out) {
   const PlaneScene scene = make_light_field({lights, occluders, std::numeric_limits<double>::infinity(), 6, 12, 512, 512}, 1);
   const PlaneWorld world(scene);
   const std::vector<Vec2d> points = points_among(scene, options.points);
@@ -73,7 +73,7 @@ void measure(int lights, int occluders, const MethodCostOptions& options, std::v
   }
 }
 
-std::string format(const char* pattern, double x) {
+std::string plane_methods_format(const char* pattern, double x) {
   char text[32];
   std::snprintf(text, sizeof text, pattern, x);
   return text;
@@ -83,9 +83,9 @@ std::string format(const char* pattern, double x) {
 
 std::vector<MethodCost> measure_plane_methods(const MethodCostOptions& options) {
   std::vector<MethodCost> costs;
-  for (const int lights : kLights) measure(lights, kOccludersAmongLights, options, costs);
+  for (const int lights : kLights) plane_methods_measure(lights, kOccludersAmongLights, options, costs);
   for (const int occluders : kOccluders)
-    if (occluders != kOccludersAmongLights) measure(kLightsAmongOccluders, occluders, options, costs);
+    if (occluders != kOccludersAmongLights) plane_methods_measure(kLightsAmongOccluders, occluders, options, costs);
   return costs;
 }
 
@@ -101,7 +101,7 @@ std::string plane_methods_text(const std::vector<MethodCost>& costs) {
       for (const int n : columns)
         for (const MethodCost& c : costs)
           if (c.method == method.name && scene(n) == std::pair(c.lights, c.occluders))
-            text += format(" %.3g us, ", c.microseconds) + format("%.2g %% |", c.error_percent);
+            text += plane_methods_format(" %.3g us, ", c.microseconds) + plane_methods_format("%.2g %% |", c.error_percent);
     }
     text += "\n\n";
   };

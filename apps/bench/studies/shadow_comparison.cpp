@@ -247,7 +247,8 @@ Lobes by_clipping(const Stage& stage, const Place& place, Facing facing, Degener
 }
 
 // Evaluates all points once, then repeats until the time is long enough to measure. The errors are those of the first pass.
-ShadowRow measure(const std::string& method, const std::vector<Place>& places, const std::function<Lobes(const Place&)>& value) {
+ShadowRow shadow_comparison_measure(const std::string& method, const std::vector<Place>& places,
+                                    const std::function<Lobes(const Place&)>& value) {
   constexpr double kLongEnough = 0.1;  // seconds
   ShadowRow row;
   row.method = method;
@@ -320,7 +321,7 @@ ShadowScene scene_by_all(const families::Family& family, int points, bool growin
   if (!growing) scene.truth = truth_against_rays(stage, places);
   scene.ray_microseconds = ray_time(stage, places);
   const auto add = [&](const std::string& name, const std::function<Lobes(const Place&)>& value) {
-    scene.rows.push_back(measure(name, places, value));
+    scene.rows.push_back(shadow_comparison_measure(name, places, value));
   };
   add("pieces", [&](const Place& p) { return by_pieces(stage, p); });
   // The shade's cone is open, so both sides of its triangles are visible.

@@ -95,7 +95,7 @@ void judge(Table2Row& row, const std::vector<double>& exact, double all_pixels, 
   row.rmse = std::sqrt(squares / all_pixels);
 }
 
-std::string format(const char* pattern, double x) {
+std::string table2_format(const char* pattern, double x) {
   char text[64];
   std::snprintf(text, sizeof text, pattern, x);
   return text;
@@ -182,12 +182,12 @@ std::string table2_text(const std::vector<Table2Row>& rows, const Table2Options&
     const auto add = [&](const std::string& method, bool in_packs) {
       text += "| " + method + " |";
       const Published* published = in_packs ? published_of(method) : nullptr;
-      cells(light.name, method, [](const Table2Row& r) { return format("%.1e", r.rmse); });
+      cells(light.name, method, [](const Table2Row& r) { return table2_format("%.1e", r.rmse); });
       text += std::string(" ") + (published != nullptr ? published->rmse : "") + " |";
-      cells(light.name, method, [](const Table2Row& r) { return format("%.1e", r.largest); });
+      cells(light.name, method, [](const Table2Row& r) { return table2_format("%.1e", r.largest); });
       if (options.min_time > 0) {
-        cells(light.name, method, [](const Table2Row& r) { return format("%.0f", r.scalar_ns); });
-        cells(light.name, method, [&](const Table2Row& r) { return in_packs ? format("%.1f", r.packs_ns) : std::string(); });
+        cells(light.name, method, [](const Table2Row& r) { return table2_format("%.0f", r.scalar_ns); });
+        cells(light.name, method, [&](const Table2Row& r) { return in_packs ? table2_format("%.1f", r.packs_ns) : std::string(); });
         text += std::string(" ") + (published != nullptr ? published->milliseconds : "") + " |";
       }
       text += "\n";

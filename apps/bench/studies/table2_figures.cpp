@@ -14,13 +14,13 @@
 namespace steradian::moment {
 namespace {
 
-using K = Kernels<double>;
+using FigureKernels = Kernels<double>;
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 
 // An edge whose foot has the cosine c, from phi0 to phi1.
-K::MomentEdge edge_on_circle(double c, double phi0, double phi1) {
-  K::MomentEdge edge;
+FigureKernels::MomentEdge edge_on_circle(double c, double phi0, double phi1) {
+  FigureKernels::MomentEdge edge;
   edge.side = 1.0;
   edge.c = c;
   edge.s = std::sqrt(1 - c * c);
@@ -72,7 +72,7 @@ LinePlot integrand_plot() {
 }
 
 LinePlot half_width_plot() {
-  K k;
+  FigureKernels k;
   LinePlot plot{"Half width of the peak above its smallest value, and the published fit (dashed)", "c", "x_w [rad]", 0, 1, 0, 1.2, {}};
   int colour = 0;
   for (const double n : {10.0, 11.0, 100.0, 101.0, 5000.0, 5001.0}) {
@@ -98,7 +98,7 @@ LinePlot half_width_plot() {
 }
 
 LinePlot fits_plot(double n, double c, double highest, int pieces) {
-  K k;
+  FigureKernels k;
   constexpr double phi_high = kQuarterTurn;
   const integrals::PhongLobe<double> lobe(n);
   char title[96];
