@@ -9,9 +9,9 @@
 #include <set>
 #include <thread>
 
-#include "core/test_memory.h"
+#include "support/memory.h"
 #include "program.h"
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/load_scene.h"
 #include "steradian/picture.h"
 #include "steradian/render.h"

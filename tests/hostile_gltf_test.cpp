@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "program.h"
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::hostile_gltf_test {
 namespace {

@@ -12,7 +12,7 @@
 #include "paths.h"
 #include "render/surface/camera_rays.h"
 #include "render/frame/methods.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
 #include "steradian/half_vector.h"

@@ -73,7 +73,8 @@ TEST_F(Program, RendersOnVulkanWhatTheCpuDoesAndSaysWhatTheHostHasDone) {
 
   const Outcome sampled = with({"--method", "sampled", "--spp", "1"});
   EXPECT_EQ(sampled.status, 0) << sampled.err;
-  EXPECT_NE(sampled.err.find("the CPU renders this picture, not the Vulkan device: it has no method sampled"), std::string::npos) << sampled.err;
+  EXPECT_NE(sampled.err.find("the CPU renders this picture, not the Vulkan device: it has no method sampled"), std::string::npos)
+      << sampled.err;
 
   fs::remove(exr);
   const Outcome missing = with({"--device", "no such device"});

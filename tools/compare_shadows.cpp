@@ -1,5 +1,5 @@
-// compare_shadows FILE.svg [POINTS]: soft shadows by pieces, by clipping, by counts at places and by rays, for docs/measured/shadows.md. The tables
-// go to standard output, the picture of error over time to the file.
+// compare_shadows FILE.svg [POINTS]: soft shadows by pieces, by clipping, by counts at places and by rays, for docs/measured/shadows.md.
+// The tables go to standard output, the picture of error over time to the file.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

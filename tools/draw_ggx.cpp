@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "integrals/edge_sum.h"
-#include "integrals/random_rectangles.h"
+#include "support/random_rectangles.h"
 #include "steradian/closed_form.h"
 #include "steradian/ltc.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "image/z_test.h"
+#include "support/z_test.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"

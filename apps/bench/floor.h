@@ -1,7 +1,7 @@
 // The scene that frames are timed on: a floor that fills the picture, its materials, and quads above it.
 #pragma once
 
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/scene.h"
 
 namespace steradian::bench {

@@ -20,7 +20,7 @@
 #include "benches.h"
 #include "floor.h"
 #include "frame.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::bench {

@@ -12,7 +12,7 @@
 
 #include "benches.h"
 #include "frame.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 
 namespace steradian::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "paths.h"
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 
 namespace steradian::view::drawing_test {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "player.h"
-#include "test_session.h"
+#include "support/viewer_session.h"
 #include "steradian/error.h"
 
 namespace steradian::view::session_edit_test {

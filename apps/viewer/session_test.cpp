@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/test_memory.h"
+#include "support/memory.h"
 #include "player.h"
-#include "scene/gltf/gltf_test_file.h"
-#include "test_session.h"
+#include "support/gltf_test_file.h"
+#include "support/viewer_session.h"
 #include "steradian/error.h"
 
 namespace steradian::view::session_test {

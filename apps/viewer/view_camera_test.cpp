@@ -1,7 +1,7 @@
 // The camera of the window.
 #include <gtest/gtest.h>
 
-#include "test_session.h"
+#include "support/viewer_session.h"
 
 namespace steradian::view::view_camera_test {
 namespace {

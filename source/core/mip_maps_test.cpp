@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/texel.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 
 namespace steradian::mip_maps_test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 
 namespace steradian::vector_test {
 

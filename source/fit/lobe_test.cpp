@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/chi2.h"
+#include "support/chi2.h"
 #include "steradian/error.h"
 
 namespace steradian::fit::lobe_test {

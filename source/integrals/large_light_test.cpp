@@ -6,7 +6,7 @@
 #include <string>
 
 #include "integrals/methods.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "steradian/reference.h"
 
 namespace steradian::large_light_test {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "lobes/lobe.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "steradian/radiance.h"
 
 namespace steradian::lobe_product_test {

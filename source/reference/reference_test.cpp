@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/chi2.h"
+#include "support/chi2.h"
 #include "reference/gauss_kronrod.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 
 namespace steradian::reference_test {
 namespace {

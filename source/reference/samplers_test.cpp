@@ -7,8 +7,8 @@
 #include "lobes/half_vector_sampler.h"
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
-#include "reference/chi2.h"
-#include "reference/random_configurations.h"
+#include "support/chi2.h"
+#include "support/random_configurations.h"
 #include "reference/spherical_rectangle.h"
 
 namespace steradian::reference::samplers_test {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 
 namespace steradian::scene::environment_test {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "image/png.h"
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 

@@ -2,7 +2,7 @@
 #include <functional>
 #include <random>
 
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 

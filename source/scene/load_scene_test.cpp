@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "scene/gltf/gltf_test_file.h"
-#include "scene/test_meshes.h"
+#include "support/gltf_test_file.h"
+#include "support/meshes.h"
 #include "steradian/error.h"
 
 namespace steradian::scene::load_scene_test {

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <optional>
 
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <algorithm>
 
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/load_scene.h"
 #include "paths.h"
 

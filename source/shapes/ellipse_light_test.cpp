@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"

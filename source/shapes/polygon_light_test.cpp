@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 
 namespace steradian::polygon_light_test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "reference/diffuse_below.h"
+#include "support/diffuse_below.h"
 #include "sections.h"
 
 namespace steradian::accuracy {

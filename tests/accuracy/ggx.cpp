@@ -7,7 +7,7 @@
 #include <ostream>
 #include <vector>
 
-#include "integrals/random_rectangles.h"
+#include "support/random_rectangles.h"
 #include "integrals/ggx/representative_point.h"
 #include "sections.h"
 #include "shapes/polygon.h"
@@ -140,7 +140,7 @@ Deviation deviation(const std::vector<Case>& all, const HalfVectorOptions& optio
 void write_ggx(std::ostream& out) {
   out << fmt::format(
       "\n## GGX with shadowing and Fresnel\n\n"
-      "{} random rectangles over roughness 0.1 to 0.85 and views 3 to 86 degrees from the normal (source/integrals/random_rectangles.h, "
+      "{} random rectangles over roughness 0.1 to 0.85 and views 3 to 86 degrees from the normal (tests/support/random_rectangles.h, "
       "seed 5), against adaptive cubature. Relative RMSE: root mean square of the error over that of the signal; \"worst "
       "cell\" is that of the worst pair of roughness and view.\n\n"
       "| method | F0 = 1 | worst cell | F0 = 0.04 | worst cell |\n|---|---:|---:|---:|---:|\n",

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "sections.h"
 #include "steradian/phong.h"
 

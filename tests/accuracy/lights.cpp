@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "integrals/random_rectangles.h"
+#include "support/random_rectangles.h"
 #include "fit/textured_error.h"
 #include "sections.h"
 #include "steradian/closed_form.h"

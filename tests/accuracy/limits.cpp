@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "sections.h"
 #include "steradian/radiance.h"
 

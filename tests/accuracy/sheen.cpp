@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "reference/random_squares.h"
+#include "support/random_squares.h"
 #include "sections.h"
 #include "steradian/radiance.h"
 

@@ -7,8 +7,8 @@
 
 #include "render/surface/ray_scene.h"
 #include "shadow/edges/edge_arrays.h"
-#include "shadow/test_families.h"
-#include "shadow/test_rays_integral.h"
+#include "support/shadow_families.h"
+#include "support/rays_integral.h"
 #include "shadow/region/visible_part.h"
 #include "steradian/ltc.h"
 #include "steradian/polygon_derivatives.h"

@@ -10,7 +10,7 @@
 
 #include "eval/answer.h"
 #include "lobes/lobe.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "steradian/capsule_light.h"
 
 namespace steradian::eval::capsule_light_test {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "eval/answer.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 
 namespace steradian::eval::round_light_test {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/test_memory.h"
+#include "support/memory.h"
 #include "paths.h"
-#include "render/bounce/test_corner.h"
+#include "support/mixed_corner.h"
 #include "device/frame/frame.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"

@@ -1,5 +1,5 @@
 // The CPU is the reference for the device: lobes of extras.steradian, by every method that serves them.
-#include "device/frame/test_frames.h"
+#include "support/device_frames.h"
 
 #include <algorithm>
 

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/test_memory.h"
+#include "support/memory.h"
 #include "night.h"
-#include "device/frame/test_frames.h"
+#include "support/device_frames.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan::frame_test {

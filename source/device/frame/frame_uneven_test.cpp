@@ -1,5 +1,5 @@
 // The CPU is the reference for the device: textured lights, rects and disks with a measured profile, and their occluded parts.
-#include "device/frame/test_frames.h"
+#include "support/device_frames.h"
 
 namespace steradian::vulkan::frame_uneven_test {
 namespace {

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <memory>
 
-#include "core/test_memory.h"
+#include "support/memory.h"
 #include "render/surface/scene_parts.h"
 #include "device/vulkan/handles.h"
-#include "device/frame/test_frames.h"
+#include "support/device_frames.h"
 
 namespace steradian::vulkan::kept_on_device_test {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "core/test_memory.h"
+#include "support/memory.h"
 #include "paths.h"
-#include "plane/exact/families.h"
+#include "support/plane_families.h"
 #include "plane/stage/drawing.h"
 #include "plane/stage/light_field.h"
 #include "device/vulkan/device.h"

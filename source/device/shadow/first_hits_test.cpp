@@ -11,7 +11,7 @@
 
 #include "core/random.h"
 #include "paths.h"
-#include "render/bounce/test_corner.h"
+#include "support/mixed_corner.h"
 #include "steradian/load_scene.h"
 
 namespace steradian::vulkan::first_hits_test {

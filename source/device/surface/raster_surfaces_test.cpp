@@ -12,7 +12,7 @@
 #include "paths.h"
 #include "render/frame/frame_surfaces.h"
 #include "device/frame/frame.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 

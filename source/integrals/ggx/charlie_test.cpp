@@ -7,8 +7,8 @@
 
 #include "core/simd.h"
 #include "lobes/charlie.h"
-#include "reference/random_configurations.h"
-#include "reference/random_squares.h"
+#include "support/random_configurations.h"
+#include "support/random_squares.h"
 #include "render/direct/sheen.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"

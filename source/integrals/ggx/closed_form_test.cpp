@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "integrals/random_rectangles.h"
-#include "reference/random_configurations.h"
+#include "support/random_rectangles.h"
+#include "support/random_configurations.h"
 #include "render/direct/closed_form.h"
 #include "steradian/error.h"
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "integrals/random_rectangles.h"
-#include "reference/random_configurations.h"
+#include "support/random_rectangles.h"
+#include "support/random_configurations.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
 

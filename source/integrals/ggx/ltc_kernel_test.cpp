@@ -10,7 +10,7 @@
 #include "fit/clipped_sphere.h"
 #include "integrals/ggx/ltc_shape.h"
 #include "core/random.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "reference/spherical_region.h"
 #include "steradian/kernels.h"
 

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "fit/lobe.h"
 #include "integrals/tables/ggx_tables.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "render/direct/ltc_points.h"
 #include "steradian/error.h"
 #include "steradian/ltc.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "steradian/error.h"
 #include "steradian/phong.h"
 

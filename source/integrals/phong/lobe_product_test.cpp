@@ -8,7 +8,7 @@
 
 #include "integrals/edge_sum.h"
 #include "integrals/phong/phong.h"
-#include "integrals/phong/adversarial_quads.h"
+#include "support/adversarial_quads.h"
 #include "integrals/phong/exact_moment.h"
 #include "paths.h"
 #include "steradian/phong.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/float_mode.h"
-#include "integrals/phong/adversarial_quads.h"
+#include "support/adversarial_quads.h"
 #include "integrals/phong/phong.h"
 #include "bench/studies/table2.h"
 #include "render/direct/phong.h"

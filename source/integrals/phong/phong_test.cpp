@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "night.h"
-#include "integrals/phong/adversarial_quads.h"
-#include "reference/random_configurations.h"
+#include "support/adversarial_quads.h"
+#include "support/random_configurations.h"
 #include "steradian/error.h"
 
 namespace steradian::phong_test {

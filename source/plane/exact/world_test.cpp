@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "plane/exact/emission.h"
-#include "plane/exact/families.h"
+#include "support/plane_families.h"
 #include "plane/exact/outline.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "plane/exact/families.h"
+#include "support/plane_families.h"
 #include "plane/exact/random.h"
 #include "plane/extras/trace.h"
 #include "steradian/error.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "plane/exact/families.h"
+#include "support/plane_families.h"
 #include "steradian/plane.h"
 
 namespace steradian::plane::frame_picture_test {

@@ -9,7 +9,7 @@
 
 #include "core/simd.h"
 #include "paths.h"
-#include "plane/exact/families.h"
+#include "support/plane_families.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
 #include "plane/stage/drawing.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plane/exact/families.h"
+#include "support/plane_families.h"
 #include "plane/exact/outline.h"
 #include "plane/exact/random.h"
 #include "plane/svg/stroke.h"

@@ -15,7 +15,7 @@
 #include "lobes/lobe.h"
 #include "core/random.h"
 #include "paths.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "steradian/kernels.h"
 
 namespace steradian::indirect::indirect_kernel_test {

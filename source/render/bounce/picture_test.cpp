@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "render/bounce/test_corner.h"
+#include "support/mixed_corner.h"
 
 namespace steradian::indirect::picture_test {
 namespace {
@@ -68,8 +68,8 @@ TEST(IndirectPicture, SheetsSendNothingThroughThemselves) {
 // The bounce belongs to the scene, not to the picture. With fewer pixels the pattern is smaller, and joins pixels equally near.
 TEST(IndirectPicture, SmallPicturesHaveTheSameLight) {
   const Scene scene = mixed_corner();
-  // Values of docs/measured/indirect.md for each width; the pattern of 8 has 0.32, 0.15, 0.10. Seeds are fixed, but floats of other instruction sets
-  // decide a few pairs at their thresholds differently: at most by a fiftieth of the value, beside its last digit.
+  // Values of docs/measured/indirect.md for each width; the pattern of 8 has 0.32, 0.15, 0.10. Seeds are fixed, but floats of other
+  // instruction sets decide a few pairs at their thresholds differently: at most by a fiftieth of the value, beside its last digit.
   for (const auto& [width, stated] : {std::pair{48, 0.001}, {160, 0.054}, {320, 0.058}}) {
     RenderOptions o = options(IndirectMode::ltc, 1 << 14), all = uncut(1 << 14);
     o.indirect.quads = o.indirect.soften = false;

@@ -8,7 +8,7 @@
 #include "render/bounce/receivers/blue_noise.h"
 #include "render/bounce/receivers/filter.h"
 #include "render/bounce/receivers/light_receivers.h"
-#include "render/bounce/test_corner.h"
+#include "support/mixed_corner.h"
 #include "render/bounce/true_light.h"
 #include "render/surface/camera_rays.h"
 #include "steradian/compare.h"

@@ -1,5 +1,5 @@
 // The diffuse lobe of a dielectric: light that its boundary reflects does not reach it.
-#include "reference/diffuse_below.h"
+#include "support/diffuse_below.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "lobes/lobe.h"
 #include "render/surface/camera_rays.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/closed_form.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/ltc.h"

@@ -9,7 +9,7 @@
 #include "render/direct/irradiance.h"
 #include "render/lights/light_list.h"
 #include "render/frame/uneven_diffuse.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/radiance.h"
 #include "steradian/render.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "integrals/textured/textured_light.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "render/tile/tile.h"
 
 namespace steradian::textured_means_test {

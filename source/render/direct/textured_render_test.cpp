@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "image/z_test.h"
+#include "support/z_test.h"
 #include "render/surface/camera_rays.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/compare.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"

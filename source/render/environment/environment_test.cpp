@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "core/random.h"
-#include "image/z_test.h"
-#include "reference/random_configurations.h"
+#include "support/z_test.h"
+#include "support/random_configurations.h"
 #include "render/environment/environment_light.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/area_light.h"
 #include "steradian/render.h"
 

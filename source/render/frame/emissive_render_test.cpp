@@ -1,7 +1,7 @@
 // Surfaces that shine and reflect are not lit by their own light.
 #include <gtest/gtest.h>
 
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::emissive_render_test {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "integrals/methods.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "render/direct/closed_form.h"
 #include "render/direct/comparison.h"
 #include "render/direct/half_vector.h"

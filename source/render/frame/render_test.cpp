@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "image/z_test.h"
+#include "support/z_test.h"
 #include "core/simd.h"
 #include "render/surface/camera_rays.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/albedo.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"

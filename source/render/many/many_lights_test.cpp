@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::many_lights_test {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "image/z_test.h"
-#include "render/frame/judged_pictures.h"
+#include "support/z_test.h"
+#include "support/judged_pictures.h"
 #include "render/surface/camera_rays.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::shadow_lobes_test {

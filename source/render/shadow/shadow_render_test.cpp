@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image/z_test.h"
-#include "render/frame/judged_pictures.h"
-#include "scene/test_meshes.h"
+#include "support/z_test.h"
+#include "support/judged_pictures.h"
+#include "support/meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::shadow_render_test {

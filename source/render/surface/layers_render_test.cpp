@@ -1,7 +1,7 @@
 // Surfaces that let light from behind pass: blended ones and thin walls.
 #include <gtest/gtest.h>
 
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::layers_render_test {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "render/surface/camera_rays.h"
 #include "render/surface/surface.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/render.h"
 
 namespace steradian::mip_render_test {

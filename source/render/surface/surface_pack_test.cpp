@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 
 namespace steradian::surface_pack_test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "image/z_test.h"
+#include "support/z_test.h"
 #include "render/surface/camera_rays.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/closed_form.h"
 #include "steradian/render.h"
 

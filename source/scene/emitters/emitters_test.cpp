@@ -7,8 +7,8 @@
 
 #include "scene/affine.h"
 #include "scene/framing.h"
-#include "scene/gltf/gltf_test_file.h"
-#include "scene/test_meshes.h"
+#include "support/gltf_test_file.h"
+#include "support/meshes.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/load_scene.h"

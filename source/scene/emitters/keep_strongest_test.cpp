@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scene/emitters/emitters.h"
-#include "scene/gltf/gltf_test_file.h"
-#include "scene/test_meshes.h"
+#include "support/gltf_test_file.h"
+#include "support/meshes.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/gltf/gltf_test_file.h"
-#include "scene/test_meshes.h"
+#include "support/gltf_test_file.h"
+#include "support/meshes.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "scene/gltf/gltf_test_file.h"
+#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/light_profile.h"
 #include "steradian/load_scene.h"

@@ -1,4 +1,4 @@
-#include "plane/exact/families.h"
+#include "support/plane_families.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "image/z_test.h"
+#include "support/z_test.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/compare.h"
 #include "steradian/render.h"
 

@@ -1,4 +1,4 @@
-#include "reference/chi2.h"
+#include "support/chi2.h"
 
 #include <algorithm>
 #include <array>

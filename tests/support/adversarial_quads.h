@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 
 namespace steradian::moment {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "reference/random_configurations.h"
+#include "support/random_configurations.h"
 #include "shadow/edges/edges.h"
 #include "shadow/edges/segments.h"
 #include "steradian/polygon_light.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/random_squares.h"
+#include "support/random_squares.h"
 #include "steradian/kernels.h"
 #include "steradian/reference.h"
 

@@ -12,7 +12,7 @@
 #include "paths.h"
 #include "device/vulkan/device.h"
 #include "device/frame/frame.h"
-#include "scene/test_meshes.h"
+#include "support/meshes.h"
 #include "steradian/load_scene.h"
 
 namespace steradian::vulkan {

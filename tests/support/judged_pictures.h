@@ -1,7 +1,7 @@
 // For tests: a picture with exact shadows, and the pictures that judge it.
 #pragma once
 
-#include "image/z_test.h"
+#include "support/z_test.h"
 #include "steradian/render.h"
 
 namespace steradian {
