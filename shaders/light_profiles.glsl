@@ -1,4 +1,4 @@
-// Measured lamps as the host wrote them (source/device/direct/light_details.cpp): a head (type, numbers of vertical and horizontal angles),
+// Measured lamps as the host wrote them (source/device/direct/light_records.cpp): a head (type, numbers of vertical and horizontal angles),
 // then the angles in degrees and the measured values, four numbers a vector. Mirrors source/shapes/light_profile.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 

@@ -1,4 +1,4 @@
-// Textured lights as the host wrote them (source/device/direct/light_details.cpp): a head, the levels of blurred copies, the cells of the
+// Textured lights as the host wrote them (source/device/direct/light_records.cpp): a head, the levels of blurred copies, the cells of the
 // tree. Mirrors filtered_texture.h and texture_tree.h of source/integrals/ltc; the parity of frames holds the two together.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "integrals/textured/texture_rule.glsl"

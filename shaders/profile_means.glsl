@@ -8,7 +8,7 @@ const int OF_LOBE = WHICH_LOBE;
 // Fraction of the lobe's width that a cell may span, as in source/integrals/textured/profiled_light.cpp.
 const float kProfileLobeShare = 0.6;
 
-// A profiled light as the host wrote it (source/device/direct/light_details.cpp): kProfileHead vectors.
+// A profiled light as the host wrote it (source/device/direct/light_records.cpp): kProfileHead vectors.
 struct ProfiledLight {
     vec3 center;
     bool round;

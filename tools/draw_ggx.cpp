@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "integrals/edge_sum.h"
+#include "integrals/integrate.h"
 #include "support/random_rectangles.h"
 #include "steradian/closed_form.h"
 #include "steradian/ltc.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "plane/stage/light_field.h"
+#include "plane/stage/drawing.h"
 #include "bench/studies/line_plot.h"
 #include "steradian/plane.h"
 

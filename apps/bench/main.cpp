@@ -10,7 +10,7 @@
 
 #include "bench/benches.h"
 #include "core/progress.h"
-#include "core/read_file.h"
+#include "core/files.h"
 #include "fit/textured_error.h"
 #include "bench/studies/plane_methods.h"
 #include "bench/studies/table2.h"

@@ -19,7 +19,6 @@
 
 #include "benches.h"
 #include "plane/stage/drawing.h"
-#include "plane/stage/light_field.h"
 #include "steradian/plane_bounce.h"
 #include "steradian/plane_device.h"
 #include "steradian/plane_stage.h"

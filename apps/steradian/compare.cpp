@@ -11,7 +11,7 @@
 
 #include "command_line.h"
 #include "compare/report.h"
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/progress.h"
 #include "image/flip.h"
 #include "integrals/methods.h"
@@ -312,8 +312,8 @@ void add_compare(CommandLine& line) {
   verb.add("--spp", r.spp, "of sampled and marched").range(1, 1 << 20).group("Sampling");
   verb.add("--target-error", r.target_error, "of reference: relative rms error").range(1e-6, 1.0).group("Sampling");
   verb.add("--seed", r.seed, "seed of the random numbers").group("Sampling");
-  verb.add("--threads", r.threads, "number of threads; 0: all").range(0, 4096).group("Machine");
-  verb.add("--max-lights", options->max_lights, "most area lights, strongest first; default: 256, and all meshes")
+  verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
+  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256 and meshes")
       .range(1, 1 << 20)
       .more("Limits");
   verb.add_limits(options->limits);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "image/read_picture.h"
+#include "image/codecs.h"
 #include "steradian/compare.h"
 #include "steradian/error.h"
 #include "verbs.h"

@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/progress.h"
 #include "eval_plane.h"
 #include "steradian/error.h"
@@ -170,7 +170,8 @@ void add_eval(CommandLine& line) {
       "A query: {\"light\": {\"type\": \"rect\", \"center\": [0,2,0], \"x\": [1,0,0], \"y\": [0,0,1], \"radiance\": 1},\n"
       "          \"position\": [0,0,0], \"normal\": [0,1,0], \"material\": {\"brdf\": \"lambert\", \"albedo\": 1}}\n"
       "Blank lines are skipped. A wrong line is answered by {\"error\": ...}, and the exit status is then 1.\n"
-      "With --plane a query is {\"scene\": \"file.svg\", \"position\": [x, y]}. `steradian methods` lists the methods.");
+      "With --plane a query is {\"scene\": \"file.svg\", \"position\": [x, y]}.\n"
+      "`steradian methods` lists the methods.");
   auto options = std::make_shared<EvalArguments>();
   verb.add("INPUT", options->input, "file of queries, one a line; default: standard input").default_text("");
   verb.add("-o,--output", options->output, "file of answers; default: standard output").group("Input and output").default_text("");

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <memory>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/progress.h"
 #include "fit/fit_report.h"
 #include "fit/table_files.h"
@@ -125,7 +125,7 @@ void add_fit(CommandLine& line) {
   verb.add_flag("--report", options->report, "measure the error on lights and between nodes");
   verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").needs("--report");
   verb.add("--normalisation", options->normalisation, "element 1 of the classic matrix").words({"middle", "last"});
-  verb.add("--threads", options->fit.threads, "number of threads; 0: all").range(0, 4096);
+  verb.add("--threads", options->fit.threads, "number of threads (0: all)").range(0, 4096);
   verb.add_limits(options->limits);
   verb.callback([options] { run(*options); });
 }

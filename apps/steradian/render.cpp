@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "command_line.h"
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/budget.h"
 #include "core/progress.h"
 #include "core/simd.h"
@@ -342,7 +342,7 @@ void add_render(CommandLine& line) {
   verb.add("SCENE", options->scene, "scene file").required();
   verb.add("-o,--output", options->output, "picture: .exr (linear) or .png (tone mapped)").required();
 
-  verb.add("--method", r.method, "method of the specular lobe: a name that `steradian methods` lists")
+  verb.add("--method", r.method, "method of the specular lobe; see `steradian methods`")
       .check([](const std::string& name) {
         const bool known = method_of(name).has_value() || name == "par" || name == "marched";
         return known ? std::string() : "unknown method " + name + ", use " + methods::names();
@@ -378,7 +378,7 @@ void add_render(CommandLine& line) {
 
   verb.add("--backend", options->backend, "where to compute").words({"cpu", "vulkan"}).group("Machine");
   verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
-  verb.add("--threads", r.threads, "number of threads; 0: all").range(0, 4096).group("Machine");
+  verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").group("Machine");
 
   verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");
@@ -402,7 +402,7 @@ void add_render(CommandLine& line) {
   verb.add("--occluders", options->occluders, "colour of occluders").words({"black", "fill", "clear"}).more("Plane scenes (.svg)");
   verb.add("--edits", options->edits, "JSON file of what changes before which frame").more("Plane scenes (.svg)");
 
-  verb.add("--max-lights", options->max_lights, "most area lights, strongest first; default: 256, and all meshes")
+  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first; default: 256 and meshes")
       .range(1, 1 << 20)
       .more("Limits");
   verb.add("--light-units", options->light_units, "unit of punctual lights").words({"auto", "candela", "watt"}).more("Limits");

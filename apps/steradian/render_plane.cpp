@@ -11,7 +11,7 @@
 #include <numbers>
 #include <optional>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/progress.h"
 #include "core/simd.h"
 #include "steradian/error.h"

@@ -56,7 +56,7 @@ void add_view(CommandLine& line) {
   verb.add("--aa", options->render.aa, "primary samples a pixel, at rest").range(1, 4096);
   verb.add("--backend", options->backend, "where to compute").words({"cpu", "vulkan"});
   verb.add("--device", options->render.device, "of vulkan: number or part of the name in `steradian info`");
-  verb.add("--threads", options->render.threads, "number of threads; 0: all").range(0, 4096);
+  verb.add("--threads", options->render.threads, "number of threads (0: all)").range(0, 4096);
   verb.add("--panel", options->panel, "open the panel").words({"on", "off"});
   verb.add("--script", options->script, "play this file of drags, keys and pictures");
   verb.add("--record", options->record, "record a script into this file");

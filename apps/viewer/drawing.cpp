@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "plane/frame/tiles/tiles.h"
 #include "steradian/error.h"
 

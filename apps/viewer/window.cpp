@@ -13,9 +13,8 @@
 #include <cstdio>
 #include <map>
 
-#include "core/atomic_file.h"
-#include "core/read_file.h"
-#include "image/png.h"
+#include "core/files.h"
+#include "image/codecs.h"
 #include "player.h"
 #include "steradian/error.h"
 

@@ -22,7 +22,7 @@ class RenderCache {
   RenderCache(RenderCache&&) noexcept;
   RenderCache& operator=(RenderCache&&) noexcept;
 
-  struct Parts;  // source/render/surface/scene_parts.h
+  struct Parts;  // source/render/surface/ray_scene.h
   Parts& parts() { return *parts_; }
 
  private:

@@ -1,12 +1,10 @@
-#include "core/atomic_file.h"
-
-#include <gtest/gtest.h>
-
-#include <sys/stat.h>
+#include "core/files.h"
 
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <iterator>
+#include <sys/stat.h>
 
 #include "steradian/error.h"
 

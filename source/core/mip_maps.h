@@ -1,4 +1,4 @@
-// MipMaps: pictures at half, a quarter, ... of their size, so that a pixel that covers many texels shows their mean.
+// Single texels of an image, and the blend of four.
 #pragma once
 
 #include <map>
@@ -11,6 +11,14 @@
 #include "steradian/texture.h"
 
 namespace steradian {
+
+// Texel (x, y), rgb linear.
+Vec4f texel_of(const Image& image, int x, int y, ColorSpace space);
+
+// Blend of four texels at finite coordinates (0 to 1 over the picture), wrapped as the use says, whatever its filter; rgb linear.
+Vec4f bilinear(const Image& image, const TextureUse& use, Vec2f uv);
+
+// MipMaps: pictures at half, a quarter, ... of their size, so that a pixel that covers many texels shows their mean.
 
 // Change of a mesh's texture coordinates from a pixel to its right neighbour and to the one below. The pixel covers the parallelogram that
 // the two vectors span about its own coordinates.

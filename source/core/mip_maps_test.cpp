@@ -1,11 +1,9 @@
 #include "core/mip_maps.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
 
-#include "core/texel.h"
 #include "support/random_configurations.h"
 
 namespace steradian::mip_maps_test {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "steradian/error.h"
+#include "steradian/version.h"
 
 namespace steradian {
 namespace {
@@ -58,5 +59,7 @@ Simd active_simd() {
   }
   throw Error("STERADIAN_SIMD", std::string("unknown instruction set '") + forced + "'", "use sse2, avx2 or avx512, or unset it");
 }
+
+const char* version() { return STERADIAN_VERSION; }
 
 }  // namespace steradian

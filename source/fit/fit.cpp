@@ -1,19 +1,24 @@
 #include "fit/fit.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlopt.hpp>
 #include <numbers>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <optional>
 
 #include "fit/test_lights.h"
-#include "lobes/cosine_sampler.h"
+#include "lobes/samplers.h"
+#include "steradian/kernels.h"
 
 namespace steradian::fit {
+
+double clipped_sphere_form_factor(double cosine, double form_factor) {
+  return Kernels<double>{}.ltc_clipped_sphere(std::clamp(cosine, -1.0, 1.0), std::clamp(form_factor, 0.0, 1.0)).v;
+}
+
 namespace {
 
 constexpr std::uint64_t kLightSeed = 1;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "integrals/ggx/ltc_shape.h"  // view_from_cosine
+#include "integrals/ggx/ltc_radiance.h"  // view_from_cosine
 #include "steradian/fit.h"
 #include "steradian/material.h"  // alpha_from_roughness
 #include "steradian/vector.h"

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/read_file.h"
+#include "core/files.h"
 #include "fit/lobe.h"
-#include "lobes/cosine_sampler.h"
+#include "lobes/samplers.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 #include "steradian/fit.h"

@@ -1,17 +1,16 @@
 // Measured reflection: lobes are written to files, read again and fitted.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <gtest/gtest.h>
 #include <numbers>
 #include <unistd.h>
 
 #include "fit/fit.h"
-#include "integrals/ggx/ltc_shape.h"
+#include "integrals/ggx/ltc_radiance.h"
 #include "steradian/error.h"
 
 namespace steradian::fit::samples_test {

@@ -5,16 +5,15 @@
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "fit/lobe.h"
-#include "integrals/tables/half.h"
+#include "integrals/tables/table.h"
 #include "steradian/error.h"
 
 namespace steradian::fit {

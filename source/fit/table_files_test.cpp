@@ -1,17 +1,16 @@
 #include "fit/table_files.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "fit/tables_of_fit.h"
 #include "integrals/tables/ggx_tables.h"
-#include "integrals/tables/half.h"
-#include "steradian/error.h"
+#include "integrals/tables/table.h"
 #include "paths.h"
+#include "steradian/error.h"
 
 namespace steradian::fit::table_files_test {
 namespace {

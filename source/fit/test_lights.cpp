@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "lobes/cosine_sampler.h"
 #include "core/random.h"
+#include "lobes/samplers.h"
 #include "steradian/kernels.h"
 
 namespace steradian::fit {

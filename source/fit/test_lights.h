@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/lobe.h"
-#include "integrals/ggx/ltc_shape.h"
+#include "integrals/ggx/ltc_radiance.h"
 
 namespace steradian::fit {
 

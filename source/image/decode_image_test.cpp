@@ -1,19 +1,14 @@
 // Whole pictures of every kind, and damaged ones: these are refused with a message, without reads beyond their end.
-#include "image/decode_image.h"
-
-#include <gtest/gtest.h>
+#include "image/codecs.h"
 
 #include <cstdio>
 #include <cstdlib>
-
+#include <functional>
+#include <gtest/gtest.h>
 #include <jpeglib.h>
 #include <png.h>
-
-#include <functional>
 #include <random>
 
-#include "image/exr.h"
-#include "image/png.h"
 #include "steradian/picture.h"
 
 namespace steradian::decode_image_test {

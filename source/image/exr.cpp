@@ -1,4 +1,4 @@
-#include "image/exr.h"
+#include "image/codecs.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -10,7 +10,6 @@
 #include <ImfTileDescription.h>
 #include <ImfVersion.h>
 #include <ImfXdr.h>
-
 #include <algorithm>
 #include <cstring>
 #include <set>

@@ -1,4 +1,4 @@
-#include "image/hdr.h"
+#include "image/codecs.h"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "image/decode_image.h"
 #include "steradian/error.h"
 
 namespace steradian::image {

@@ -1,8 +1,7 @@
 // Tests of Radiance pictures, whole and damaged.
-#include "image/hdr.h"
+#include "image/codecs.h"
 
 #include <gtest/gtest.h>
-
 #include <random>
 
 #include "steradian/error.h"

@@ -1,14 +1,10 @@
-#include "image/jpeg.h"
-
-#include <cstddef>
-#include <cstdio>
-
-#include <jpeglib.h>
-#include <jerror.h>
+#include "image/codecs.h"
 
 #include <csetjmp>
-
-#include "image/decode_image.h"
+#include <cstddef>
+#include <cstdio>
+#include <jerror.h>
+#include <jpeglib.h>
 
 namespace steradian::image {
 namespace {

@@ -1,14 +1,12 @@
 #include "steradian/picture.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
+#include <unistd.h>
 
-#include "image/read_picture.h"
+#include "image/codecs.h"
 #include "steradian/error.h"
 
 namespace steradian::picture_test {

@@ -1,6 +1,4 @@
-#include "image/png.h"
-
-#include <png.h>
+#include "image/codecs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +6,8 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <png.h>
 
-#include "image/decode_image.h"
 #include "image/tone.h"
 
 namespace steradian::image {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "integrals/outline_answer.h"
+#include "integrals/methods.h"
 #include "integrals/point_light.h"
 #include "integrals/textured/profiled_light.h"
 #include "steradian/capsule_light.h"

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrals/curved_light.h"
 #include "integrals/ggx/charlie.h"
-#include "integrals/tables/table.h"
 #include "integrals/phong/matched_lobe.h"
+#include "integrals/tables/table.h"
 #include "shapes/polygon.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
@@ -13,6 +14,7 @@
 #include "steradian/kernels.h"
 #include "steradian/ltc.h"
 #include "steradian/phong.h"
+#include "steradian/radiance.h"
 #include "steradian/reference.h"
 
 namespace steradian::methods {
@@ -259,6 +261,17 @@ std::optional<Method> method_of(std::string_view name) {
   for (const methods::Row& row : methods::all())
     if (name == row.name) return row.method;
   return std::nullopt;
+}
+
+// radiance() of lights of every shape.
+
+RadianceResult radiance(const AreaLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options) {
+  if (std::holds_alternative<Polygon>(light.shape) && !light.emission) return radiance(flat_polygon(light), at, lobe, options);
+  const methods::Row& row = methods::resolve(options.method, lobe, options.precision, options.quality);
+  if (!(dot(at.normal, at.view) > 0)) return methods::nothing(row.method);
+  RadianceResult result = methods::curved_light_answer(light, at, lobe, row, options);
+  result.method = row.method;
+  return result;
 }
 
 }  // namespace steradian

@@ -7,10 +7,10 @@
 #include "integrals/ggx/ggx.h"
 #include "integrals/irradiance.h"
 #include "integrals/phong/phong.h"
-#include "integrals/tables/shipped_lobe.h"
+#include "integrals/tables/ggx_tables.h"
 #include "shapes/polygon.h"
-#include "steradian/dual.h"
 #include "steradian/albedo.h"
+#include "steradian/dual.h"
 #include "steradian/error.h"
 
 namespace steradian {

@@ -1,8 +1,8 @@
 // Beckmann: a Gaussian of slopes, as a microfacet lobe without shadowing and Fresnel; isotropic or anisotropic.
 #pragma once
 
-#include "lobes/half_vector_sampler.h"
 #include "lobes/lobe_parts.h"
+#include "lobes/samplers.h"
 
 namespace steradian::lobes {
 

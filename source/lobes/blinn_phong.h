@@ -1,8 +1,8 @@
 // Blinn-Phong: a power of the half vector's cosine, as a microfacet lobe without shadowing and Fresnel.
 #pragma once
 
-#include "lobes/half_vector_sampler.h"
 #include "lobes/lobe_parts.h"
+#include "lobes/samplers.h"
 
 namespace steradian::lobes {
 

@@ -1,8 +1,8 @@
 // Charlie: the sheen of cloth, glTF's KHR_materials_sheen.
 #pragma once
 
-#include "lobes/cosine_sampler.h"
 #include "lobes/lobe_parts.h"
+#include "lobes/samplers.h"
 
 namespace steradian::lobes {
 

@@ -1,8 +1,8 @@
 // GGX: isotropic or anisotropic, with Smith's height-correlated shadowing or none, and Schlick's Fresnel.
 #pragma once
 
-#include "lobes/half_vector_sampler.h"
 #include "lobes/lobe_parts.h"
+#include "lobes/samplers.h"
 #include "steradian/albedo.h"
 
 namespace steradian::lobes {

@@ -1,8 +1,8 @@
 // Lambert: a lobe of the same radiance in every direction.
 #pragma once
 
-#include "lobes/cosine_sampler.h"
 #include "lobes/lobe_parts.h"
+#include "lobes/samplers.h"
 
 namespace steradian::lobes {
 

@@ -6,8 +6,8 @@
 // apart the axes are, the less remains.
 #pragma once
 
-#include "lobes/cosine_sampler.h"
 #include "lobes/lobe_parts.h"
+#include "lobes/samplers.h"
 
 namespace steradian::lobes {
 

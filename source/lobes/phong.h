@@ -1,8 +1,8 @@
 // Phong: a power of the cosine about the mirrored view, with or without the cosine of the light.
 #pragma once
 
-#include "lobes/cosine_sampler.h"
 #include "lobes/lobe_parts.h"
+#include "lobes/samplers.h"
 
 namespace steradian::lobes {
 

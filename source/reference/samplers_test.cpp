@@ -1,15 +1,14 @@
 // Every sampler against its density (chi-square), and the densities against their known integrals.
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 #include <numbers>
 
-#include "lobes/half_vector_sampler.h"
 #include "lobes/lobe.h"
+#include "lobes/samplers.h"
 #include "reference/azimuth_sampler.h"
+#include "reference/spherical_region.h"
 #include "support/chi2.h"
 #include "support/random_configurations.h"
-#include "reference/spherical_rectangle.h"
 
 namespace steradian::reference::samplers_test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "image/read_picture.h"
+#include "image/codecs.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 

@@ -1,14 +1,13 @@
 // A new user's first picture: the camera, the units of lights, the environment that a file brings, and the order of error messages.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <numbers>
 
-#include "image/png.h"
-#include "support/gltf_test_file.h"
+#include "image/codecs.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::scene::first_picture_test {
 namespace {

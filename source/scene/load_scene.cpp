@@ -4,16 +4,15 @@
 #include <cstdio>
 
 #include "scene/emitters/emitters.h"
+#include "scene/emitters/keep_strongest.h"
 #include "scene/framing.h"
 #include "scene/gltf/gltf_document.h"
 #include "scene/gltf/gltf_environment.h"
-#include "scene/gltf/gltf_extensions.h"
 #include "scene/gltf/gltf_file.h"
 #include "scene/gltf/gltf_lights.h"
 #include "scene/gltf/gltf_materials.h"
 #include "scene/gltf/gltf_meshes.h"
 #include "scene/gltf/gltf_nodes.h"
-#include "scene/emitters/keep_strongest.h"
 
 namespace steradian::scene {
 namespace {

@@ -1,14 +1,13 @@
 #include "scene/table_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/budget.h"
-#include "core/read_file.h"
+#include "core/files.h"
 #include "steradian/error.h"
 
 namespace steradian::scene {

@@ -1,6 +1,4 @@
-#include "image/decode_image.h"
-#include "image/exr.h"
-#include "image/hdr.h"
+#include "image/codecs.h"
 #include "steradian/error.h"
 #include "targets.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "lobes/cosine_sampler.h"
+#include "lobes/samplers.h"
 #include "core/random.h"
 #include "steradian/reference.h"
 

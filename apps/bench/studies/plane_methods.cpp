@@ -10,7 +10,7 @@
 #include "plane/exact/outline.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
-#include "plane/stage/light_field.h"
+#include "plane/stage/drawing.h"
 
 namespace steradian::plane {
 namespace {

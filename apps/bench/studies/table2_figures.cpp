@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "core/float_mode.h"
 #include "integrals/phong/phong.h"
 #include "bench/studies/line_plot.h"

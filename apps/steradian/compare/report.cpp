@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/page.h"
-#include "image/png.h"
+#include "image/codecs.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/version.h"
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "render/direct/ltc_points.h"
-#include "render/bounce/passes.h"
+#include "device/shadow/scene_rays.h"
+#include "device/vulkan/buffer.h"
 #include "device/vulkan/compute_program.h"
-#include "device/shadow/first_hits.h"
-#include "device/vulkan/kept_buffer.h"
+#include "render/bounce/passes.h"
+#include "render/direct/ltc_points.h"
 
 namespace steradian::vulkan {
 

@@ -6,14 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "render/lights/light_list.h"
-#include "render/frame/methods.h"
-#include "render/tile/tile.h"
-#include "device/vulkan/compute_program.h"
-#include "device/vulkan/kept_buffer.h"
 #include "device/direct/light_records.h"
-#include "device/direct/light_details.h"
 #include "device/direct/own_lobes.h"
+#include "device/vulkan/buffer.h"
+#include "device/vulkan/compute_program.h"
+#include "render/frame/methods.h"
+#include "render/lights/light_list.h"
+#include "render/tile/tile.h"
 
 namespace steradian::vulkan {
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "render/lights/light_list.h"
@@ -32,6 +33,25 @@ struct LightRecords {
 
   std::uint32_t add(const PackLight& light, std::ptrdiff_t details);  // returns its number; details: first vector (LightDetails)
   void keep(std::size_t lights, std::size_t vertices);                // keeps the first ones
+};
+
+// Details of lights beside their records, in the layout of shaders: textures (shaders/light_textures.glsl) and measured profiles
+// (shaders/light_profiles.glsl).
+
+class LightDetails {
+ public:
+  // Stores the details of the first lights as far as the capacity allows.
+  LightDetails(const std::vector<PackLight>& lights, std::size_t most_vectors);
+
+  // Returns true if the light's details are complete here.
+  bool has(const PackLight& light) const;
+  // First vector of a light's details; kNoDetails if it has none.
+  std::ptrdiff_t first_of(const PackLight& light) const;
+  const std::vector<Vec4Floats>& values() const { return values_; }
+
+ private:
+  std::map<const void*, std::size_t> firsts_;  // by texture or profile
+  std::vector<Vec4Floats> values_;
 };
 
 }  // namespace steradian::vulkan

@@ -1,9 +1,9 @@
 #include "device/frame/back_end.h"
 
-#include "render/frame/render.h"
-#include "render/surface/scene_parts.h"
 #include "device/frame/frame.h"
 #include "device/frame/kept_on_device.h"
+#include "render/frame/render.h"
+#include "render/surface/ray_scene.h"
 
 namespace steradian::vulkan {
 

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <memory>
 
-#include "support/memory.h"
-#include "render/surface/scene_parts.h"
 #include "device/vulkan/handles.h"
+#include "render/surface/ray_scene.h"
 #include "support/device_frames.h"
+#include "support/memory.h"
 
 namespace steradian::vulkan::kept_on_device_test {
 namespace {

@@ -1,22 +1,21 @@
-#include "steradian/plane_device.h"
-
-#include <tbb/parallel_for.h>
+#include "device/plane/plane_device.h"
 
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <span>
+#include <tbb/parallel_for.h>
 #include <utility>
 
-#include "plane/frame/events/event_walk.h"
-#include "plane/frame/frame.h"
+#include "device/direct/direct_light.h"
 #include "device/plane/listed_disks.h"
 #include "device/plane/pair_words.h"
 #include "device/plane/recorded_tiles.h"
-#include "device/plane/shaders.h"
 #include "device/vulkan/compute_program.h"
-#include "device/direct/direct_light.h"
+#include "plane/frame/events/event_walk.h"
+#include "plane/frame/frame.h"
 #include "steradian/error.h"
+#include "steradian/plane_device.h"
 
 namespace steradian::plane {
 namespace {
@@ -297,3 +296,29 @@ void PlaneDevice::render_into(Picture& picture, const PlaneWorld& world, const P
 }
 
 }  // namespace steradian
+
+namespace steradian::plane {
+namespace {
+
+// Written by glslc: cmake/shaders.cmake.
+constexpr std::uint32_t kDisks[] =
+#include "plane_disks.comp.inc"
+    ;
+constexpr std::uint32_t kCuts[] =
+#include "plane_cuts.comp.inc"
+    ;
+constexpr std::uint32_t kArcs[] =
+#include "plane_arcs.comp.inc"
+    ;
+constexpr std::uint32_t kListed[] =
+#include "plane_listed.comp.inc"
+    ;
+constexpr std::uint32_t kLists[] =
+#include "plane_lists.comp.inc"
+    ;
+
+}  // namespace
+
+std::vector<std::span<const std::uint32_t>> plane_shaders() { return {kDisks, kCuts, kArcs, kListed, kLists}; }
+
+}  // namespace steradian::plane

@@ -1,20 +1,18 @@
 // The CPU is the reference for the device: whole frames of the plane.
 #include "steradian/plane_device.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <gtest/gtest.h>
 
-#include "support/memory.h"
-#include "paths.h"
-#include "support/plane_families.h"
-#include "plane/stage/drawing.h"
-#include "plane/stage/light_field.h"
 #include "device/vulkan/device.h"
+#include "paths.h"
+#include "plane/stage/drawing.h"
 #include "steradian/error.h"
 #include "steradian/plane_bounce.h"
+#include "support/memory.h"
+#include "support/plane_families.h"
 
 namespace steradian::plane::plane_device_test {
 namespace {

@@ -1,18 +1,17 @@
 // Embree and rays in double are the reference for a device's first hits of shadow-map rays; the host's map is the reference for the map.
-#include "device/shadow/first_hits.h"
-
-#include <gtest/gtest.h>
+#include "device/shadow/scene_rays.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <gtest/gtest.h>
 #include <limits>
 #include <optional>
 
 #include "core/random.h"
 #include "paths.h"
-#include "support/mixed_corner.h"
 #include "steradian/load_scene.h"
+#include "support/mixed_corner.h"
 
 namespace steradian::vulkan::first_hits_test {
 namespace {

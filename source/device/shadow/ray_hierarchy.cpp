@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "render/surface/ray_scene.h"
-#include "shadow/region/box.h"
+#include "shadow/region/light_frame.h"
 
 namespace steradian::vulkan {
 namespace {

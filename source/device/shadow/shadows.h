@@ -8,12 +8,12 @@
 #include <span>
 #include <string>
 
-#include "render/surface/scene_parts.h"
-#include "render/frame/tile_lighting.h"
-#include "device/vulkan/compute_program.h"
-#include "device/vulkan/kept_buffer.h"
 #include "device/shadow/scene_rays.h"
 #include "device/shadow/tile_shadows.h"
+#include "device/vulkan/buffer.h"
+#include "device/vulkan/compute_program.h"
+#include "render/frame/tile_lighting.h"
+#include "render/surface/ray_scene.h"
 
 namespace steradian::vulkan {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "shadow/edges/collect.h"
+#include "shadow/edges/gather.h"
 
 namespace steradian::vulkan {
 namespace {

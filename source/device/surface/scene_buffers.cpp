@@ -8,7 +8,7 @@
 
 #include "integrals/tables/ggx_tables.h"
 #include "render/surface/surface_pack.h"
-#include "scene/emitters/light_face.h"
+#include "scene/emitters/emitters.h"
 
 namespace steradian::vulkan {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mip_maps.h"
-#include "device/vulkan/kept_buffer.h"
+#include "device/vulkan/buffer.h"
 #include "steradian/scene.h"
 
 namespace steradian::vulkan {

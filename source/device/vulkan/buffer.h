@@ -3,7 +3,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
 
+#include "core/fingerprint.h"
 #include "device/vulkan/device.h"
 
 namespace steradian::vulkan {
@@ -33,6 +36,38 @@ class Buffer {
  private:
   std::size_t bytes_;
   std::unique_ptr<Handles> handles_;
+};
+
+// A buffer that stays from picture to picture: it grows on demand, and knows its contents.
+
+class KeptBuffer {
+ public:
+  // The device must outlive this object. Nothing is allocated yet.
+  explicit KeptBuffer(const Device& device, BufferUse use = BufferUse::host_writes, BufferForm form = BufferForm::storage)
+      : device_(device), use_(use), form_(form) {}
+
+  // Grows to at least `bytes`. Growing discards the contents. fit_with_room is for sizes that differ from picture to picture. It grows to
+  // half as much again, at most `most` bytes, so that the following pictures need no growth.
+  Buffer& fit(std::size_t bytes) { return fit_with_room(bytes, bytes); }
+  Buffer& fit_with_room(std::size_t bytes, std::size_t most);
+  // Makes the buffer hold these bytes; writes them only if it holds others.
+  Buffer& hold(const void* data, std::size_t bytes);
+  template <class Value>
+  Buffer& hold(const std::vector<Value>& values) {
+    return hold(values.data(), values.size() * sizeof(Value));
+  }
+
+  bool is_made() const { return buffer_.has_value(); }
+  // Valid once allocated. Writes through these references are not tracked.
+  Buffer& get() { return *buffer_; }
+  const Buffer& get() const { return *buffer_; }
+
+ private:
+  const Device& device_;
+  const BufferUse use_;
+  const BufferForm form_;
+  std::optional<Buffer> buffer_;
+  std::optional<Fingerprint> held_;
 };
 
 }  // namespace steradian::vulkan

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <optional>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "device/vulkan/handles.h"
 
 namespace steradian::vulkan {

@@ -1,7 +1,6 @@
-#include "device/vulkan/kept_buffer.h"
+#include "device/vulkan/buffer.h"
 
 #include <gtest/gtest.h>
-
 #include <vector>
 
 namespace steradian::vulkan::kept_buffer_test {

@@ -1,18 +1,17 @@
 // The kernels ltc_*: the walk against quadrature of the transformed lobe over the part above both horizons.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <numbers>
 #include <vector>
 
-#include "fit/clipped_sphere.h"
-#include "integrals/ggx/ltc_shape.h"
 #include "core/random.h"
-#include "support/random_configurations.h"
+#include "fit/fit.h"
+#include "integrals/ggx/ltc_radiance.h"
 #include "reference/spherical_region.h"
 #include "steradian/kernels.h"
+#include "support/random_configurations.h"
 
 namespace steradian::ltc_kernel_test {
 namespace {

@@ -1,17 +1,16 @@
 // Products of cosine lobes: the exact double-axis moment, and one lobe instead of many, against cubature.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <numbers>
 #include <string>
 
-#include "integrals/edge_sum.h"
-#include "integrals/phong/phong.h"
-#include "support/adversarial_quads.h"
+#include "integrals/integrate.h"
 #include "integrals/phong/exact_moment.h"
+#include "integrals/phong/phong.h"
 #include "paths.h"
 #include "steradian/phong.h"
+#include "support/adversarial_quads.h"
 
 namespace steradian::lobe_product_test {
 namespace {

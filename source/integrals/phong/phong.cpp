@@ -5,9 +5,9 @@
 #include <numbers>
 #include <string>
 
-#include "integrals/edge_sum.h"
-#include "integrals/phong/foreshortened_phong.h"
+#include "integrals/integrate.h"
 #include "integrals/phong/exact_moment.h"
+#include "integrals/phong/foreshortened_phong.h"
 #include "shapes/polygon.h"
 #include "steradian/error.h"
 

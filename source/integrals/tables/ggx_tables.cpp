@@ -1,6 +1,6 @@
 #include "integrals/tables/ggx_tables.h"
 
-#include "integrals/tables/half.h"
+#include "integrals/tables/table.h"
 #include "steradian/ltc.h"
 
 // steradian fit --lobe ggx --layout classic -o tables/ggx_classic.h

@@ -1,8 +1,7 @@
-#include "integrals/tables/half.h"
-
-#include <gtest/gtest.h>
+#include "integrals/tables/table.h"
 
 #include <cmath>
+#include <gtest/gtest.h>
 
 namespace steradian::half_test {
 

@@ -1,15 +1,22 @@
-// The two layouts of a fitted table, and their look-ups.
+// Half precision: 1 sign, 5 exponent, 10 fraction bits. Rounds to nearest, ties to even; overflow goes to infinity.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
-#include "integrals/ggx/ltc_shape.h"
+#include "integrals/ggx/ltc_radiance.h"
 #include "steradian/material.h"
 #include "steradian/polygon_light.h"
 #include "steradian/shading_point.h"
 
 namespace steradian {
+
+std::uint16_t half_from_float(float x);
+float float_from_half(std::uint16_t bits);
+inline float round_to_half(float x) { return float_from_half(half_from_float(x)); }
+
+// The two layouts of a fitted table, and their look-ups.
 
 // Result of a look-up: the matrix and both magnitudes.
 struct LtcValue {

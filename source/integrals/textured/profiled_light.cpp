@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "integrals/curved_light.h"
-#include "integrals/outline_answer.h"
+#include "integrals/methods.h"
 #include "reference/gauss_kronrod.h"
 
 namespace steradian {

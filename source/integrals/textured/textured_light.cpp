@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrals/tables/shipped_lobe.h"
+#include "integrals/tables/ggx_tables.h"
 #include "integrals/textured/texture_mean.h"
 
 namespace steradian {

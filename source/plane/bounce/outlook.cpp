@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "plane/exact/gaps.h"
-#include "plane/exact/intersect.h"
+#include "plane/exact/outline.h"
 
 namespace steradian::plane {
 namespace {

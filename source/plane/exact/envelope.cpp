@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/exact/intersect.h"
+#include "plane/exact/outline.h"
 
 namespace steradian::plane {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "plane/exact/emission.h"
 #include "plane/exact/envelope.h"
-#include "plane/exact/intersect.h"
+#include "plane/exact/outline.h"
 #include "plane/extras/extras.h"
 #include "plane/extras/quadrature.h"
 #include "plane/extras/trace.h"

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "plane/bounce/bounces.h"
 #include "plane/frame/scene.h"
 
 namespace steradian::plane {
@@ -15,5 +16,12 @@ std::optional<std::vector<Emitter>> emitters_of(const World& world, std::size_t 
 bool is_round(const Ellipse& e);
 double stretch_of(const Ellipse& e);  // the longer half axis divided by the other
 bool is_full_circle(const Curve& c);
+
+// Walls that reflect light (plane/bounce) as emitters of a frame.
+
+enum class WallLight { radiance, error };
+
+// Emitters of all elements, with edges in the runs of their walls.
+std::vector<Emitter> wall_emitters(const PlaneBounces::Impl& bounces, WallLight what);
 
 }  // namespace steradian::plane

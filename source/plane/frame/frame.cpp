@@ -1,18 +1,18 @@
 // Frames of the plane: by tiles if possible, pixel by pixel otherwise.
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "plane/frame/frame.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "core/budget.h"
 #include "plane/extras/extras.h"
 #include "plane/extras/frame.h"
-#include "plane/frame/frame.h"
+#include "plane/frame/emitters.h"
 #include "plane/frame/tiles/lattice.h"
-#include "plane/frame/wall_emitters.h"
 #include "steradian/error.h"
 
 namespace steradian::plane {

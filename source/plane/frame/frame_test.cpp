@@ -1,20 +1,18 @@
 // The frame, on packs and tiles, against the query in double.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <cstdlib>
+#include <fmt/format.h>
+#include <functional>
+#include <gtest/gtest.h>
 
 #include "core/simd.h"
 #include "paths.h"
-#include "support/plane_families.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
-#include "plane/stage/drawing.h"
-#include "plane/stage/light_field.h"
 #include "plane/frame/scene.h"
+#include "plane/stage/drawing.h"
+#include "support/plane_families.h"
 
 namespace steradian::plane::frame_test {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/frame/runs/chains.h"
 #include "plane/frame/emitters.h"
-#include "plane/stage/preparation.h"
+#include "plane/frame/runs/convex.h"
 #include "plane/frame/runs/reaching.h"
 #include "plane/frame/runs/runs.h"
+#include "plane/stage/preparation.h"
 
 namespace steradian::plane {
 namespace {

@@ -1,19 +1,18 @@
 #include "steradian/plane_stage.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <tbb/task_arena.h>
 
 #include "core/budget.h"
 #include "plane/extras/extras.h"
 #include "plane/extras/frame.h"
 #include "plane/frame/events/event_walk.h"
-#include "plane/frame/runs/hull.h"
-#include "plane/stage/preparation.h"
+#include "plane/frame/runs/convex.h"
 #include "plane/frame/tiles/tiles.h"
+#include "plane/stage/preparation.h"
 #include "steradian/error.h"
 
 namespace steradian::plane {

@@ -1,11 +1,9 @@
 // A stage's picture equals the cold frame's, byte for byte, after any sequence of changes.
-#include <gtest/gtest.h>
-
 #include <cstring>
+#include <gtest/gtest.h>
 
 #include "plane/exact/random.h"
 #include "plane/stage/drawing.h"
-#include "plane/stage/light_field.h"
 #include "steradian/plane_stage.h"
 
 namespace steradian::plane::stage_test {

@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "core/budget.h"
-#include "plane/svg/extras.h"
-#include "plane/svg/text/lettering.h"
 #include "plane/svg/light.h"
-#include "plane/svg/shapes.h"
+#include "plane/svg/path.h"
 #include "plane/svg/stroke.h"
 #include "plane/svg/style/style.h"
+#include "plane/svg/text/lettering.h"
 #include "plane/svg/viewport.h"
 #include "steradian/error.h"
 #include "steradian/plane.h"

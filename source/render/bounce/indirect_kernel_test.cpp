@@ -1,22 +1,21 @@
 // The kernels of kernels/indirect/indirect.glsl against GGX itself and against the definitions that they simplify.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <numbers>
 #include <string>
 
+#include "core/random.h"
+#include "fit/lobe.h"
+#include "integrals/ggx/ltc_radiance.h"
+#include "integrals/tables/ggx_tables.h"
+#include "lobes/lobe.h"
+#include "paths.h"
 #include "render/bounce/light_sets.h"
 #include "render/bounce/point_light_plane.h"
-#include "integrals/tables/ggx_tables.h"
-#include "fit/lobe.h"
-#include "integrals/ggx/ltc_shape.h"
-#include "lobes/lobe.h"
-#include "core/random.h"
-#include "paths.h"
-#include "support/random_configurations.h"
 #include "steradian/kernels.h"
+#include "support/random_configurations.h"
 
 namespace steradian::indirect::indirect_kernel_test {
 namespace {

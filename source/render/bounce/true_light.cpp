@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/bounce/light_sets.h"
+#include "integrals/ggx/ltc_radiance.h"
 #include "integrals/tables/ggx_tables.h"
-#include "integrals/ggx/ltc_shape.h"
 #include "lobes/lobe.h"
+#include "render/bounce/light_sets.h"
 
 namespace steradian::indirect {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "core/simd.h"
 #include "render/lights/light_list.h"
-#include "render/tile/points.h"
+#include "render/tile/tile.h"
 #include "steradian/closed_form.h"
 
 namespace steradian {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/simd.h"
-#include "render/lights/light_list.h"
 #include "render/direct/ltc_points.h"
-#include "render/tile/points.h"
+#include "render/lights/light_list.h"
+#include "render/tile/tile.h"
 
 namespace steradian {
 

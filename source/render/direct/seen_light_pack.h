@@ -4,7 +4,7 @@
 #include "core/pack.h"
 #include "integrals/irradiance.h"
 #include "render/lights/light_list.h"
-#include "render/tile/points.h"
+#include "render/tile/tile.h"
 
 STERADIAN_BEGIN_ISA
 

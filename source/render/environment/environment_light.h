@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/environment/bright_spots.h"
-#include "render/environment/environment_sampler.h"
+#include "render/environment/direction_grid.h"
 #include "render/environment/filtered_map.h"
 #include "render/environment/harmonics.h"
 #include "render/surface/surface.h"

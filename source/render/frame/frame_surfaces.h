@@ -4,12 +4,12 @@
 #include <memory>
 #include <span>
 
+#include "render/environment/environment_light.h"
 #include "render/surface/camera_rays.h"
 #include "render/surface/gbuffer.h"
-#include "render/tile/pass_clock.h"
-#include "render/surface/scene_parts.h"
+#include "render/surface/ray_scene.h"
 #include "render/surface/surface_pack.h"
-#include "render/environment/environment_light.h"
+#include "render/tile/pass_clock.h"
 #include "steradian/render.h"
 
 namespace steradian {

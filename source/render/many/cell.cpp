@@ -1,7 +1,10 @@
 #include "render/many/cell.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "steradian/kernels.h"
 
 namespace steradian::lights {
 namespace {
@@ -27,6 +30,127 @@ double lebesgue(int nodes) { return 2 * std::numbers::inv_pi * std::log(nodes) +
 const NodeRow& node_row(int nodes) {
   static const std::array<NodeRow, 4> rows = {make_row(1), make_row(2), make_row(4), make_row(8)};
   return rows[nodes >= 8 ? 3 : static_cast<std::size_t>(nodes) / 2];
+}
+
+namespace {
+
+Vec3f mean_normal(ReceiverSpan points) {
+  Vec3f sum{};
+  for (const Receiver& q : points) sum = sum + q.normal;
+  return dot(sum, sum) > 1e-12f ? normalized(sum) : points.front().normal;
+}
+
+struct Range {
+  float low = INFINITY, high = -INFINITY;
+  void add(float x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  float middle() const { return (low + high) / 2; }
+  float half() const { return (high - low) / 2; }
+};
+
+template <class Key>
+std::pair<ReceiverSpan, ReceiverSpan> divided(ReceiverSpan points, float at, Key key) {
+  const auto middle = std::partition(points.begin(), points.end(), [&](const Receiver& q) { return key(q) < at; });
+  const auto count = static_cast<std::size_t>(middle - points.begin());
+  return {points.first(count), points.subspan(count)};
+}
+
+constexpr float kTurn = 0.6f;        // largest turn of a cone that is worth a cell [rad, as a chord]
+constexpr float kThick = 0.25f;      // ratio of a surface's depth to its width
+constexpr std::size_t kWorthy = 64;  // smaller sets are not divided for the sake of order
+
+}  // namespace
+
+Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye) {
+  Cell cell;
+  cell.axes = axes;
+  cell.normal = mean_normal(points);
+  cell.eye = eye;
+  // Positions are relative to the first point: products of coordinates far from the origin would lose digits.
+  const Vec3f origin = points.front().position;
+  std::array<Range, 3> along;
+  for (const Receiver& q : points) {
+    const Vec3f p = q.position - origin, off = q.normal - cell.normal;
+    for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(p, axes[k]));
+    cell.turn = std::max(cell.turn, dot(off, off));
+    cell.loss = std::max(cell.loss, q.loss);
+  }
+  cell.turn = std::sqrt(cell.turn) + 1e-6f;
+  cell.center = origin;
+  for (std::size_t k = 0; k < 3; ++k) cell.center = cell.center + axes[k] * along[k].middle();
+  constexpr float kRounding = 1 + 1e-5f;
+  cell.half = Vec3f{along[0].half(), along[1].half(), along[2].half()} * kRounding;
+  cell.radius = length(cell.half);
+  cell.eye_distance = std::max(length(eye - cell.center) - cell.radius, 0.0f);
+  return cell;
+}
+
+Cell cell_about(ReceiverSpan points, Vec3f eye) {
+  const Vec3f normal = mean_normal(points), origin = points.front().position;
+  const Vec3f aside = std::abs(normal.x) < 0.7f ? Vec3f{1, 0, 0} : Vec3f{0, 1, 0};
+  const Vec3f x = normalized(cross(aside, normal)), y = cross(normal, x);
+  // Covariances in the plane, and the angle of the longer axis.
+  float sx = 0, sy = 0, xx = 0, xy = 0, yy = 0;
+  for (const Receiver& q : points) {
+    const Vec3f p = q.position - origin;
+    const float a = dot(p, x), b = dot(p, y);
+    sx += a;
+    sy += b;
+    xx += a * a;
+    xy += a * b;
+    yy += b * b;
+  }
+  const auto count = static_cast<float>(points.size());
+  xx -= sx * sx / count;
+  xy -= sx * sy / count;
+  yy -= sy * sy / count;
+  const float angle = std::atan2(2 * xy, xx - yy) / 2, c = std::cos(angle), s = std::sin(angle);
+  return cell_about(points, {x * c + y * s, y * c - x * s, normal}, eye);
+}
+
+Disorder disorder_of(ReceiverSpan points, const Cell& cell) {
+  if (points.size() < kWorthy) return Disorder::none;
+  if (cell.turn > kTurn && divided_by_normals(points).first.size() > 0) return Disorder::normals;
+  if (cell.half.z > kThick * std::max(cell.half.x, cell.half.y)) return Disorder::places;
+  return Disorder::none;
+}
+
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_normals(ReceiverSpan points) {
+  Range x, y, z;
+  for (const Receiver& q : points) {
+    x.add(q.normal.x);
+    y.add(q.normal.y);
+    z.add(q.normal.z);
+  }
+  const bool by_x = x.half() >= y.half() && x.half() >= z.half(), by_y = !by_x && y.half() >= z.half();
+  const auto key = [&](const Receiver& q) { return by_x ? q.normal.x : by_y ? q.normal.y : q.normal.z; };
+  return divided(points, (by_x ? x : by_y ? y : z).middle(), key);
+}
+
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const Cell& cell) {
+  const bool by_x = cell.half.x >= cell.half.y && cell.half.x >= cell.half.z, by_y = !by_x && cell.half.y >= cell.half.z;
+  const Vec3f axis = cell.axes[by_x ? 0 : by_y ? 1 : 2];
+  return divided(points, 0, [&](const Receiver& q) { return dot(q.position - cell.center, axis); });
+}
+
+NodeGrid grid_for(Vec3f half, float distance, float error) {
+  using K = Kernels<float>;
+  NodeGrid grid;
+  grid.count = {1, 1, 1};
+  const std::array<float, 3> reach{half.x, half.y, half.z};
+  const auto error_along = [&](std::size_t k) {
+    return K().far_error_of_nodes(grid.count[k], K::real(static_cast<double>(reach[k])), K::real(static_cast<double>(distance))).v;
+  };
+  while (grid.size() < kMostNodes) {
+    if (grid.size() >= 16 && error_along(0) + error_along(1) + error_along(2) < error) break;
+    std::size_t worst = kMostNodes;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (grid.count[k] < 8 && (worst == kMostNodes || error_along(k) > error_along(worst))) worst = k;
+    grid.count[worst] *= 2;
+  }
+  return grid;
 }
 
 }  // namespace steradian::lights

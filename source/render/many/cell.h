@@ -1,16 +1,49 @@
-// Cell: neighbouring receivers that are lit by far lights together, and the pack functions for it.
+// ReceiverSet: surface points whose diffuse light is summed together, of one tile or of many.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/simd.h"
-#include "render/tile/points.h"
 #include "render/many/far_lights.h"
+#include "render/tile/tile.h"
+#include "steradian/vector.h"
 
 namespace steradian::lights {
+
+struct Receiver {
+  Vec3f position, normal, albedo;
+  float loss = 0;           // Fresnel loss at the boundary above
+  std::uint32_t place = 0;  // identifies the point: a slot of a tile, or a pixel of a picture
+};
+using ReceiverSpan = std::span<Receiver>;
+
+// Light that a receiver gets, and the bound of its error.
+struct Received {
+  Vec3f radiance, bound;
+};
+
+struct ReceiverSet {
+  std::vector<Receiver> points;    // in arbitrary order
+  std::vector<Received> received;  // result for each point
+
+  // Adds the tile's points that reflect diffusely; place_of(slot) is their place.
+  template <class PlaceOf>
+  void add(const SurfaceTile& tile, PlaceOf place_of) {
+    const auto get = [](const TileVector& v, std::size_t i) { return Vec3f{v.x[i], v.y[i], v.z[i]}; };
+    for (std::uint32_t i = 0; i < kTilePixels; ++i) {
+      const Vec3f albedo = get(tile.albedo, i);
+      if (tile.material[i] != nullptr && albedo.x + albedo.y + albedo.z > 0)
+        points.push_back({get(tile.position, i), get(tile.normal, i), albedo, tile.fresnel_loss[i], place_of(i)});
+    }
+  }
+};
+
+// Cell: neighbouring receivers that are lit by far lights together, and the pack functions for it.
 
 inline constexpr std::size_t kMostNodes = 64;
 
@@ -117,3 +150,27 @@ namespace steradian {
 STERADIAN_DECLARE_PACK_TABLE(lights::CellTable, cell_table)
 
 }  // namespace steradian
+
+// Cells about surface points, and their subdivision.
+
+namespace steradian::lights {
+
+// The tightest cell with the given axes about points, at least one.
+Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye);
+
+// A cell along the mean normal and the directions in which the points spread.
+Cell cell_about(ReceiverSpan points, Vec3f eye);
+
+// Detects points of more than one surface, or of one that turns too far for one cone. The value says by what to divide them first.
+enum class Disorder { none, normals, places };
+Disorder disorder_of(ReceiverSpan points, const Cell& cell);
+
+// Splits the points into a front and a back part: by the normals' most varied coordinate, or across the cell's longest axis. Neither part
+// is empty if the points differ in that coordinate.
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_normals(ReceiverSpan points);
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const Cell& cell);
+
+// The nodes that a cell needs for lights at about that distance. The error is at most `error`, as far as 64 nodes allow.
+NodeGrid grid_for(Vec3f half, float distance, float error);
+
+}  // namespace steradian::lights

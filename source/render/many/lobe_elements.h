@@ -6,8 +6,8 @@
 
 #include "core/simd.h"
 #include "render/direct/ltc_points.h"
-#include "render/tile/points.h"
 #include "render/many/far_lights.h"
+#include "render/tile/tile.h"
 
 namespace steradian::lights {
 

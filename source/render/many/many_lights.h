@@ -12,8 +12,6 @@
 #include "render/direct/irradiance.h"
 #include "render/lights/light_list.h"
 #include "render/many/cell.h"
-#include "render/many/receiver_cells.h"
-#include "render/many/receiver_set.h"
 
 namespace steradian::lights {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/random.h"
+#include "render/environment/direction_grid.h"
 #include "render/surface/ray_scene.h"
 #include "render/surface/surface.h"
-#include "render/environment/environment_sampler.h"
 #include "steradian/render.h"
 
 namespace steradian {

@@ -6,7 +6,7 @@
 
 #include "render/lights/light_list.h"
 #include "render/shadow/viewpoints.h"
-#include "shadow/rays/open_shaft.h"
+#include "shadow/rays/shafts.h"
 
 namespace steradian {
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "render/shadow/work.h"
+#include "shadow/rays/shafts.h"
 #include "shadow/region/round_light.h"
-#include "shadow/rays/round_shaft.h"
 
 namespace steradian {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "render/lights/light_list.h"
 #include "render/shadow/open_lights.h"
-#include "render/surface/scene_parts.h"
 #include "render/shadow/side.h"
 #include "render/shadow/taker.h"
 #include "render/shadow/tile.h"
 #include "render/shadow/viewpoints.h"
+#include "render/surface/ray_scene.h"
 #include "shadow/edges/edge_arrays.h"
 #include "shadow/lanes/lanes.h"
 

@@ -1,8 +1,11 @@
 #include "render/shadow/side.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
 #include "shadow/edges/edge_arrays.h"
+#include "shadow/region/arrangement.h"
 #include "shadow/region/round_light.h"
 
 namespace steradian {
@@ -51,6 +54,67 @@ std::optional<LightSide> side_of_round(const PackLight& light, Vec3d position,
   result.outline = ellipse;
   result.middle = result.frame.origin;
   return result;
+}
+
+namespace {
+
+using shadow::LightFrame;
+using shadow::Viewpoint;
+
+constexpr int kShareRays = 64;
+
+// Visible fraction of a light by stratified rays, weighted by each place's light on a diffuse surface. It is the open part of the places
+// that count. counts(x, y) is in the light's frame. open(to) tests the way there, which ends short of the light.
+template <class Counts, class Open>
+double stratified_share(const LightFrame& frame, const Viewpoint& at, Counts counts, Open open) {
+  constexpr int kSide = 8;
+  static_assert(kSide * kSide == kShareRays);
+  reference::Random random(at.seed);
+  const double height = -frame.to_local(at.position).z;
+  double all = 0, arrives = 0;
+  for (int i = 0; i < kShareRays; ++i) {
+    const double u = random.uniform(), v = random.uniform();
+    const double x = (2 * (i % kSide + u) / kSide - 1) * frame.half_x;
+    const double y = (2 * (i / kSide + v) / kSide - 1) * frame.half_y;
+    if (!counts(x, y)) continue;
+    const Vec3d to = frame.to_world({x, y, 0}) - at.position;
+    const double cosine = dot(to, at.normal);
+    if (!(cosine > 0)) continue;
+    const double d2 = dot(to, to), weight = cosine / (d2 * d2);
+    all += weight;
+    if (open(to * std::max((height - frame.eta) / height, 0.0))) arrives += weight;
+  }
+  return all > 0 ? arrives / all : 1.0;
+}
+
+template <class Counts>
+double share_past_cut_outs_of(const RayScene& rays, const LightFrame& frame, const Viewpoint& at, Counts counts) {
+  return stratified_share(frame, at, counts, [&](Vec3d to) { return !rays.between(at.position, at.position + to, Casters::cut_outs); });
+}
+
+}  // namespace
+
+double share_by_rays(const RayScene& rays, const LightSide& side, const Viewpoint& at) {
+  const LightFrame frame = with_contours(side.frame);
+  return stratified_share(
+      frame, at, [&](double x, double y) { return on_light(frame, x, y); },
+      [&](Vec3d to) {
+        if (at.geometric_normal && !(dot(to, *at.geometric_normal) > 0)) return false;
+        return !rays.between(at.position, at.position + to, Casters::all);
+      });
+}
+
+double share_past_cut_outs(const RayScene& rays, const LightSide& side, const Viewpoint& at) {
+  const LightFrame frame = with_contours(side.frame);
+  return share_past_cut_outs_of(rays, frame, at, [&](double x, double y) { return on_light(frame, x, y); });
+}
+
+double share_past_cut_outs(const RayScene& rays, const LightSide& side, const Viewpoint& at, const shadow::SegmentSet& segments,
+                           const shadow::VisibleRegion& seen) {
+  const LightFrame& frame = side.frame;
+  const double scale_x = shadow::kCells / frame.box_x, scale_y = shadow::kCells / frame.box_y;
+  return share_past_cut_outs_of(rays, frame, at,
+                                [&](double x, double y) { return count_at(segments, x * scale_x, y * scale_y) <= seen.level; });
 }
 
 }  // namespace steradian

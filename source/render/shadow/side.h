@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "render/lights/light_list.h"
+#include "render/surface/ray_scene.h"
 #include "shadow/edges/segments.h"
+#include "shadow/region/visible.h"
 
 namespace steradian {
 
@@ -46,5 +48,15 @@ Above above_horizon(const shadow::LightFrame& frame, Vec3d position, Vec3d norma
 inline bool is_cut(const shadow::LightFrame& frame, const shadow::Viewpoint& at) {
   return at.geometric_normal && above_horizon(frame, at.position, *at.geometric_normal) != Above::all;
 }
+
+// Fractions of a light by stratified rays: where there are too many edges to arrange, and for light through cut-outs.
+
+// Visible fraction of the light above the point's horizons, past all occluders.
+double share_by_rays(const RayScene& rays, const LightSide& side, const shadow::Viewpoint& at);
+
+// Fraction of the light that passes cut-outs. The second function takes only the part of the light that `seen` found in `segments`.
+double share_past_cut_outs(const RayScene& rays, const LightSide& side, const shadow::Viewpoint& at);
+double share_past_cut_outs(const RayScene& rays, const LightSide& side, const shadow::Viewpoint& at, const shadow::SegmentSet& segments,
+                           const shadow::VisibleRegion& seen);
 
 }  // namespace steradian

@@ -1,6 +1,87 @@
 #include "render/shadow/viewpoints.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shadow/region/light_frame.h"
+#include "steradian/scene.h"
+
 namespace steradian {
+namespace {
+
+using shadow::Box;
+using shadow::coordinate;
+using shadow::longest_side;
+
+// Fraction of the longest side of all members: a gap between neighbours of this width splits them.
+constexpr double kGap = 0.35;
+
+struct Member {
+  std::uint32_t number;
+  Box box;
+};
+
+// Splits members at gaps between their boxes along the longest side of all members.
+void split(std::vector<Member>& members, std::vector<std::vector<std::uint32_t>>& result) {
+  std::vector<std::pair<std::size_t, std::size_t>> ranges = {{0, members.size()}};
+  while (!ranges.empty()) {
+    const auto [begin, end] = ranges.back();
+    ranges.pop_back();
+    Box all;
+    for (std::size_t i = begin; i < end; ++i) all.add(members[i].box);
+    const int axis = longest_side(all);
+    const double longest = coordinate(all.high - all.low, axis);
+    const auto from = members.begin() + static_cast<std::ptrdiff_t>(begin), to = members.begin() + static_cast<std::ptrdiff_t>(end);
+    std::stable_sort(from, to, [&](const Member& a, const Member& b) { return coordinate(a.box.low, axis) < coordinate(b.box.low, axis); });
+    double reached = -INFINITY;
+    std::size_t gap = begin;
+    for (std::size_t i = begin; i < end && gap == begin; ++i) {
+      if (i > begin && coordinate(members[i].box.low, axis) - reached > kGap * longest && longest > 0) gap = i;
+      reached = std::max(reached, coordinate(members[i].box.high, axis));
+    }
+    if (gap > begin) {
+      ranges.push_back({begin, gap});
+      ranges.push_back({gap, end});
+      continue;
+    }
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t i = begin; i < end; ++i) numbers.push_back(members[i].number);
+    std::sort(numbers.begin(), numbers.end());
+    result.push_back(std::move(numbers));
+  }
+}
+
+// Number of a slot's square of 8 x 8 pixels, which is four blocks of slots.
+std::uint32_t square_of(std::uint32_t slot) {
+  constexpr std::uint32_t kBlocks = kTileSide / 4;
+  const std::uint32_t block = slot / 16;
+  return block / kBlocks / 2 * (kBlocks / 2) + block % kBlocks / 2;
+}
+
+}  // namespace
+
+PointGroups groups_of(const SurfaceTile& tile, const std::vector<Vec3d>& positions) {
+  std::array<std::vector<Member>, kTilePixels / 64> squares;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i) {
+    if (tile.material[i] == nullptr || tile.material[i]->unlit) continue;
+    Member m{i, {}};
+    m.box.add(positions[i]);
+    squares[square_of(i)].push_back(m);
+  }
+  PointGroups result;
+  for (std::vector<Member>& square : squares)
+    if (!square.empty()) split(square, result.groups);
+  std::vector<Member> boxes;
+  for (std::uint32_t g = 0; g < result.groups.size(); ++g) {
+    Member m{g, {}};
+    for (const std::uint32_t slot : result.groups[g]) m.box.add(positions[slot]);
+    boxes.push_back(m);
+  }
+  if (!boxes.empty()) split(boxes, result.clusters);
+  return result;
+}
+
 namespace {
 
 using shadow::Viewpoint;

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "render/surface/surface_pack.h"
-#include "scene/emitters/light_face.h"
+#include "scene/emitters/emitters.h"
 
 namespace steradian {
 namespace {

@@ -5,11 +5,24 @@
 #include <optional>
 
 #include "scene/emitters/closed_parts.h"
-#include "scene/emitters/fit_capsule.h"
-#include "scene/emitters/fit_ellipsoid.h"
+#include "scene/emitters/fit_round.h"
 #include "scene/emitters/merge_polygons.h"
 
 namespace steradian::scene {
+
+float roundings_of_plane(const AreaLight& light) {
+  if (!light.is_flat()) return 0;
+  const PolygonLight polygon = flat_polygon(light, 8);
+  double largest = 0;
+  Vec3d low = polygon.vertices.front(), high = low;
+  for (const Vec3d& v : polygon.vertices) {
+    largest = std::max({largest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  return static_cast<float>(0x1p-18 * largest + 1e-5 * length(high - low));
+}
+
 namespace {
 
 // The most samples per triangle side for the mean over a texture, whatever the texture's size.

@@ -1,23 +1,32 @@
-// GltfDocument: a parsed .gltf or .glb file: its JSON and the bytes of its buffers. Every size is checked against the bytes that are there
-// before anything is allocated for it.
+// Facts that a glTF file states about its extensions. They are read before everything else.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "core/read_file.h"
+#include "core/files.h"
 #include "scene/json_cursor.h"
+#include "scene/warnings.h"
+#include "steradian/load_scene.h"
 
 namespace steradian::scene {
+
+// Throws Error for an extension that the file requires and that is not supported.
+void check_required_extensions(const JsonCursor& root);
+
+// Facts as the file states them. Extensions that it uses and that are not supported go to the warnings.
+FileFacts read_file_facts(const JsonCursor& root, Warnings& warnings);
+
+// GltfDocument: a parsed .gltf or .glb file: its JSON and the bytes of its buffers. Every size is checked against the bytes that are there
+// before anything is allocated for it.
 
 // The bytes of a document outside the file itself: external files, each read once however often it is named, and decoded texts. Also the
 // remaining budget for everything that the document allocates.

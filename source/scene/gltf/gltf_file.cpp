@@ -3,7 +3,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "scene/gltf/gltf_document.h"
 #include "steradian/error.h"
 

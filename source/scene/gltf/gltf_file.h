@@ -2,12 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
-#include "core/read_file.h"
+#include "core/files.h"
 #include "scene/gltf/gltf_document.h"
 #include "steradian/load_scene.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "scene/emitters/light_face.h"
+#include "scene/emitters/emitters.h"
 
 namespace steradian::scene {
 namespace {

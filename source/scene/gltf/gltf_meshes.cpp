@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "scene/gltf/gltf_accessor.h"
-#include "scene/gltf/gltf_skin.h"
+#include "scene/gltf/gltf_nodes.h"
 #include "scene/tangents.h"
 
 namespace steradian::scene {

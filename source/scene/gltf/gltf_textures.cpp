@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "image/decode_image.h"
+#include "image/codecs.h"
 
 namespace steradian::scene {
 namespace {

@@ -2,7 +2,7 @@
 #include <cctype>
 #include <string>
 
-#include "scene/photometry/readers.h"
+#include "scene/photometry/profile.h"
 
 namespace steradian::scene {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadow/edges/collect.h"
+#include "shadow/edges/gather.h"
 #include "shadow/shadow_kernels.h"
 
 namespace steradian::shadow {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "shadow/edges/collect.h"
+#include "shadow/edges/gather.h"
 #include "shadow/shadow_kernels.h"
 
 namespace steradian::shadow {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "shadow/edges/gather.h"
 #include "shadow/region/arrangement.h"
-#include "shadow/edges/collect.h"
 
 namespace steradian::shadow {
 namespace {

@@ -1,8 +1,7 @@
 // Open shafts against segments between the points and the lights: no triangle may cut a segment of an open shaft.
-#include "shadow/rays/open_shaft.h"
+#include "shadow/rays/shafts.h"
 
 #include <gtest/gtest.h>
-
 #include <random>
 
 namespace steradian::shadow::open_shaft_test {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadow/region/box.h"
+#include "shadow/region/light_frame.h"
 
 namespace steradian::shadow {
 namespace {

@@ -1,17 +1,23 @@
-// Traversal of a frame by round lights: from squares of 256 pixels to 64 and to tiles of 16, with the pairs that matter to each.
+// Pairs of a round light and its possible blockers, with their event lines.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "plane/frame/tiles/leaf.h"
+#include "plane/frame/events/events.h"
 #include "plane/frame/scene.h"
+#include "plane/frame/tiles/leaf.h"
 #include "plane/frame/tiles/shares.h"
 #include "plane/frame/tiles/tile_lists.h"
 #include "plane/frame/tiles/tiles.h"
 
 namespace steradian::plane {
+
+// Writes a pair for each of the blockers, in their order, from `first` on. FrameScene::pairs must have capacity for them.
+void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<int>& blockers, std::size_t first);
+
+// Traversal of a frame by round lights: from squares of 256 pixels to 64 and to tiles of 16, with the pairs that matter to each.
 
 // Least distance between a line and a place that it decides about.
 float slack_of(const FrameScene& frame);

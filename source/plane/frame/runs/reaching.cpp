@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane/exact/intersect.h"
+#include "plane/exact/outline.h"
 #include "plane/frame/emitters.h"
 #include "plane/frame/runs/overlap.h"
 

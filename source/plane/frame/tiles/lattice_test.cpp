@@ -1,11 +1,10 @@
 // Bounced light by a lattice against the same light at every pixel.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
 
-#include "plane/stage/light_field.h"
+#include "plane/stage/drawing.h"
 #include "steradian/plane_bounce.h"
 
 namespace steradian::plane::lattice_test {

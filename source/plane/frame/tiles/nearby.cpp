@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plane/frame/events/event_pairs.h"
+#include "plane/frame/events/event_walk.h"
 #include "plane/frame/runs/overlap.h"
-#include "plane/stage/preparation.h"
 #include "plane/frame/runs/runs.h"
+#include "plane/stage/preparation.h"
 
 namespace steradian::plane {
 namespace {

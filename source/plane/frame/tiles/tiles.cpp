@@ -2,20 +2,19 @@
 // light. It is dropped if one of them occludes it from all of the tile.
 #include "plane/frame/tiles/tiles.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <tbb/parallel_for.h>
 
 #include "core/float_mode.h"
 #include "plane/frame/events/event_walk.h"
-#include "plane/frame/tiles/filling.h"
-#include "plane/frame/runs/hiding.h"
-#include "plane/frame/runs/hull.h"
-#include "plane/frame/tiles/leaf.h"
+#include "plane/frame/runs/convex.h"
+#include "plane/frame/runs/overlap.h"
 #include "plane/frame/runs/runs.h"
+#include "plane/frame/tiles/filling.h"
+#include "plane/frame/tiles/leaf.h"
 
 namespace steradian::plane {
 namespace {

@@ -1,0 +1,159 @@
+#include "core/files.h"
+#include <filesystem>
+#include <fstream>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include "steradian/error.h"
+
+namespace steradian {
+
+Bytes read_file(const std::string& path, const std::string& place, Budget& budget) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw Error(place, "cannot find the file " + path, "check the path");
+  if (!std::filesystem::is_regular_file(status)) throw Error(place, path + " is not a regular file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(place, "cannot read the file " + path, "check its permissions");
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw Error(place, "cannot read the file " + path);
+  budget.take_memory(place, "the bytes of " + path, size);
+  Bytes bytes(static_cast<std::size_t>(size));
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (file.gcount() != static_cast<std::streamsize>(bytes.size())) throw Error(place, "the file " + path + " ended while it was read");
+  return bytes;
+}
+
+
+namespace {
+
+std::string hint_for(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT: return "the disk is full: free some space or choose another place";
+    case EFBIG: return "the file is larger than this process may write (ulimit -f), or than the disk can hold";
+    case ENOENT: return "the folder does not exist: make it first";
+    case EACCES:
+    case EPERM: return "the folder is not writable: choose another place";
+    case EROFS: return "the disk is read-only: choose another place";
+    case EISDIR: return "this is a folder: name a file in it";
+    default: return "choose another place";
+  }
+}
+
+std::string resolved(const std::string& path) {
+  char* real = realpath(path.c_str(), nullptr);
+  if (real == nullptr) return path;
+  std::string result(real);
+  std::free(real);
+  return result;
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+// Calls make with names beside the target until one is free; make returns -1 and sets errno. Returns the name that was taken, or an empty
+// one.
+template <class Make>
+std::string take_free_name(const std::string& target, Make make) {
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    const std::string name = target + "." + std::to_string(random());
+    if (make(name) >= 0) return name;
+    if (errno != EEXIST) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+void write_all(int descriptor, std::string_view bytes, const std::string& name) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(name, std::string("cannot write: ") + std::strerror(errno), hint_for(errno));
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolved(path)) {
+  struct stat existing {};
+  const bool exists = stat(target_.c_str(), &existing) == 0;
+  if (exists && S_ISDIR(existing.st_mode)) fail("cannot write", EISDIR);
+  if (exists && !S_ISREG(existing.st_mode)) {
+    direct_ = true;
+    descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail("cannot open", errno);
+    return;
+  }
+  open_temporary(0666);
+  // A new file has the permissions that the process's umask allows; a replaced one keeps its permissions.
+  if (exists) fchmod(descriptor_, existing.st_mode & 0777);
+}
+
+// Opens a file without a name where the file system supports it, else under a temporary name.
+void AtomicFile::open_temporary(unsigned mode) {
+  descriptor_ = open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+  if (descriptor_ >= 0 || errno == EACCES || errno == EROFS) {
+    if (descriptor_ < 0) fail("cannot create", errno);
+    return;
+  }
+  temporary_ = take_free_name(
+      target_, [&](const std::string& name) { return descriptor_ = open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode); });
+  if (descriptor_ < 0) fail("cannot create", errno);
+}
+
+// A link cannot replace a file: if one exists, the new file gets a name beside it and is renamed.
+int AtomicFile::name_it() {
+  if (temporary_.empty()) {
+    const std::string unnamed = "/proc/self/fd/" + std::to_string(descriptor_);
+    const auto link_as = [&](const std::string& name) {
+      return linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+    };
+    if (link_as(target_) == 0) return 0;
+    if (errno != EEXIST) return errno;
+    temporary_ = take_free_name(target_, link_as);
+    if (temporary_.empty()) return errno;
+  }
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) return errno;
+  temporary_.clear();
+  return 0;
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::write(std::string_view bytes) { write_all(descriptor_, bytes, path_); }
+
+void AtomicFile::commit() {
+  // Some file systems report a full disk only at a close; naming needs the descriptor after that.
+  const int written = close(dup(descriptor_)) == 0 ? 0 : errno;
+  const int named = written != 0 || direct_ ? 0 : name_it();
+  discard();
+  if (written != 0) fail("cannot write", written);
+  if (named != 0) fail("cannot name the finished file", named);
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) close(descriptor_);
+  descriptor_ = -1;
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+void AtomicFile::fail(const char* doing, int error) const {
+  throw Error(path_, std::string(doing) + ": " + std::strerror(error), hint_for(error));
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+}  // namespace steradian

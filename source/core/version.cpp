@@ -1,7 +1,0 @@
-#include "steradian/version.h"
-
-namespace steradian {
-
-const char* version() { return STERADIAN_VERSION; }
-
-}  // namespace steradian

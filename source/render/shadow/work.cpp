@@ -1,0 +1,313 @@
+// The shadow pass for sixteen points at a time.
+#include "render/shadow/work.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/shadow/side.h"
+#include "shadow/rays/shafts.h"
+#include "shadow/region/light_frame.h"
+#include "shapes/area_moments.h"
+
+namespace steradian {
+
+using shadow::Viewpoint;
+using Seen = TileShadow::Seen;
+
+// Finds the visible parts for up to sixteen slots. They are neighbours in the tile's order, so that they see nearly the same edges.
+void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, Work& work) const {
+  shadow::PointLanes::Point points[shadow::kPoints];
+  RayScene::Sixteen rays;
+  std::uint32_t asked = 0, whole = 0;
+  const auto bit = [](std::size_t lane) { return 1u << lane; };
+  for (std::size_t k = 0; k < count; ++k) {
+    const LightSide& side = *sides[k];
+    const Viewpoint& at = work.at(slots[k]);
+    const bool simple = side.middle && dot(*side.middle - at.position, at.normal) > 0 && !is_cut(side.frame, at);
+    points[k] = {&side.frame, &at, !simple};
+  }
+  work.lanes.find(lanes_, work.group, work.turned ? work.base : sides[0]->frame, work.turned, {points, count}, *sides[0]->outline);
+  const std::uint32_t occluded = work.lanes.occluded(), found = work.lanes.found(), none = work.lanes.none();
+  for (std::size_t k = 0; k < count; ++k) {
+    const LightSide& side = *sides[k];
+    const Viewpoint& at = work.at(slots[k]);
+    const bool open = (occluded & bit(k)) == 0 && !points[k].arranged;
+    if (!open && (none & bit(k)) != 0) {
+      ++work.counts->points;
+      continue;
+    }
+    if (!open && (found & bit(k)) == 0) {
+      find_point(side, slots[k], work);
+      continue;
+    }
+    ++work.counts->points;
+    const double z = -side.frame.to_local(at.position).z;
+    const Vec3d to = ((open ? *side.middle : work.lanes.place(k)) - at.position) * std::max((z - side.frame.eta) / z, 0.0);
+    rays.set(k, at.position, to);
+    asked |= bit(k);
+    if (open || ((occluded & bit(k)) == 0 && !is_cut(side.frame, at))) whole |= bit(k);
+  }
+  const std::uint32_t free = asked & ~rays_.blocked_among(rays, asked);
+  for (std::size_t k = 0; k < count; ++k)
+    if ((free & bit(k)) != 0) work.result->seen[slots[k]] = (whole & bit(k)) != 0 ? Seen::whole : Seen::part;
+  if ((free & ~whole) != 0) add_lanes(sides, slots, count, free & ~whole, work);
+}
+
+// Adds the edges of lanes that see a part of the light.
+void ShadowPass::add_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes,
+                           Work& work) const {
+  TileShadow::Batch& batch = work.result->batch_with_room();
+  const std::size_t first = batch.slots.size();
+  batch.slots.resize(first + shadow::kPoints, kNoSlot);
+  batch.passes.resize(first + shadow::kPoints, 1.0f);
+  const auto bits = static_cast<shadow::LaneBits>(lanes);
+  float* edges = batch.visible.add_block(work.lanes.count_edges(lanes_, bits));
+  work.lanes.write_edges(lanes_, bits, edges);
+  std::size_t corners = 0;
+  if (work.whole_outline) {
+    for (const auto& c : with_contours(sides[0]->frame).contours) corners += c.size();
+    batch.all.add_block(corners);
+  }
+  for (std::size_t k = 0; k < shadow::kPoints; ++k) {
+    if ((lanes >> k & 1) == 0 || k >= count) {
+      for (std::size_t i = 0; i < corners; ++i) batch.all.set_edge(first + k, i, {0, 1, 0}, {0, 1, 0});
+      continue;
+    }
+    ++work.counts->parts;
+    batch.slots[first + k] = slots[k];
+    const LightSide& side = *sides[k];
+    const Viewpoint& at = work.at(slots[k]);
+    const Vec3d eye = side.frame.to_local(at.position);
+    const double extent2 = side.frame.half_x * side.frame.half_x + side.frame.half_y * side.frame.half_y;
+    const bool small = dot(eye, eye) > kNeverSmall * extent2;
+    const auto set_elements = [&](packed::Pieces& pieces, const AreaMoments& moments) {
+      if (small && moments.area > 0)
+        pieces.set_elements(first + k, quarters_of(moments, side.frame.origin - at.position, side.frame.axes.x, side.frame.axes.y),
+                            side.frame.axes.z * -moments.area);
+    };
+    AreaMoments visible, all;
+    if (small) work.lanes.each_edge(k, [&](double ax, double ay, double bx, double by) { visible.add(ax, ay, bx, by); });
+    set_elements(batch.visible, visible);
+    if (corners == 0) continue;
+    std::size_t number = 0;
+    const auto corner = [&](const shadow::Corner& c) {
+      return static_cast<Vec3f>(side.frame.axes.to_world({c.x - eye.x, c.y - eye.y, -eye.z}));
+    };
+    for (const auto& c : with_contours(side.frame).contours) {
+      Vec3f last = corner(c.back());
+      for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++) {
+        const Vec3f next = corner(c[i]);
+        batch.all.set_edge(first + k, number++, last, next);
+        all.add(c[j].x, c[j].y, c[i].x, c[i].y);
+        last = next;
+      }
+    }
+    set_elements(batch.all, all);
+  }
+}
+
+// The shadow pass for round lights: each point sees a polygon of its own.
+
+using shadow::coordinate;
+using shadow::LightFrame;
+using shadow::Shaft;
+using shadow::Viewpoint;
+using Seen = TileShadow::Seen;
+
+namespace {
+
+shadow::Box box_around(const std::vector<Vec3d>& positions) {
+  shadow::Box box;
+  for (const Vec3d& p : positions) box.add(p);
+  return box;
+}
+
+}  // namespace
+
+void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
+  work.whole_outline = true;
+  work.turned = true;
+  work.in_lanes = std::holds_alternative<Ellipsoid>(light.area->shape);
+  const shadow::Ball ball = shadow::ball_around(*light.area);
+  work.base.origin = ball.center;
+  work.base.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
+    std::vector<std::vector<std::uint32_t>> with_light;
+    work.take({});
+    for (const std::uint32_t g : cluster) {
+      work.slots.clear();
+      for (const std::uint32_t i : groups.groups[g]) {
+        const Viewpoint& at = work.at(i);
+        if (dot(ball.center - at.position, at.normal) <= -ball.radius) continue;
+        work.result->seen[i] = Seen::none;
+        if (at.geometric_normal && dot(ball.center - at.position, *at.geometric_normal) <= -ball.radius) continue;
+        work.slots.push_back(i);
+      }
+      work.add(work.slots);
+      if (!work.slots.empty()) with_light.push_back(work.slots);
+    }
+    if (with_light.empty()) continue;
+    // Gathers once for the cluster if one frame holds it; otherwise, each group gathers by itself.
+    const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
+    const bool together = behind.has_value();
+    if (together) gather_round(flat, Shaft(*behind, work.positions, work.up, shadow::Sections::anywhere), work);
+    for (const auto& slots : with_light) find_round_group(light, flat, slots, together, work);
+  }
+}
+
+// Fills work.tile with the edges and triangles that points with a view of a round light need.
+void ShadowPass::gather_round(const Flat& flat, const Shaft& shaft, Work& work) const {
+  tree_.gather(packs_, shaft, work.edges);
+  // The planes differ from point to point: any triangle near the light may cross one of them.
+  work.crossing.clear();
+  for (const std::uint32_t t : flat.near)
+    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+  work.tile.assign(mesh_, work.base, work.edges, work.crossing);
+}
+
+void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together,
+                                  Work& work) const {
+  work.take(slots);
+  const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
+  const shadow::Ball ball = shadow::ball_around(*light.area);
+  const shadow::Box box = box_around(work.positions);
+  const int axis = longest_side(box);
+  if (!behind && !together && coordinate(box.high - box.low, axis) > ball.radius) {
+    // The group is too wide for a frame behind the light, but its halves may have one.
+    const double middle = coordinate(box.low + box.high, axis) / 2;
+    std::array<std::vector<std::uint32_t>, 2> halves;
+    for (const std::uint32_t i : slots) halves[coordinate(work.at(i).position, axis) < middle ? 0 : 1].push_back(i);
+    for (const auto& half : halves)
+      if (!half.empty()) find_round_group(light, flat, half, false, work);
+    return;
+  }
+  const Shaft shaft = behind ? Shaft(*behind, work.positions, work.up, shadow::Sections::anywhere)
+                             : Shaft(ball.center, shadow::reach_of_polygon(*light.area), work.positions, work.up);
+  work.cut_outs = meets_cut_outs(shaft);
+  if (!together) gather_round(flat, shaft, work);
+  work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
+  std::array<std::optional<LightSide>, shadow::kPoints> sides;
+  std::size_t next = 0;
+  find_group(
+      slots,
+      [&](std::uint32_t i) {
+        std::optional<LightSide>& side = sides[next];
+        side = side_of_round(light, work.at(i).position, ellipse_);
+        if (!side) return static_cast<const LightSide*>(nullptr);
+        next = (next + 1) % sides.size();
+        return static_cast<const LightSide*>(&*side);
+      },
+      work);
+}
+
+// The shadow pass for a single point.
+
+namespace {
+
+constexpr std::size_t kMostSegments = 2048;  // a point that sees more takes rays, unless exact is asked for
+constexpr double kLift = 1e-6;               // integrals are computed in float
+
+}  // namespace
+
+using shadow::Viewpoint;
+using Seen = TileShadow::Seen;
+
+void ShadowPass::take_rays(const LightSide& side, std::uint32_t slot, Work& work) const {
+  ++work.counts->fallback;
+  work.result->seen[slot] = Seen::share;
+  work.result->share[slot] = static_cast<float>(share_by_rays(rays_, side, work.at(slot)));
+}
+
+// Finds the visible part; work.scratch holds the point's segments.
+void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Work& work) const {
+  const Viewpoint& at = work.at(slot);
+  find_visible_on_packs(packs_, side.frame, at.position, RayBlockers(rays_), work.scratch, work.region);
+  if (work.region.boundary.empty()) return;
+  if (work.scratch.set.occluders == 0 && !is_cut(side.frame, at)) {
+    work.result->seen[slot] = Seen::whole;
+    return;
+  }
+  ++work.counts->parts;
+  work.result->seen[slot] = Seen::part;
+  TileShadow::Part part;
+  part.slot = slot;
+  const Vec3d eye = side.frame.to_local(at.position);
+  // Makes an outline of edges between places in the light's plane. Its edges are relative to the point.
+  const auto outline_of = [&](auto each_edge) {
+    TileShadow::Outline outline;
+    std::vector<TileShadow::Edge>& edges = work.result->edges;
+    outline.first = edges.size();
+    AreaMoments moments;
+    each_edge([&](double ax, double ay, double bx, double by) {
+      moments.add(ax, ay, bx, by);
+      const auto corner = [&](double x, double y) { return static_cast<Vec3f>(side.frame.axes.to_world({x - eye.x, y - eye.y, -eye.z})); };
+      edges.push_back({corner(ax, ay), corner(bx, by)});
+    });
+    outline.count = edges.size() - outline.first;
+    const double extent2 = side.frame.half_x * side.frame.half_x + side.frame.half_y * side.frame.half_y;
+    if (moments.area > 0 && dot(eye, eye) > kNeverSmall * extent2) {
+      outline.elements = quarters_of(moments, side.frame.origin - at.position, side.frame.axes.x, side.frame.axes.y);
+      outline.area = side.frame.axes.z * -moments.area;
+    }
+    return outline;
+  };
+  part.visible = outline_of([&](auto edge) {
+    const double x = side.frame.box_x / shadow::kCells, y = side.frame.box_y / shadow::kCells;
+    for (const shadow::Boundary& b : work.region.boundary) edge(b.ax * x, b.ay * y, b.bx * x, b.by * y);
+  });
+  // Edges are lifted to the horizon, so that no rounding puts one below it.
+  for (std::size_t i = part.visible.first; i < part.visible.first + part.visible.count; ++i)
+    for (Vec3f* v : {&work.result->edges[i].a, &work.result->edges[i].b}) {
+      const auto d = static_cast<Vec3d>(*v);
+      const double least = kLift * length(d), height = dot(d, at.normal);
+      if (height < least) *v = static_cast<Vec3f>(d + at.normal * (least - height));
+    }
+  if (work.whole_outline)
+    part.all = outline_of([&](auto edge) {
+      for (const auto& c : with_contours(side.frame).contours)
+        for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++) edge(c[j].x, c[j].y, c[i].x, c[i].y);
+    });
+  work.result->parts.push_back(part);
+}
+
+void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& work) const {
+  const Viewpoint& at = work.at(slot);
+  ++work.counts->points;
+  shadow::SegmentSet& set = work.scratch.set;
+  if (work.turned)
+    work.group.see_turned(packs_, work.base, side.frame, at, *side.outline, set);
+  else
+    work.group.see(packs_, side.frame, at, *side.outline, set);
+  if (set.occluders > kMostSegments && mode_ != Shadows::exact) {
+    take_rays(side, slot, work);
+    return;
+  }
+  // Without segments to arrange, one ray to any place of the light above the horizons decides.
+  const auto sees = [&](Vec3d normal) { return dot(*side.middle - at.position, normal) > 0; };
+  if (set.occluders == 0 && side.middle && sees(at.normal) && !is_cut(side.frame, at)) {
+    const double z = -side.frame.to_local(at.position).z;
+    const Vec3d to = (*side.middle - at.position) * std::max((z - side.frame.eta) / z, 0.0);
+    if (!rays_.between(at.position, at.position + to)) work.result->seen[slot] = Seen::whole;
+  } else {
+    if (set.occluders == 0) shadow::add_surroundings(side.frame, at, *side.outline, set);
+    find_in_segments(side, slot, work);
+  }
+  if (work.cut_outs && work.result->seen[slot] != Seen::none) pass_cut_outs(side, slot, work);
+}
+
+// Applies the fraction that cut-outs let through of the light that a slot sees. For a part, work still holds its levels.
+void ShadowPass::pass_cut_outs(const LightSide& side, std::uint32_t slot, Work& work) const {
+  const Viewpoint& at = work.at(slot);
+  const bool part = work.result->seen[slot] == Seen::part;
+  const double share = part ? share_past_cut_outs(rays_, side, at, work.scratch.set, work.region) : share_past_cut_outs(rays_, side, at);
+  if (share == 1) return;
+  if (part) {
+    work.result->parts.back().passes = static_cast<float>(share);
+  } else {
+    work.result->seen[slot] = Seen::share;
+    work.result->share[slot] = static_cast<float>(share);
+  }
+}
+
+}  // namespace steradian

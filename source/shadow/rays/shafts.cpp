@@ -1,0 +1,196 @@
+#include "shadow/rays/shafts.h"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace steradian::shadow {
+
+// The hull's projection along an axis is the hull of two rectangles. In each of its four quadrants it has a slanted side if one rectangle
+// reaches further in one coordinate and the other in the second.
+HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
+  all_.add(b);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+    for (const int sx : {-1, 1})
+      for (const int sy : {-1, 1}) {
+        const auto corner = [&](const Box& box, int c, int sign) { return coordinate(sign < 0 ? box.low : box.high, c); };
+        const double ax = corner(a, x, sx), ay = corner(a, y, sy), bx = corner(b, x, sx), by = corner(b, y, sy);
+        const double dx = sx * (ax - bx), dy = sy * (ay - by);
+        if (!(dx * dy < 0)) continue;
+        const double u = sx * std::fabs(dy), v = sy * std::fabs(dx);
+        slants_[count_++] = {u, v, std::max(u * ax + v * ay, u * bx + v * by), x, y};
+      }
+  }
+}
+
+bool HullOfBoxes::may_meet(const Box& b) const {
+  for (int c = 0; c < 3; ++c)
+    if (coordinate(b.low, c) > coordinate(all_.high, c) || coordinate(b.high, c) < coordinate(all_.low, c)) return false;
+  return std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
+    return s.u * coordinate(s.u > 0 ? b.low : b.high, s.x) + s.v * coordinate(s.v > 0 ? b.low : b.high, s.y) > s.offset;
+  });
+}
+
+bool HullOfBoxes::may_meet(const Vec3d (&corners)[3]) const {
+  const auto all = [&](auto outside) { return outside(corners[0]) && outside(corners[1]) && outside(corners[2]); };
+  for (int c = 0; c < 3; ++c)
+    if (all([&](Vec3d p) { return coordinate(p, c) > coordinate(all_.high, c); }) ||
+        all([&](Vec3d p) { return coordinate(p, c) < coordinate(all_.low, c); }))
+      return false;
+  return std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
+    return all([&](Vec3d p) { return s.u * coordinate(p, s.x) + s.v * coordinate(p, s.y) > s.offset; });
+  });
+}
+
+void TriangleTree::Viewers::take(const std::vector<Vec3d>& points) {
+  ++stamp_;
+  box_ = {};
+  x_.clear();
+  y_.clear();
+  z_.clear();
+  for (const Vec3d& p : points) {
+    box_.add(p);
+    x_.push_back(p.x);
+    y_.push_back(p.y);
+    z_.push_back(p.z);
+  }
+}
+
+TriangleTree::Viewers::Range TriangleTree::Viewers::over(const Plane& plane, std::uint32_t triangle) {
+  Range& range = ranges_[triangle];
+  if (stamps_[triangle] == stamp_) return range;
+  stamps_[triangle] = stamp_;
+  range = {INFINITY, -INFINITY};
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const double h = plane.normal.x * x_[i] + plane.normal.y * y_[i] + plane.normal.z * z_[i] - plane.offset;
+    range.low = std::min(range.low, h);
+    range.high = std::max(range.high, h);
+  }
+  return range;
+}
+
+TriangleTree::TriangleTree(const EdgeMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
+  std::iota(order_.begin(), order_.end(), 0u);
+  nodes_.emplace_back();
+  build(0, 0, static_cast<std::uint32_t>(order_.size()));
+}
+
+void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
+  Box box, middles;
+  const auto middle = [&](std::uint32_t t) {
+    const auto& c = mesh_.triangles[t];
+    return (mesh_.vertices[c[0]] + mesh_.vertices[c[1]] + mesh_.vertices[c[2]]) / 3;
+  };
+  for (std::uint32_t i = begin; i < end; ++i) {
+    for (const std::uint32_t v : mesh_.triangles[order_[i]]) box.add(mesh_.vertices[v]);
+    middles.add(middle(order_[i]));
+  }
+  constexpr std::uint32_t kLeaf = 4;
+  if (end - begin <= kLeaf) {
+    nodes_[node] = {box, begin, end - begin};
+    return;
+  }
+  const int axis = longest_side(middles);
+  const std::uint32_t half = begin + (end - begin) / 2;
+  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
+    const double x = coordinate(middle(a), axis), y = coordinate(middle(b), axis);
+    return x != y ? x < y : a < b;
+  });
+  const auto children = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  nodes_[node] = {box, children, 0};
+  build(children, begin, half);
+  build(children + 1, half, end);
+}
+
+// Returns true if all points and the whole light lie on one side of the triangle's plane.
+bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box& light, double margin) const {
+  const Plane& plane = mesh_.planes[triangle];
+  const Vec3d c = (light.low + light.high) * 0.5, h = (light.high - light.low) * 0.5, n = plane.normal;
+  const double at = dot(n, c) - plane.offset, reach = std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z,
+               slack = margin * length(n);
+  const Viewers::Range points = viewers.over(plane, triangle);
+  return (at - reach >= -slack && points.low >= 0) || (at + reach <= slack && points.high <= 0);
+}
+
+bool TriangleTree::is_open(Viewers& viewers, const Box& light, double margin) const {
+  if (order_.empty()) return true;
+  viewers.ranges_.resize(order_.size());
+  viewers.stamps_.resize(order_.size());
+  const HullOfBoxes hull(viewers.box_, light);
+  std::uint32_t stack[64];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (!hull.may_meet(node.box)) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const auto& t = mesh_.triangles[order_[i]];
+      const Vec3d corners[3] = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+      if (hull.may_meet(corners) && !separates(order_[i], viewers, light, margin)) return false;
+    }
+  }
+  return true;
+}
+
+
+
+Ball ball_around(const AreaLight& area) {
+  if (const auto* c = std::get_if<Capsule>(&area.shape)) return {(c->end_a + c->end_b) * 0.5, length(c->end_b - c->end_a) / 2 + c->radius};
+  const auto& e = std::get<Ellipsoid>(area.shape);
+  const double x2 = dot(e.x, e.x), y2 = dot(e.y, e.y), z2 = dot(e.z, e.z);
+  const double skew = std::fabs(dot(e.x, e.y)) + std::fabs(dot(e.y, e.z)) + std::fabs(dot(e.z, e.x));
+  const bool right_angles = skew < 1e-6 * (x2 + y2 + z2);
+  return {e.center, right_angles ? std::sqrt(std::max({x2, y2, z2})) * (1 + 1e-5) : std::sqrt(x2 + y2 + z2)};
+}
+
+std::optional<LightFrame> frame_behind(const AreaLight& light, const std::vector<Vec3d>& points) {
+  const Ball ball = ball_around(light);
+  const double radius = 1.5 * ball.radius;  // the box around the polygon has corners
+  Vec3d middle{};
+  for (const Vec3d& p : points) middle += p / static_cast<double>(points.size());
+  const Vec3d axis = ball.center - middle;
+  const double distance = length(axis);
+  if (!(distance > 0)) return std::nullopt;
+  double nearest = INFINITY, farthest = 0, spread = 0;
+  LightFrame frame;
+  frame.axes = Frame::from_normal(axis / distance);
+  for (const Vec3d& p : points) {
+    const Vec3d d = frame.axes.to_local(ball.center - p);
+    nearest = std::min(nearest, length(d));
+    farthest = std::max(farthest, length(d));
+    spread = std::max(spread, std::hypot(d.x, d.y));
+  }
+  if (nearest < 1.2 * radius || distance < 2 * spread) return std::nullopt;
+  frame.origin = ball.center + frame.axes.z * radius;
+  // Tangent cone from the nearest point, at the square's plane, and its tilt for points off the axis.
+  const double tangent = radius / std::sqrt(nearest * nearest - radius * radius), tilt = spread / (distance - spread);
+  const double half = (farthest + radius) * (tangent * (1 + tilt) * (1 + tilt)) + radius * tilt;
+  frame.half_x = frame.half_y = half;
+  frame.box_x = frame.box_y = 1.1 * half;
+  return frame;
+}
+
+double reach_of_polygon(const AreaLight& area) {
+  return (std::holds_alternative<Capsule>(area.shape) ? 3.6 : 1.6) * ball_around(area).radius;
+}
+
+std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& area) {
+  const Ball ball = ball_around(area);
+  const double reach = reach_of_polygon(area);
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3d a = mesh.vertices[mesh.triangles[t][0]] - ball.center, b = mesh.vertices[mesh.triangles[t][1]] - ball.center,
+                c = mesh.vertices[mesh.triangles[t][2]] - ball.center;
+    const auto apart = [&](double x, double y, double z) { return std::min({x, y, z}) > reach || std::max({x, y, z}) < -reach; };
+    if (!apart(a.x, b.x, c.x) && !apart(a.y, b.y, c.y) && !apart(a.z, b.z, c.z)) result.push_back(t);
+  }
+  return result;
+}
+
+}  // namespace steradian::shadow
