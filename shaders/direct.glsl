@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
 // A shader is one lobe by one family of methods and defines it as LOBE. The diffuse lobe has diffuse.comp, sheen has sheen.comp. GGX has
-// ltc.comp, ltc_clipless.comp, closed_form.comp, half_vector.comp and representative_point.comp. Lobes of extras.steradian have
-// phong_lobe.comp and arcs_lobe.comp. texture_means.comp computes what they read, and runs before them.
+// ltc.comp, ltc_clipless.comp, closed_form.comp, half_vector.comp and representative_point.comp. Phong's lobe
+// has phong_lobe.comp. texture_means.comp computes what they read, and runs before them.
 // Drivers compile everything that a shader holds for each of its pipelines.
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "layout.glsl"
@@ -27,7 +27,7 @@ layout(constant_id = 13) const int MATRIX_SIZE = 2;
 layout(constant_id = 14) const int MAGNITUDE_SIZE = 2;
 layout(constant_id = 15) const int SHADOWED_LIGHTS = 0;    // 1: something occludes the lights, or a part of them, from some points
 layout(constant_id = 16) const int UNCUT_LIGHTS = 0;       // 1: every point sees each light whole, above its horizon, from the lit side
-layout(constant_id = 17) const int UNEVEN_LIGHTS = 0;      // kTextureMean, kProfileMean: textured or profiled, with means in `means`
+layout(constant_id = 17) const int UNEVEN_LIGHTS = 0;      // 1: textured, with means in `means`
 layout(constant_id = 18) const int TABLE_FIRST = 0;        // texture_means.comp only: place where the table begins
 layout(constant_id = 19) const int PROFILED_LIGHTS = 0;    // 1: point lights with a profile
 layout(constant_id = 20) const int LOBE_FORM = 0;          // GGX 1: without shadowing, 2: also without Fresnel; custom lobes: see there
@@ -96,11 +96,8 @@ PunctualIncident punctual_at(Light light, vec3 p) {
 #elif LOBE == LOBE_SHEEN
 #include "sheen.glsl"
 #elif LOBE == LOBE_PHONG
-const int F_IS_X = METHOD == 3 ? 0 : 1;  // the closer form of each fit
 #include "phong_lobe.glsl"
-#elif LOBE == LOBE_ARCS
-#include "arcs_lobe.glsl"
-#elif LOBE != LOBE_TEXTURE_MEANS && LOBE != LOBE_PROFILE_MEANS
+#elif LOBE != LOBE_TEXTURE_MEANS
 #include "specular.glsl"
 #endif
 
@@ -113,8 +110,6 @@ vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (
 #include "tables.glsl"
 #include "light_textures.glsl"
 #include "texture_means.glsl"
-#elif LOBE == LOBE_PROFILE_MEANS
-#include "profile_means.glsl"
 #else
 // The values of a pixel's surface that the lobe needs.
 struct Surface {
@@ -128,7 +123,7 @@ struct Surface {
     vec3 albedo;
 #elif LOBE == LOBE_SHEEN
     vec4 sheen;
-#elif LOBE == LOBE_PHONG || LOBE == LOBE_ARCS
+#elif LOBE == LOBE_PHONG
     OwnLobe own;
     vec3 tangent;
 #else
@@ -164,7 +159,7 @@ Surface surface_in(Entry entry) {
         s.sheen = vec4(own.color, own.ax);
     else
         s.sheen = surface_at(tile, kSheen, slot);
-#elif LOBE == LOBE_PHONG || LOBE == LOBE_ARCS
+#elif LOBE == LOBE_PHONG
     s.own = own;
     s.tangent = surface_at(tile, kTangent, slot).xyz;
 #else
@@ -200,7 +195,7 @@ vec3 sent_by(Light light, Surface s) {
     return s.albedo * lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, s.loss));
 #elif LOBE == LOBE_SHEEN
     return s.sheen.xyz * sheen_radiance(light, s.p, s.n, s.v, s.sheen.w);
-#elif LOBE == LOBE_PHONG || LOBE == LOBE_ARCS
+#elif LOBE == LOBE_PHONG
     return s.own.color * own_radiance(light, s.p, s.n, s.v, s.tangent, s.own);
 #else
     // The visible part of a light lies above the surface's horizon. A coat's normal differs from the surface's only by rounding.
@@ -209,25 +204,6 @@ vec3 sent_by(Light light, Surface s) {
     return s.f0 * (answer.specular.x - answer.specular.y) + s.f90 * answer.specular.y +
            s.albedo * lambert_radiance(answer.irradiance);
 #endif
-}
-
-// Mean radiance of a profiled light for a lobe: the peak's, plus the sum of the differences from it over the lobe's integral.
-//
-//   found  radiance at the peak, sum of the differences, least and greatest [1 / m2 of the light]
-//   sent   radiance that the lobe sends for a light of radiance 1
-vec3 profiled_mean(Light light, Surface s, vec4 found, vec3 sent) {
-#if LOBE == LOBE_DIFFUSE
-    float integral = lambert_radiance(irradiance_below_boundary(light, s.p, s.n, s.v, 0.0));  // the boundary is no part of the mean's lobe
-#else
-    float integral = max(sent.x, max(sent.y, sent.z));
-#endif
-    return light.r[8].xyz * (integral > 0.0 ? clamp(found.x + found.y / integral, found.z, found.w) : 0.0);
-}
-
-// Mean radiance of a textured or profiled light for the lobe. An occluder of a part counts only by the fraction that it takes of a uniform
-// light's radiance (shadow_shares.comp), as on the CPU.
-vec3 mean_of(Light light, Surface s, vec4 found, vec3 sent) {
-    return UNEVEN_LIGHTS == kProfileMean ? profiled_mean(light, s, found, sent) : found.xyz;
 }
 
 // Numbers for each light in the lists: its own, that of its states, that of its means.
@@ -242,14 +218,14 @@ void main() {
     do {
         uint at = entry.first + kNumbers * i;
         Light light = light_at(listed(at));
-        vec4 found = vec4(0.0);
+        vec4 found = vec4(0.0);  // mean radiance of a textured light. An occluded part has that of the whole, as on the CPU
         if (UNEVEN) found = means[listed(at + kNumbers - 1u) + slot_of_means()];
         if (SHADOWED) {
             take_part(states[listed(at + 1u) + entry.slot]);
             for (int turn = first_turn(); turn <= kLastTurn; turn++) {
                 turn_to(turn);
                 vec3 sent = sent_by(light, surface);
-                sent *= part.weight * (UNEVEN && turn == kLastTurn ? mean_of(light, surface, found, sent) : light.r[0].xyz);
+                sent *= part.weight * (UNEVEN && turn == kLastTurn ? found.xyz : light.r[0].xyz);
                 if (part.whole > 0)
                     parts[part.whole - kPartSums + turn].xyz += sent;
                 else
@@ -257,7 +233,7 @@ void main() {
             }
         } else {
             vec3 sent = sent_by(light, surface);
-            sum += sent * (UNEVEN ? mean_of(light, surface, found, sent) : light.r[0].xyz);
+            sum += sent * (UNEVEN ? found.xyz : light.r[0].xyz);
         }
         ++i;
     } while (i < entry.count);

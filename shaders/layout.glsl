@@ -54,8 +54,3 @@ const int kAnyForHost = 32;  // surfaces that the device cannot find: the host h
 const int kTextureHead = 7;
 const int kTextureLevel = 2;
 const int kTextureCell = 5;
-
-// Rects and disks with a profile: profile_means.glsl. Then the ways to find a light's mean.
-const int kProfileHead = 6;
-const int kTextureMean = 1;
-const int kProfileMean = 2;

@@ -9,5 +9,3 @@
 #define LOBE_HALF_VECTOR 6
 #define LOBE_TEXTURE_MEANS 7
 #define LOBE_PHONG 8
-#define LOBE_ARCS 9
-#define LOBE_PROFILE_MEANS 10

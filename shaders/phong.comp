@@ -28,6 +28,7 @@ layout(push_constant) uniform Push { uint count; };
 #include "integral/moment_quadrature.glsl"
 #include "integral/moment_series.glsl"
 #include "integral/moment_cosine.glsl"
+#define PHONG_COMPARISON
 #include "phong_front.glsl"
 
 vec3 edge_begins[EDGE_SPACE];

@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "night.h"
 #include "support/memory.h"
 #include "program.h"
 #include "support/gltf_test_file.h"
@@ -160,7 +161,7 @@ TEST_F(Faults, AClosedPipeEndsTheProgram) {
 TEST_F(Faults, NoMemoryIsSaid) {
   const fs::path output = results / "picture.exr";
   int refused = 0, rendered = 0;
-  for (rlim_t megabytes = 60; megabytes <= 2000; megabytes = megabytes * 5 / 4) {
+  for (rlim_t megabytes = 60; megabytes <= 2000; megabytes = megabytes * test::by_day_or_night(8, 5) / 4) {
     std::vector<std::string> arguments = render_to(output, "2048x2048");
     arguments.insert(arguments.end(), {"--threads", "1"});
     const Outcome o = run_limited(arguments, [megabytes] {

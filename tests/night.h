@@ -5,9 +5,11 @@
 
 namespace steradian::test {
 
+inline bool is_night() { return std::getenv("STERADIAN_NIGHT") != nullptr; }
+
 template <class T>
 T by_day_or_night(T day, T night) {
-  return std::getenv("STERADIAN_NIGHT") != nullptr ? night : day;
+  return is_night() ? night : day;
 }
 
 }  // namespace steradian::test

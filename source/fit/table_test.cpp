@@ -11,6 +11,7 @@
 
 #include "fit/fit_report.h"
 #include "integrals/tables/ggx_tables.h"
+#include "night.h"
 
 namespace steradian::fit::table_test {
 namespace {
@@ -93,8 +94,9 @@ double relative_error(const LookUp& look_up, double from, double to) {
 TEST(LtcTable, EveryCellIsTheLobe) {
   ASSERT_EQ(ggx_classic_table().size, 64);
   double worst = 0, worst_energy = 0;
-  for (int j = 0; j < 64; ++j)
-    for (int i = 0; i < 64; ++i) {
+  const int step = test::by_day_or_night(3, 1);
+  for (int j = 0; j < 64; j += step)
+    for (int i = 0; i < 64; i += step) {
       const CellCheck c = check(i, j, i, j, 24);
       EXPECT_LE(c.lobe_l1, largest_l1(i, j)) << "cell " << i << " " << j;
       EXPECT_NEAR(c.energy, 1, kEnergyTolerance) << "cell " << i << " " << j;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "night.h"
 #include "support/chi2.h"
 #include "reference/gauss_kronrod.h"
 #include "support/random_configurations.h"
@@ -62,7 +63,7 @@ TEST(Reference, BoundHoldsForEveryLobe) {
   Random random(12);
   int lit = 0, tried = 0;
   double worst = 0;
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < test::by_day_or_night(2100, 5000); ++i) {
     const auto c = random_configuration(random);
     const Material m = random_material(random);
     const PreparedPolygon light = prepare_polygon(c.light);

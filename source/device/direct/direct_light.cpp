@@ -31,10 +31,9 @@ constexpr auto bytes_of_planes(int planes) {
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
-// In the order in which they run: lobes need the means of textured and profiled lights; kShares uses the results of all lobes.
+// In the order in which they run: lobes need the means of textured lights; kShares uses the results of all lobes.
 enum Shader : std::size_t {
   kTextureMeans,
-  kProfileMeans,
   kDiffuse,
   kLtc,
   kClosedForm,
@@ -43,7 +42,6 @@ enum Shader : std::size_t {
   kLtcClipless,
   kHalfVector,
   kPhong,
-  kArcs,
   kShares
 };
 
@@ -63,10 +61,7 @@ Shader shader_of(const DirectMethod& method) {
 // Shader of a lobe of extras.steradian.
 Shader shader_of(const OwnLobes::Lobe& lobe) {
   switch (lobe.material.brdf) {
-    case Brdf::phong:
-    case Brdf::lobe_product: return kPhong;
-    case Brdf::beckmann:
-    case Brdf::blinn_phong: return kArcs;
+    case Brdf::phong: return kPhong;
     case Brdf::charlie: return kCharlie;
     default: break;
   }
@@ -126,9 +121,7 @@ struct DirectLight::Pass {
   bool with_diffuse = false;  // true: one walk serves both
   bool over_lobe() const { return shader != kDiffuse; }
   // The other lobes use the mean radiance of textured lights.
-  bool asks_for_mean(const LightRecord& light) const {
-    return light.mean == kProfileMean || (light.mean == kTextureMean && shader != kCharlie && shader != kPhong && shader != kArcs);
-  }
+  bool asks_for_mean(const LightRecord& light) const { return light.textured && shader != kCharlie && shader != kPhong; }
   const char* name() const {
     return own != nullptr       ? "lobes"
            : shader == kDiffuse ? "direct"
@@ -143,7 +136,7 @@ struct DirectLight::Pass {
 struct DirectLight::Work {
   struct Entry {
     std::uint32_t square, count, own;
-    std::vector<std::uint32_t> lights;  // numbers; of shadowed lights each with its states, of textured or profiled ones with its means
+    std::vector<std::uint32_t> lights;  // numbers; of shadowed lights each with its states, of textured ones with its means
   };
   struct Key {
     std::size_t shader;
@@ -162,8 +155,7 @@ struct DirectLight::Work {
     Group& group = groups[key];
     group.name = pass.name();
     const std::uint32_t own = pass.own != nullptr ? pass.own->first : 0;
-    const bool long_loops = pass.own != nullptr && pass.own->method == Method::arvo;  // software devices limit loop turns
-    if (group.entries.empty() || group.entries.back().square != square || group.entries.back().own != own || long_loops)
+    if (group.entries.empty() || group.entries.back().square != square || group.entries.back().own != own)
       group.entries.push_back({square, 0, own, {}});
     ++group.entries.back().count;
     std::vector<std::uint32_t>& numbers = group.entries.back().lights;
@@ -175,9 +167,8 @@ DirectLight::Kept::Kept(const Device& d)
     : device(d),
       tiles((check_device(d.info()), std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program(d,
-              {texture_means_shader(), profile_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(),
-               representative_point_shader(), sheen_shader(), ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(),
-               arcs_lobe_shader(), shadow_shares_shader()},
+              {texture_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(),
+               ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(), shadow_shares_shader()},
               kBuffers, kTexels),
       surfaces(d, BufferUse::host_writes, BufferForm::texels),
       radiance(d, BufferUse::host_reads, BufferForm::texels),
@@ -308,7 +299,7 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
   const bool by_arcs = pass.shader == kClosedForm || pass.shader == kHalfVector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
-  const bool fine = (by_arcs || pass.shader == kArcs || by_points) && method_.quality == Quality::high;
+  const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
   const int edges = chunked || shadowed != nullptr ? kMostEdges : light.kind == kPolygon ? most : space + 2;
   const int arcs = by_arcs && !chunked ? edges : 1;
@@ -332,7 +323,7 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           magnitude_size_,
           shadowed != nullptr ? 1 : 0,
           whole ? 1 : 0,
-          pass.asks_for_mean(light) ? light.mean : 0,
+          pass.asks_for_mean(light) ? 1 : 0,
           0,
           light.profiled ? 1 : 0,
           pass.own != nullptr ? pass.own->form : 0,
@@ -340,20 +331,15 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           pass.own != nullptr ? pass.own->low : 0};
 }
 
-// Lists the mean of a textured or profiled light for a lobe. It is an entry of its own, since software devices limit a thread's loop
+// Lists the mean of a textured light for a lobe. It is an entry of its own, since software devices limit a thread's loop
 // turns.
 void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
   std::vector<std::int32_t> constants = choices({}, {}, false, false, nullptr);
   constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
   constants[13] = compact_size_;
   constants[18] = compact_first_;
-  const bool profiled = records_.lights[light].mean == kProfileMean;
-  if (profiled) {
-    constants[0] = records_.lights[light].kind;
-    if (pass.shader == kCharlie) constants[4] = 3;
-  }
-  Work::Group& group = work.groups[{profiled ? kProfileMeans : kTextureMeans, constants}];
-  group.name = profiled ? "profiles" : "textures";
+  Work::Group& group = work.groups[{kTextureMeans, constants}];
+  group.name = "textures";
   group.entries.push_back({place, 1, pass.own != nullptr ? pass.own->first : 0, {light, work.means}});
 }
 

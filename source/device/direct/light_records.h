@@ -16,7 +16,7 @@ using Vec4Floats = std::array<float, 4>;
 struct LightRecord {
   int kind = 0;              // constant of shaders/layout.glsl
   bool ball = false;         // an ellipsoid of three equal axes
-  int mean = 0;              // mean that its lobes need: kTextureMean, kProfileMean
+  bool textured = false;     // its lobes need its mean
   bool profiled = false;     // by direction alone
   int edges = 0;             // most edges of a polygon after the horizon's cut; 0 for other lights
   float deviation2 = 0;      // as in the shaders

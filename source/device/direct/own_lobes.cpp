@@ -12,9 +12,6 @@ namespace {
 #include "shaders/layout.glsl"
 #include "shaders/phong_methods.glsl"
 
-// Limit of Arvo's recurrence: llvmpipe ends a thread's loops after 65,535 turns in all. Half of this limit per edge allows 500 edges.
-constexpr double kMostOfRecurrence = 256;
-
 Vec4Floats with(Vec3d v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
@@ -28,19 +25,6 @@ OwnLobes::Lobe lobe_by(const Material& m, Method method, Quality quality, std::s
       lobe.low = m.foreshortening ? integrals::cosine_series_range(m.exponent) : m.exponent < 1 ? 2 : 0;
       lobe.by_points = m.foreshortening;
       lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
-      break;
-    case Brdf::lobe_product:
-      lobe.phong = phong_method({Method::series, quality});
-      lobe.form = 2;
-      lobe.low = m.exponent + m.axis_exponent < 1 ? 3 : 0;  // the matched exponent is at least the sum
-      lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent + m.axis_exponent, true);
-      break;
-    case Brdf::beckmann:
-    case Brdf::blinn_phong:
-      lobe.form = m.brdf == Brdf::beckmann ? 1 : 0;
-      lobe.low = m.brdf == Brdf::beckmann ? 0 : integrals::cosine_series_range(m.exponent);
-      lobe.by_points = false;
-      lobe.least_distance2 = integrals::kHalfVectorsLeastDistance2;
       break;
     case Brdf::ggx:
       lobe.form = method == Method::exact ? 2 : m.shadowing ? 0 : 1;
@@ -82,14 +66,9 @@ OwnLobes::OwnLobes(const Scene& scene, const DirectMethod& method, std::size_t f
       Lobe lobe = lobe_by(m, by, method_.quality, first + values_.size());
       // Like SpecularPass::add_ggx_override.
       if (m.brdf == Brdf::ggx) lobe.by_points = !m.shadowing || m.tangent != Vec3d{} || by != method_.ggx;
-      const bool product = m.brdf == Brdf::lobe_product;
       const auto number = static_cast<double>(lobes_.size());
-      values_.insert(values_.end(),
-                     {with(m.brdf == Brdf::ggx                                       ? m.f0
-                           : m.brdf == Brdf::beckmann || m.brdf == Brdf::blinn_phong ? Vec3d{1, 1, 1}
-                                                                                     : m.albedo,
-                           number),
-                      with(m.f90, m.exponent), with(product ? m.axis : m.tangent, m.axis_exponent), with({m.alpha_x, m.alpha_y, 0}, 0)});
+      values_.insert(values_.end(), {with(m.brdf == Brdf::ggx ? m.f0 : m.albedo, number), with(m.f90, m.exponent), with(m.tangent, 0),
+                                     with({m.alpha_x, m.alpha_y, 0}, 0)});
       lobes.push_back(lobe);
     }
   }
@@ -98,8 +77,8 @@ OwnLobes::OwnLobes(const Scene& scene, const DirectMethod& method, std::size_t f
 bool OwnLobes::has(const Material& m) const {
   if (m.brdf == Brdf::lambert) return true;
   const Method by = method_.row_for(m).method;
-  if (m.brdf == Brdf::phong) return by != Method::arvo || m.exponent <= kMostOfRecurrence;
-  if (m.brdf != Brdf::ggx) return true;
+  if (m.brdf == Brdf::phong) return by == Method::series || by == Method::exact;
+  if (m.brdf != Brdf::ggx) return m.brdf == Brdf::charlie;
   const bool has_table = by == method_.ggx, needs_none = by == Method::exact || by == Method::closed_form || by == Method::half_vector ||
                                                          by == Method::representative_point;
   return !m.multiple_scattering && (has_table || needs_none);

@@ -33,11 +33,9 @@ std::string first_lack(const Scene& scene, const RenderOptions& options, const D
     return "'" + device.name + "' has no shadows: its subgroups cannot add";
   if (options.indirect.mode == IndirectMode::path) return "it has no bounce by paths";
   if (options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0) return "it has no --indirect-shadows";
-  bool own = false;
   for (const Mesh& mesh : scene.meshes) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
     if (m.unlit || mesh.is_light_shape || mesh.indices.empty()) continue;
-    own = own || !m.specular_override.empty();
     for (const Material& lobe : m.specular_override)
       if (!direct.own_lobes().has(lobe))
         return std::string("it has no shader for the ") + name_of(lobe.brdf) + " lobe of material '" + m.name + "'";
@@ -45,11 +43,10 @@ std::string first_lack(const Scene& scene, const RenderOptions& options, const D
       return "it has no shadows for the coat of material '" + m.name + "', whose normal is not the surface's";
   }
   for (const PackLight& light : lights) {
-    const std::string name = light.area == nullptr       ? std::string("a profiled point light")
-                             : light.textured != nullptr ? "the textured light '" + light.area->name + "'"
-                                                         : "the profiled light '" + light.area->name + "'";
-    if (!direct.has(light)) return name + " exceeds its buffers or loops";
-    if (own && light.profiled != nullptr) return "it has no shader for custom lobes under " + name;
+    if (light.profiled != nullptr) return "it has no shader for the profiled light '" + light.area->name + "'";
+    if (!direct.has(light))
+      return (light.area == nullptr ? std::string("a profiled point light") : "the textured light '" + light.area->name + "'") +
+             " exceeds its buffers";
   }
   return {};
 }

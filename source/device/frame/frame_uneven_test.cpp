@@ -1,4 +1,4 @@
-// The CPU is the reference for the device: textured lights, rects and disks with a measured profile, and their occluded parts.
+// The CPU is the reference for the device: textured lights, and their occluded parts.
 #include "support/device_frames.h"
 
 namespace steradian::vulkan::frame_uneven_test {
@@ -106,54 +106,9 @@ TEST_F(VulkanFrame, AgreesWithTheCpuUnderTexturedLights) {
   EXPECT_EQ(warnings_of(scene, small("auto")), std::vector<std::string>());
 }
 
-TEST_F(VulkanFrame, AgreesWithTheCpuUnderMeasuredLamps) {
-  RenderOptions options = small("ltc-compact");
-  options.width = 96;
-  options.height = 54;
-  const Scene scene = under_lamps();
-  expect_same("measured lamps", scene, options);
-  options.method = "auto";
-  expect_same("measured lamps", scene, options);
-  EXPECT_EQ(warnings_of(scene, options), std::vector<std::string>());
-}
-
-// The profile is as fine as EULUMDAT allows, so that a thread's loops have the most turns.
-TEST_F(VulkanFrame, AgreesWithTheCpuUnderFinelyMeasuredLamps) {
-  const auto fine = std::make_shared<LightProfile>();
-  for (int v = 0; v <= 360; ++v) fine->vertical.push_back(v * 0.5);
-  for (int h = 0; h <= 720; ++h) fine->horizontal.push_back(h * 0.5);
-  for (const double h : fine->horizontal)
-    for (const double v : fine->vertical)
-      fine->candela.push_back(5 + 4 * std::cos(v / 20) * (1 + 0.5 * std::sin(v / 58) * std::sin(h / 58)));
-  Scene scene = under_lamps();
-  for (AreaLight& light : scene.area_lights) set_emission(light, fine, {1, 0, 0}, {0.3, 0.2, 0.1});
-  RenderOptions options = small("ltc-compact");
-  options.width = 48;
-  options.height = 27;
-  expect_same("fine profile", scene, options);
-}
-
-TEST_F(VulkanFrame, LeavesCustomLobesUnderProfiledLightsToTheCpu) {
-  Scene scene = under_lamps();
-  scene.area_lights.pop_back();
-  Material phong;
-  phong.brdf = Brdf::phong;
-  phong.exponent = 20;
-  scene.materials[0].specular_override = {phong};
-  RenderOptions options = small("auto");
-  options.width = 48;
-  options.height = 27;
-  expect_rendered_by_cpu(scene, options, "custom lobes under the profiled light 'lamp'");
-}
-
-TEST_F(VulkanFrame, LeavesLampsOfTooManyAnglesToTheCpu) {
-  const auto fine = std::make_shared<LightProfile>();
-  for (int v = 0; v < 1024; ++v) fine->vertical.push_back(v * 180 / 1023.0);
-  for (int h = 0; h < 1024; ++h) fine->horizontal.push_back(h * 360 / 1023.0);
-  fine->candela.assign(1024 * 1024, 5);
-  Scene scene = under_lamps();
-  set_emission(scene.area_lights[0], fine, {1, 0, 0});
-  expect_rendered_by_cpu(scene, small("ltc-compact"), "the profiled light 'lamp' exceeds its buffers or loops");
+// The device has profiled points, but no profiled rects and disks.
+TEST_F(VulkanFrame, LeavesProfiledRectsAndDisksToTheCpu) {
+  expect_rendered_by_cpu(under_lamps(), small("ltc-compact"), "no shader for the profiled light 'lamp'");
 }
 
 // The parts are found as for lights of uniform radiance. Every lobe lights them as a fraction of the whole light.
@@ -166,19 +121,11 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfTexturedLights) {
   EXPECT_EQ(expect_same_shadows("textured frame", textured(frame, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true), "ltc-compact"), 1);
 }
 
-TEST_F(VulkanFrame, FindsTheVisiblePartsOfMeasuredLamps) {
-  for (const char* method : {"auto", "ltc-compact"})
-    EXPECT_EQ(expect_same_shadows("measured rect", lamp(kSquare, {0.3, 0.2, 0.1}), method), 0);
-  EXPECT_EQ(expect_same_shadows("measured disk", lamp(Ellipse{{0, 2.5, 0}, {1, 0, 0}, {0.2, 0.1, 0.8}}, {0.3, 0.2, 0.1}), "ltc-compact"),
-            0);
-}
-
 TEST_F(VulkanFrame, TheValidationLayerFindsNothingUnderUnevenLights) {
   const auto device = std::make_shared<Device>(DeviceOptions{"", true});
   Scene scene = under_triangles(12);
   scene.images = {checkers()};
-  scene.area_lights = {textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true),
-                       lamp(Ellipse{{0, 2.7, 0}, {1, 0, 0}, {0, 0, -1}}, {1, 1, 1})};
+  scene.area_lights = {textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true)};
   for (const Shadows shadows : {Shadows::off, Shadows::on}) {
     RenderOptions options = small("ltc-compact");
     options.width = 48;

@@ -41,16 +41,16 @@ std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& w
   const Device& device = rays->device();
   const Buffer& hierarchy = rays->hierarchy();
   ComputeProgram program(device, shadow_shaders(), 4);
-  std::vector<Answer> answers(ways.size() + 1);  // the first one is the head
-  Buffer buffer(device, answers.size() * sizeof answers[0]);
-  char* at = static_cast<char*>(buffer.mapped()) + sizeof answers[0];
-  answers.resize(ways.size());
+  std::vector<Answer> answers(ways.size());
+  constexpr std::size_t kHead = 4 * sizeof(float);
+  Buffer buffer(device, kHead + answers.size() * sizeof answers[0]);
+  char* at = static_cast<char*>(buffer.mapped()) + kHead;
   for (std::size_t i = 0; i < ways.size(); ++i)
     answers[i] = {ways[i].from, static_cast<std::uint32_t>(kAskRay), ways[i].along, static_cast<std::uint32_t>(kSeesWhole)};
   std::copy(answers.begin(), answers.end(), reinterpret_cast<Answer*>(at));
   const auto count = static_cast<std::uint32_t>(ways.size());
   const std::vector<double> ms =
-      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy}, {{program.pipeline(2), (count + 63) / 64, 1, count}});
+      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy}, {{program.pipeline(1), (count + 63) / 64, 1, count}});
   if (!ms.empty()) std::printf("%zu triangles, %zu bytes: %.2f us a ray\n", scene.triangle_count(), hierarchy.bytes(), 1e3 * ms[0] / count);
   std::vector<Found> found;
   for (std::size_t i = 0; i < ways.size(); ++i) {

@@ -28,14 +28,8 @@ constexpr std::uint32_t kHalfVector[] =
 constexpr std::uint32_t kTextureMeans[] =
 #include "texture_means.comp.inc"
     ;
-constexpr std::uint32_t kProfileMeans[] =
-#include "profile_means.comp.inc"
-    ;
 constexpr std::uint32_t kPhongLobe[] =
 #include "phong_lobe.comp.inc"
-    ;
-constexpr std::uint32_t kArcsLobe[] =
-#include "arcs_lobe.comp.inc"
     ;
 constexpr std::uint32_t kShadowParts[] =
 #include "shadow_parts.comp.inc"
@@ -88,9 +82,7 @@ std::span<const std::uint32_t> sheen_shader() { return kSheen; }
 std::span<const std::uint32_t> ltc_clipless_shader() { return kLtcClipless; }
 std::span<const std::uint32_t> half_vector_shader() { return kHalfVector; }
 std::span<const std::uint32_t> texture_means_shader() { return kTextureMeans; }
-std::span<const std::uint32_t> profile_means_shader() { return kProfileMeans; }
 std::span<const std::uint32_t> phong_lobe_shader() { return kPhongLobe; }
-std::span<const std::uint32_t> arcs_lobe_shader() { return kArcsLobe; }
 std::vector<std::span<const std::uint32_t>> shadow_shaders() { return {kShadowParts, kShadowRays}; }
 std::span<const std::uint32_t> shadow_shares_shader() { return kShadowShares; }
 std::span<const std::uint32_t> bounce_rays_shader() { return kBounceRays; }

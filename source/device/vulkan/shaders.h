@@ -15,12 +15,10 @@ std::span<const std::uint32_t> representative_point_shader();
 std::span<const std::uint32_t> sheen_shader();
 std::span<const std::uint32_t> ltc_clipless_shader();
 std::span<const std::uint32_t> half_vector_shader();
-// Means of textured lights, and of lights with a profile, for lobes.
+// Means of textured lights, for lobes.
 std::span<const std::uint32_t> texture_means_shader();
-std::span<const std::uint32_t> profile_means_shader();
 // Lobes of extras.steradian.
 std::span<const std::uint32_t> phong_lobe_shader();
-std::span<const std::uint32_t> arcs_lobe_shader();
 // Visible parts of lights behind edges, and the test that the way there is free.
 std::vector<std::span<const std::uint32_t>> shadow_shaders();
 // Light of partly occluded round lights.

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "night.h"
 #include "support/plane_families.h"
 #include "plane/exact/random.h"
 #include "plane/extras/trace.h"
@@ -398,7 +399,7 @@ TEST(PlaneExtras, StagesDrawWhatAChangeReaches) {
     options.width = options.height = 80;
     PlaneStage stage(scene, options);
     std::size_t drawn = 0, all = 0;
-    for (int step = 0; step < 10; ++step) {
+    for (int step = 0; step < test::by_day_or_night(5, 10); ++step) {
       const Picture& picture = stage.draw();
       const Picture cold = render_plane(PlaneWorld(stage.scene()), options);
       for (std::size_t i = 0; i < cold.pixels.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "night.h"
 #include "support/mixed_corner.h"
 
 namespace steradian::indirect::picture_test {
@@ -87,7 +88,7 @@ double luminous(Vec3f c) { return static_cast<double>(c.x + c.y + c.z); }
 // The camera moves by a fiftieth of a pixel's width a frame. Changes beyond those of the picture without culling come from the culling. Far
 // fewer lights are kept than by default, to make them visible.
 TEST(IndirectPicture, RangesThatStayDoNotFlicker) {
-  constexpr int kFrames = 16;
+  const int frames = test::by_day_or_night(6, 16);
   const auto flicker = [&](bool fixed, double kept) {
     Scene scene = mixed_corner();
     RenderOptions o = options(IndirectMode::ltc, 1 << 16);
@@ -96,12 +97,12 @@ TEST(IndirectPicture, RangesThatStayDoNotFlicker) {
     o.indirect.kept_pairs = kept;
     Picture before;
     double change = 0, light = 0;
-    for (int frame = 0; frame < kFrames; ++frame) {
+    for (int frame = 0; frame < frames; ++frame) {
       if (!fixed) o.seed = static_cast<std::uint64_t>(frame + 1);
       const Picture now = bounce(scene, o);
       for (std::size_t i = 0; i < now.pixels.size(); ++i) {
-        light += std::pow(luminous(now.pixels[i]), 2) / kFrames;
-        if (frame > 0) change += std::pow(luminous(now.pixels[i]) - luminous(before.pixels[i]), 2) / (kFrames - 1);
+        light += std::pow(luminous(now.pixels[i]), 2) / frames;
+        if (frame > 0) change += std::pow(luminous(now.pixels[i]) - luminous(before.pixels[i]), 2) / (frames - 1);
       }
       before = now;
       scene.cameras[0].position = scene.cameras[0].position + scene.cameras[0].x * 5e-4;
