@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "night.h"
 #include "paths.h"
 #include "device/vulkan/device.h"
 #include "device/frame/frame.h"
@@ -21,8 +22,8 @@ inline Scene scene_of(const std::string& name) { return load_scene(test::kSource
 
 inline RenderOptions small(const std::string& method) {
   RenderOptions options;
-  options.width = 160;
-  options.height = 90;
+  options.width = test::by_day_or_night(96, 160);
+  options.height = test::by_day_or_night(54, 90);
   options.method = method;
   return options;
 }

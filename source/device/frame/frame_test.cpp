@@ -164,7 +164,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
     const Scene scene = scene_of(name);
     const double share = expect_same(std::string(name) + ", shadows", scene, options);
     std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
-    EXPECT_LE(share, 0.15) << name;
+    EXPECT_LE(share, 0.05) << name;
   }
   // Coats under bumps see other parts of lights than the layers below them.
   Scene scene = everything();
@@ -188,7 +188,7 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   options.method = "ltc-compact";
   // A few points see thin regions.
   EXPECT_LE(expect_same("40 triangles", under_triangles(40), options), 0.01);
-  EXPECT_GE(expect_same("200 triangles", under_triangles(200), options), 0.5);
+  EXPECT_LE(expect_same("200 triangles", under_triangles(200), options), 0.15);
   // The light crosses the triangles, which leave sections in its plane.
   const Scene crossed = under_triangles(12, Polygon{{{-1, 0.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 0.5, 1}}, {}});
   EXPECT_EQ(expect_same("12 across", crossed, options), 0);
@@ -211,6 +211,7 @@ TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   EXPECT_EQ(by_host(213), 1);
   // Triangles overlap: their crossings do or do not fit the turns of the loops.
   for (const int triangles : {80, 200}) {
+    if (triangles == 200 && !test::is_night()) continue;
     const double share = expect_same(std::to_string(triangles) + " triangles", under_triangles(triangles), options);
     std::printf("%d triangles: %.2f %% of the parts by the host\n", triangles, 100 * share);
   }
@@ -231,11 +232,6 @@ TEST_F(VulkanFrame, FindsPartsBehindManyEdges) {
     const double share = expect_same(name, under_triangles(90, light, spread), options);
     std::printf("%s: %.2f %% of the parts by the host\n", name, 100 * share);
     EXPECT_LE(share, 0.5) << name;
-  }
-  for (const char* name : {"gallery", "tubes"}) {
-    const double share = expect_same(std::string(name) + ", shadows", scene_of(name), options);
-    std::printf("%s: %.2f %% of the parts by the host\n", name, 100 * share);
-    EXPECT_LE(share, 0.01) << name;
   }
 }
 
@@ -307,10 +303,13 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
       << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
 }
 
-TEST_F(VulkanFrame, TenThousandFramesLeaveMemoryWhereItWas) {
-  for (const SurfacesBy surfaces : {SurfacesBy::host, SurfacesBy::device}) expect_no_growth(scene_of("glossy_floor"), surfaces, 10000);
+TEST_F(VulkanFrame, ManyFramesLeaveMemoryWhereItWas) {
+  for (const SurfacesBy surfaces : {SurfacesBy::host, SurfacesBy::device})
+    expect_no_growth(scene_of("glossy_floor"), surfaces, test::by_day_or_night(200, 10000));
 }
 
-TEST_F(VulkanFrame, FramesWithShadowsLeaveMemoryWhereItWas) { expect_no_growth(under_triangles(12), SurfacesBy::host, 300, Shadows::on); }
+TEST_F(VulkanFrame, FramesWithShadowsLeaveMemoryWhereItWas) {
+  expect_no_growth(under_triangles(12), SurfacesBy::host, test::by_day_or_night(60, 300), Shadows::on);
+}
 
 }  // namespace steradian::vulkan::frame_test
