@@ -159,6 +159,8 @@ TEST_F(VulkanFrame, AgreesWithTheCpuUnderMeasuredPoints) {
 
 TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   RenderOptions options = small("auto");
+  options.width = 160;  // in smaller pictures of lamp_shade, one pixel has a light whose nodes change with a rounding
+  options.height = 90;
   options.shadows = Shadows::on;
   for (const char* name : {"gallery", "textured_floor", "lamp_shade", "tubes"}) {
     const Scene scene = scene_of(name);
@@ -181,7 +183,8 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
 TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   RenderOptions options = small("auto");
   options.shadows = Shadows::on;
-  for (const char* method : {"auto", "half-vector", "ltc-compact", "ltc-clipless", "representative-point"}) {
+  for (const std::string& method : test::by_day_or_night<std::vector<std::string>>(
+           {"auto", "ltc-compact"}, {"auto", "half-vector", "ltc-compact", "ltc-clipless", "representative-point"})) {
     options.method = method;
     EXPECT_EQ(expect_same("12 triangles", under_triangles(12), options), 0);
   }
