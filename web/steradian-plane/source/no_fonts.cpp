@@ -14,8 +14,6 @@ double Face::advance(unsigned) const { return 0; }
 double Face::kerning(unsigned, unsigned) const { return 0; }
 void Face::draw(unsigned, Vec2d, double, Pen&) const {}
 
-std::vector<std::string> family_names(const std::string&) { return {}; }
-
 struct Fonts::Libraries {};
 Fonts::Fonts() = default;
 Fonts::~Fonts() = default;
