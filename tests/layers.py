@@ -105,7 +105,7 @@ def without_detours(edges):
     return [(a, b) for a, b in edges if not any(c != b and reaches(c, b) for c in below[a])]
 
 
-WIDTH, BOX, HEIGHT, STEP, COLUMN = 560, 170, 30, 66, 210
+WIDTH, BOX, HEIGHT, STEP, COLUMN = 960, 200, 30, 66, 225
 
 
 def picture(pairs):
