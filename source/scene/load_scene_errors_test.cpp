@@ -38,7 +38,7 @@ void use_texture(GltfTestFile& f, const json& images) {
 }
 
 void use_area_light(GltfTestFile& f, const json& light) {
-  f.json["extensions"]["EXT_lights_area"]["lights"] = {light};
+  f.json["extensions"]["EXT_lights_area"]["lights"] = json::array({light});
   f.node()["extensions"]["EXT_lights_area"]["light"] = 0;
 }
 

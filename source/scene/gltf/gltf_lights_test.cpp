@@ -21,7 +21,7 @@ void expect_near(Vec3f a, Vec3d b, double tolerance = 1e-6) { expect_near(static
 
 GltfTestFile with_area_light(const json& light, const json& node) {
   GltfTestFile f = GltfTestFile::square();
-  f.json["extensions"]["EXT_lights_area"]["lights"] = {light};
+  f.json["extensions"]["EXT_lights_area"]["lights"] = json::array({light});
   json n = node;
   n["extensions"]["EXT_lights_area"]["light"] = 0;
   f.append("nodes", n);
