@@ -313,9 +313,7 @@ void add_compare(CommandLine& line) {
   verb.add("--target-error", r.target_error, "of reference: relative rms error").range(1e-6, 1.0).group("Sampling");
   verb.add("--seed", r.seed, "seed of the random numbers").group("Sampling");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
-  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first (256 and meshes)")
-      .range(1, 1 << 20)
-      .more("Limits");
+  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
   verb.add_limits(options->limits);
   verb.callback([options] { run(*options); });
 }

@@ -402,9 +402,7 @@ void add_render(CommandLine& line) {
   verb.add("--occluders", options->occluders, "colour of occluders").words({"black", "fill", "clear"}).more("Plane scenes (.svg)");
   verb.add("--edits", options->edits, "JSON file of what changes before which frame").more("Plane scenes (.svg)");
 
-  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first (256 and meshes)")
-      .range(1, 1 << 20)
-      .more("Limits");
+  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
   verb.add("--light-units", options->light_units, "unit of punctual lights").words({"auto", "candela", "watt"}).more("Limits");
   verb.add_limits(options->limits);
   verb.callback([options, verb] {

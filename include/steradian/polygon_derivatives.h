@@ -45,8 +45,8 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& light, const Shadin
 // Throws Error for the other methods and for materials that ltc_radiance does not serve.
 RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PolygonLight& light, const ShadingPoint& at, const Material& material);
 
-// Density of a lobe, for derivatives of a part of a light whose boundary moves (shadow/region/derivatives.h). It is the radiance to the view from
-// a steradian of radiance 1 in a unit direction, one number a channel. Zero below the surface, and for a view below it.
+// Density of a lobe, for derivatives of a part of a light whose boundary moves (shadow/region/derivatives.h). It is the radiance to the
+// view from a steradian of radiance 1 in a unit direction, one number a channel. Zero below the surface, and for a view below it.
 using LobeDensity = std::function<Vec3d(Vec3d)>;
 
 // The lobes and the errors thrown are those of radiance_derivatives and of ltc_radiance_derivatives.

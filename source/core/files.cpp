@@ -28,7 +28,6 @@ Bytes read_file(const std::string& path, const std::string& place, Budget& budge
   return bytes;
 }
 
-
 namespace {
 
 std::string hint_for(int error) {

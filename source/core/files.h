@@ -14,10 +14,8 @@ using Bytes = std::vector<std::uint8_t>;
 // place: the source that names the file, for the Error. Only regular files are read: a device has no size and may never end.
 Bytes read_file(const std::string& path, const std::string& place, Budget& budget);
 
-
 // AtomicFile: an output file that is either complete or absent. It is written without a name in the target's folder and gets its name on
 // commit. A program that is killed leaves nothing behind.
-
 
 // A name that is a device or a pipe (/dev/null, /dev/stdout) is written directly; a symbolic link is followed. Every failure throws Error
 // with the path and what to do. An existing file of that name stays unchanged then.

@@ -29,9 +29,7 @@ inline double pdf_cosine_power(double n, double cosine) {
   return (n + 1) / (2 * std::numbers::pi) * std::pow(cosine, n);
 }
 
-
 // Sampling of half vectors with the density of a microfacet distribution, in the shading frame, and of their reflections.
-
 
 // Density D(h) h_z over the hemisphere, u, v in [0, 1).
 Vec3d sample_blinn_phong_half_vector(double n, double u, double v);

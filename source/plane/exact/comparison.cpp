@@ -131,7 +131,6 @@ PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps) {
   return sum;
 }
 
-
 // Rays: stratified ones against the curves themselves, and ones that march along the signed distance.
 
 namespace {

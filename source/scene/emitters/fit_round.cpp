@@ -74,7 +74,6 @@ std::optional<Capsule> fit_capsule(const std::vector<Triangle>& triangles, const
   return Capsule{around.end_a, around.end_b, of_area};
 }
 
-
 namespace {
 
 // Points relative to their mean, in units of their spread, so that the fit is well conditioned wherever they lie.

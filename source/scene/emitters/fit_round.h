@@ -14,9 +14,7 @@ namespace steradian::scene {
 // radius, and the rounding of single precision. None for any other mesh, including balls and cylinders with flat ends.
 std::optional<Capsule> fit_capsule(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part);
 
-
 // Recognises meshes and outlines that approximate ellipsoids and ellipses, so that they become lights of those shapes.
-
 
 // Tolerances for both shapes. Corners lie on the shape to kOnShape of its size. No face or edge comes nearer to the centre than
 // kNearestFace of the radius. A ball of 32 segments and 16 rings has 0.990, a circle of 16 corners 0.981. A cube, whose corners also lie on

@@ -44,9 +44,7 @@ std::string quoted(std::string_view text);
 // Reads a text that is one number with optional blanks around it. Returns false for any other text.
 bool read_whole_number(std::string_view text, double& value);
 
-
 // The two file formats of luminaires: https://www.ies.org, ANSI/IES LM-63-19, and EULUMDAT (Stockmar 1990).
-
 
 LightProfile read_ies(PhotometryText text);
 LightProfile read_eulumdat(PhotometryText text);

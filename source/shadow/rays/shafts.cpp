@@ -138,8 +138,6 @@ bool TriangleTree::is_open(Viewers& viewers, const Box& light, double margin) co
   return true;
 }
 
-
-
 Ball ball_around(const AreaLight& area) {
   if (const auto* c = std::get_if<Capsule>(&area.shape)) return {(c->end_a + c->end_b) * 0.5, length(c->end_b - c->end_a) / 2 + c->radius};
   const auto& e = std::get<Ellipsoid>(area.shape);

@@ -73,9 +73,7 @@ class TriangleTree {
   std::vector<Node> nodes_;
 };
 
-
 // Round lights and groups of points: occluders that may lie between, found before each point uses its own polygon (round_light.h).
-
 
 struct Ball {
   Vec3d center;
