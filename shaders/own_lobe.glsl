@@ -6,8 +6,7 @@ struct OwnLobe {
     float material;  // number that a surface has beside its f0
     vec3 f90;
     float exponent;
-    vec3 direction;  // direction of alpha_x, zero: any; product: axis of the second lobe, zero: the normal
-    float axis_exponent;
+    vec3 tangent;  // direction of alpha_x; zero: any
     float ax;
     float ay;
 };
@@ -17,7 +16,7 @@ OwnLobe own_lobe_at(uint first) {
     vec4 b = details[first + 1u];
     vec4 c = details[first + 2u];
     vec4 d = details[first + 3u];
-    return OwnLobe(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y);
+    return OwnLobe(a.xyz, a.w, b.xyz, b.w, c.xyz, d.x, d.y);
 }
 
-vec3 tangent_of(OwnLobe own, vec3 tangent) { return dot(own.direction, own.direction) > 0.0 ? own.direction : tangent; }
+vec3 tangent_of(OwnLobe own, vec3 tangent) { return dot(own.tangent, own.tangent) > 0.0 ? own.tangent : tangent; }

@@ -10,12 +10,12 @@
 #include <thread>
 
 #include "night.h"
-#include "support/memory.h"
 #include "program.h"
-#include "support/gltf_test_file.h"
 #include "steradian/load_scene.h"
 #include "steradian/picture.h"
 #include "steradian/render.h"
+#include "support/gltf_test_file.h"
+#include "support/memory.h"
 
 namespace steradian::faults_test {
 namespace {

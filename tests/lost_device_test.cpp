@@ -2,8 +2,8 @@
 // reports it, leaves no half-written picture and does not hang.
 #include <set>
 
-#include "program.h"
 #include "device/vulkan/device.h"
+#include "program.h"
 
 namespace steradian::lost_device_test {
 namespace {

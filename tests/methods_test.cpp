@@ -10,12 +10,12 @@
 #include <set>
 
 #include "paths.h"
-#include "render/surface/camera_rays.h"
 #include "render/frame/methods.h"
-#include "support/meshes.h"
+#include "render/surface/camera_rays.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
 #include "steradian/half_vector.h"
+#include "support/meshes.h"
 
 namespace steradian::methods_test {
 namespace {

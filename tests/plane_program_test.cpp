@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "program.h"
 #include "device/vulkan/device.h"
+#include "program.h"
 #include "steradian/picture.h"
 
 namespace steradian::plane_program_test {

@@ -1,8 +1,8 @@
 // `steradian render` and `diff` as processes: pictures, statistics, exit codes, no half-written files.
 #include <nlohmann/json.hpp>
 
-#include "program.h"
 #include "device/vulkan/device.h"
+#include "program.h"
 #include "steradian/compare.h"
 #include "steradian/picture.h"
 

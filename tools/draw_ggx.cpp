@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "integrals/integrate.h"
-#include "support/random_rectangles.h"
 #include "steradian/closed_form.h"
 #include "steradian/ltc.h"
+#include "support/random_rectangles.h"
 
 using namespace steradian;
 

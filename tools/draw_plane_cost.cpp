@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "plane/stage/drawing.h"
 #include "bench/studies/line_plot.h"
+#include "plane/stage/drawing.h"
 #include "steradian/plane.h"
 
 using namespace steradian;

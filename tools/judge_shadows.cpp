@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "support/z_test.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
+#include "support/z_test.h"
 
 using namespace steradian;
 

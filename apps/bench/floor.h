@@ -1,8 +1,8 @@
 // The scene that frames are timed on: a floor that fills the picture, its materials, and quads above it.
 #pragma once
 
-#include "support/meshes.h"
 #include "steradian/scene.h"
+#include "support/meshes.h"
 
 namespace steradian::bench {
 

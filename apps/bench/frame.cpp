@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "benches.h"
+#include "core/float_mode.h"
 #include "floor.h"
 #include "frame.h"
-#include "core/float_mode.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"

@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "benches.h"
+#include "core/random.h"
 #include "frame.h"
 #include "render/bounce/pairs.h"
-#include "core/random.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 

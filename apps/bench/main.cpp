@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/benches.h"
-#include "core/progress.h"
-#include "core/files.h"
-#include "fit/textured_error.h"
 #include "bench/studies/plane_methods.h"
 #include "bench/studies/table2.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "fit/textured_error.h"
 #include "steradian/error.h"
 #include "steradian/version.h"
 #include "verb.h"

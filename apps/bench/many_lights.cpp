@@ -20,8 +20,8 @@
 #include "benches.h"
 #include "floor.h"
 #include "frame.h"
-#include "support/meshes.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
 
 namespace steradian::bench {
 namespace {

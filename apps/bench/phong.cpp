@@ -2,10 +2,10 @@
 // comparison's scene (`steradian bench --table2` runs the whole comparison).
 #include <memory>
 
-#include "benches.h"
-#include "core/float_mode.h"
 #include "bench/phong_methods.h"
 #include "bench/phong_plane.h"
+#include "benches.h"
+#include "core/float_mode.h"
 
 namespace steradian::bench {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "bench/benches.h"
 #include "bench/phong_methods.h"
-#include "device/vulkan/compute_program.h"
 #include "device/direct/own_lobes.h"
+#include "device/vulkan/compute_program.h"
 #include "steradian/error.h"
 
 namespace steradian::bench {

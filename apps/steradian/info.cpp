@@ -8,8 +8,8 @@
 
 #include "core/budget.h"
 #include "core/simd.h"
-#include "info_scene.h"
 #include "device/vulkan/device.h"
+#include "info_scene.h"
 #include "steradian/version.h"
 #include "verbs.h"
 

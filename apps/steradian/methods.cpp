@@ -17,7 +17,6 @@ void print_table() {
   for (const methods::Row& row : methods::all()) fmt::print(kLine, row.name, row.error, row.time, row.lobes);
   fmt::print(
       "\nauto takes the first method that serves the lobe; with --quality draft it takes ltc-compact for ggx.\n"
-      "ltc in high quality: 2 % rms of dielectrics. cubature: 0.4 % on lights five times as large as distant.\n"
       "Errors: of the full lobe, or in % of the reflected light. docs/measured/accuracy.md has the measurements.\n"
       "Plane scenes (.svg) have the methods exact, par, sampled, marched.\n");
 }

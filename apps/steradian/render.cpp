@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "command_line.h"
-#include "core/files.h"
 #include "core/budget.h"
+#include "core/files.h"
 #include "core/progress.h"
 #include "core/simd.h"
 #include "integrals/methods.h"

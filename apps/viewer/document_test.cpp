@@ -5,9 +5,9 @@
 
 #include "lamps.h"
 #include "node_pose.h"
-#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::view::document_test {
 namespace {

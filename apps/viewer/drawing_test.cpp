@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "paths.h"
-#include "support/gltf_test_file.h"
 #include "steradian/error.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::view::drawing_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "scene/gltf/gltf_accessor.h"
 #include "scene/emitters/merge_polygons.h"
+#include "scene/gltf/gltf_accessor.h"
 #include "steradian/error.h"
 #include "triangulate.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "player.h"
-#include "support/viewer_session.h"
 #include "steradian/error.h"
+#include "support/viewer_session.h"
 
 namespace steradian::view::session_edit_test {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "support/memory.h"
 #include "player.h"
-#include "support/gltf_test_file.h"
-#include "support/viewer_session.h"
 #include "steradian/error.h"
+#include "support/gltf_test_file.h"
+#include "support/memory.h"
+#include "support/viewer_session.h"
 
 namespace steradian::view::session_test {
 namespace {

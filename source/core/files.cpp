@@ -1,13 +1,14 @@
-#include "core/files.h"
-#include <filesystem>
-#include <fstream>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
 #include <random>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/files.h"
 #include "steradian/error.h"
 
 namespace steradian {

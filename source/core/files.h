@@ -1,13 +1,16 @@
-// Reading of a whole file: its size is known and checked against the budget before memory is allocated.
+// Files: reading of a whole one, and AtomicFile, an output that is complete or absent.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <vector>
-#include "core/budget.h"
 #include <string_view>
+#include <vector>
+
+#include "core/budget.h"
 
 namespace steradian {
+
+// Reading of a whole file: its size is known and checked against the budget before memory is allocated.
 
 using Bytes = std::vector<std::uint8_t>;
 

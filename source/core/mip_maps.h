@@ -1,4 +1,4 @@
-// Single texels of an image, and the blend of four.
+// Textures of surfaces: single texels, and MipMaps, from which a pixel that covers many texels takes their mean.
 #pragma once
 
 #include <map>
@@ -11,6 +11,8 @@
 #include "steradian/texture.h"
 
 namespace steradian {
+
+// Single texels of an image, and the blend of four.
 
 // Texel (x, y), rgb linear.
 Vec4f texel_of(const Image& image, int x, int y, ColorSpace space);

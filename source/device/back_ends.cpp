@@ -1,5 +1,5 @@
-#include "render/frame/render.h"
 #include "device/frame/back_end.h"
+#include "render/frame/render.h"
 
 namespace steradian {
 

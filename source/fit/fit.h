@@ -1,4 +1,4 @@
-// Form factor of a sphere cut by the horizon, over that of the whole sphere: the value that `ltc-clipless` looks up.
+// The fitter, and the form factor of a clipped sphere that its tables hold.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,8 @@
 #include "integrals/ggx/ltc_radiance.h"
 
 namespace steradian::fit {
+
+// Form factor of a sphere cut by the horizon, over that of the whole sphere: the value that `ltc-clipless` looks up.
 
 //   cosine       of the sphere's centre to the normal, in [-1, 1]
 //   form_factor  of the whole sphere towards its centre: sin^2 of its angular radius, in [0, 1]

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/chi2.h"
 #include "steradian/error.h"
+#include "support/chi2.h"
 
 namespace steradian::fit::lobe_test {
 namespace {

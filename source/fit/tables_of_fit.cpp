@@ -1,4 +1,4 @@
-// Custom lobes of the caller, fitted and written in one call.
+// The two layouts of a table from a fit, and custom lobes of the caller, fitted and written in one call.
 #include "fit/tables_of_fit.h"
 
 #include <algorithm>

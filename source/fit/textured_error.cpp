@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <functional>
 
+#include "core/random.h"
 #include "integrals/textured/textured_light.h"
 #include "lobes/lobe.h"
-#include "core/random.h"
 
 namespace steradian::fit {
 namespace {

@@ -1,4 +1,4 @@
-// EXR in memory: functions on the file's bytes, so that all disk access happens in one place.
+// The file formats of pictures, as functions on a file's bytes: EXR, Radiance, JPEG and PNG, and the choice among them.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,8 @@
 #include "steradian/tone.h"
 
 namespace steradian::image {
+
+// EXR in memory: functions on the file's bytes, so that all disk access happens in one place.
 
 std::string encode_exr(const Picture& picture);
 

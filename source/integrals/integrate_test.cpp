@@ -7,8 +7,8 @@
 #include <random>
 
 #include "integrals/ggx/ggx.h"
-#include "integrals/irradiance.h"
 #include "integrals/ggx/ltc.h"
+#include "integrals/irradiance.h"
 #include "integrals/phong/phong.h"
 
 namespace steradian::integrate_test {

@@ -7,8 +7,8 @@
 
 #include "integrals/methods.h"
 #include "night.h"
-#include "support/random_configurations.h"
 #include "steradian/reference.h"
+#include "support/random_configurations.h"
 
 namespace steradian::large_light_test {
 namespace {

@@ -172,7 +172,7 @@ constexpr Row kMethods[] = {
      phong<Method::ellipsoid>},
     {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high", "0.1 to 0.2 % rms", "constant an edge", closed_form,
      radiance_derivatives, any_density},
-    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, "normal, high", "3 % rms",
+    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, "normal, high", "3 % rms; high: 2 %",
      "constant an edge", ltc<LtcMethod::classic, Method::ltc>, ltc_derivatives<LtcMethod::classic>, ltc_density<LtcMethod::classic>},
     {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true, kNoQualities, "3 % rms",
      "constant an edge", ltc<LtcMethod::compact, Method::ltc_compact>, ltc_derivatives<LtcMethod::compact>,
@@ -185,7 +185,7 @@ constexpr Row kMethods[] = {
      "0.02 %; ggx: closed-form's", "3, 4 or 8 arcs", half_vector},
     {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high", "1 % of most lights", "constant an edge",
      matched_lobe},
-    {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities, "0.1 % rms", "a few nodes", cubature},
+    {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities, "0.1 %; large lights 0.4 %", "a few nodes", cubature},
     {Method::reference, "reference", "all", every_lobe, false, kNoQualities, "printed bound", "adaptive quadrature", reference},
     {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities, "printed standard error", "grows with --spp", sampled},
 };

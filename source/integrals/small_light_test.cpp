@@ -6,9 +6,9 @@
 #include <random>
 
 #include "integrals/methods.h"
+#include "lobes/lobe.h"
 #include "shapes/outline.h"
 #include "shapes/small_light.h"
-#include "lobes/lobe.h"
 #include "steradian/reference.h"
 
 namespace steradian::small_light_test {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "lobes/lobe.h"
-#include "support/random_configurations.h"
 #include "steradian/radiance.h"
+#include "support/random_configurations.h"
 
 namespace steradian::lobe_product_test {
 namespace {

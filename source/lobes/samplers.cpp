@@ -1,7 +1,8 @@
-#include "lobes/samplers.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "lobes/samplers.h"
 #include "steradian/kernels.h"
 
 namespace steradian::lobes {

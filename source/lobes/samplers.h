@@ -1,12 +1,15 @@
-// Sampling of directions with the density of a cosine or of a power of it, about z. u, v in [0, 1).
+// Samplers of lobes: a cosine or a power of it, and half vectors.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
 #include "steradian/vector.h"
 
 namespace steradian::lobes {
+
+// Sampling of directions with the density of a cosine or of a power of it, about z. u, v in [0, 1).
 
 // The direction at height z and at the fraction u of a full turn.
 inline Vec3d direction_at(double z, double sine, double u) {

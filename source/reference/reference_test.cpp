@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "night.h"
-#include "support/chi2.h"
 #include "reference/gauss_kronrod.h"
+#include "support/chi2.h"
 #include "support/random_configurations.h"
 
 namespace steradian::reference_test {

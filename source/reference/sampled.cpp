@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
-#include "core/random.h"
 #include "reference/sampled.h"
 #include "reference/spherical_region.h"
 #include "steradian/reference.h"

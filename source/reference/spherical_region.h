@@ -1,5 +1,4 @@
-// SphericalRectangle: directions within a rectangular light, uniform by solid angle.
-// Source: Urena, Fajardo, King, "An area-preserving parametrization for spherical rectangles", 2013.
+// Light as a region of directions, for the reference: SphericalRectangle and SphericalRegion.
 #pragma once
 
 #include <vector>
@@ -8,6 +7,9 @@
 #include "steradian/vector.h"
 
 namespace steradian::reference {
+
+// SphericalRectangle: directions within a rectangular light, uniform by solid angle.
+// Source: Urena, Fajardo, King, "An area-preserving parametrization for spherical rectangles", 2013.
 
 class SphericalRectangle {
  public:

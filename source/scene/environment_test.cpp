@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "support/gltf_test_file.h"
 #include "steradian/error.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::scene::environment_test {
 

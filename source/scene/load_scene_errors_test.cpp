@@ -2,9 +2,9 @@
 #include <functional>
 #include <random>
 
-#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::scene::load_scene_errors_test {
 namespace {

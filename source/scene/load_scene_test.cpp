@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <numbers>
 
+#include "steradian/error.h"
 #include "support/gltf_test_file.h"
 #include "support/meshes.h"
-#include "steradian/error.h"
 
 namespace steradian::scene::load_scene_test {
 namespace {

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <optional>
 
-#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::scene::magnitudes_test {
 namespace {

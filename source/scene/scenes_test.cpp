@@ -5,9 +5,9 @@
 #include <iterator>
 #include <algorithm>
 
-#include "support/gltf_test_file.h"
-#include "steradian/load_scene.h"
 #include "paths.h"
+#include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::scene::scenes_test {
 namespace {

@@ -12,14 +12,14 @@
 #include "night.h"
 #include "shadow/edges/edge_arrays.h"
 #include "shadow/lanes/point_lanes.h"
-#include "shadow/region/round_light.h"
-#include "shadow/shadow_kernels.h"
-#include "support/shadow_families.h"
-#include "support/rays_integral.h"
 #include "shadow/rays/triangle_rays.h"
+#include "shadow/region/round_light.h"
 #include "shadow/region/visible.h"
 #include "shadow/region/visible_part.h"
+#include "shadow/shadow_kernels.h"
 #include "steradian/kernels.h"
+#include "support/rays_integral.h"
+#include "support/shadow_families.h"
 
 namespace steradian::shadow::shadow_test {
 namespace {

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/random_configurations.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
 #include "steradian/phong.h"
+#include "support/random_configurations.h"
 
 namespace steradian::capsule_light_test {
 namespace {

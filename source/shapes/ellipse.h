@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shapes/small_light.h"
 #include "shapes/capsule.h"
 #include "shapes/polygon.h"
+#include "shapes/small_light.h"
 #include "steradian/area_light.h"
 
 namespace steradian::packed {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/random_configurations.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"
 #include "steradian/phong.h"
+#include "support/random_configurations.h"
 
 namespace steradian::ellipse_light_test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <ostream>
 
-#include "support/diffuse_below.h"
 #include "sections.h"
+#include "support/diffuse_below.h"
 
 namespace steradian::accuracy {
 

@@ -7,13 +7,13 @@
 #include <ostream>
 #include <vector>
 
-#include "support/random_rectangles.h"
 #include "integrals/ggx/representative_point.h"
 #include "sections.h"
 #include "shapes/polygon.h"
 #include "steradian/closed_form.h"
 #include "steradian/half_vector.h"
 #include "steradian/ltc.h"
+#include "support/random_rectangles.h"
 
 namespace steradian::accuracy {
 namespace {

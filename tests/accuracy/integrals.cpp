@@ -7,9 +7,9 @@
 #include <numbers>
 #include <ostream>
 
-#include "support/random_configurations.h"
 #include "sections.h"
 #include "steradian/phong.h"
+#include "support/random_configurations.h"
 
 namespace steradian::accuracy {
 namespace {

@@ -5,7 +5,6 @@
 #include <ostream>
 #include <vector>
 
-#include "support/random_rectangles.h"
 #include "fit/textured_error.h"
 #include "sections.h"
 #include "steradian/closed_form.h"
@@ -14,6 +13,7 @@
 #include "steradian/ltc.h"
 #include "steradian/phong.h"
 #include "steradian/reference.h"
+#include "support/random_rectangles.h"
 
 namespace steradian::accuracy {
 namespace {

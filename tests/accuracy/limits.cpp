@@ -5,9 +5,9 @@
 #include <ostream>
 #include <vector>
 
-#include "support/random_configurations.h"
 #include "sections.h"
 #include "steradian/radiance.h"
+#include "support/random_configurations.h"
 
 namespace steradian::accuracy {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <ostream>
 
-#include "support/random_squares.h"
 #include "sections.h"
 #include "steradian/radiance.h"
+#include "support/random_squares.h"
 
 namespace steradian::accuracy {
 

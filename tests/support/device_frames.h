@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "device/frame/frame.h"
+#include "device/vulkan/device.h"
 #include "night.h"
 #include "paths.h"
-#include "device/vulkan/device.h"
-#include "device/frame/frame.h"
-#include "support/meshes.h"
 #include "steradian/load_scene.h"
+#include "support/meshes.h"
 
 namespace steradian::vulkan {
 

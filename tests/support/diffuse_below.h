@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/random_squares.h"
 #include "steradian/kernels.h"
 #include "steradian/reference.h"
+#include "support/random_squares.h"
 
 namespace steradian::reference {
 
@@ -16,7 +16,7 @@ struct DiffuseBelowErrors {
   double constant = 0;  // the weight 1 - F0 in every direction
 };
 
-// The walk of kernels/polygon.glsl, and the result from its irradiance vector.
+// The walk of kernels/outline/polygon.glsl, and the result from its irradiance vector.
 inline double diffuse_below(const PreparedPolygon& light, const ShadingPoint& at, double loss) {
   Kernels<double> k;
   const Frame frame = Frame::from_normal(at.normal);

@@ -1,8 +1,8 @@
 // For tests: a picture with exact shadows, and the pictures that judge it.
 #pragma once
 
-#include "support/z_test.h"
 #include "steradian/render.h"
+#include "support/z_test.h"
 
 namespace steradian {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "support/meshes.h"
 #include "steradian/compare.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
 
 namespace steradian::indirect {
 

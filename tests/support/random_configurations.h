@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "lobes/samplers.h"
 #include "core/random.h"
+#include "lobes/samplers.h"
 #include "steradian/reference.h"
 
 namespace steradian::reference {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "lobes/samplers.h"
 #include "core/random.h"
+#include "lobes/samplers.h"
 #include "steradian/reference.h"
 
 namespace steradian::ggx {

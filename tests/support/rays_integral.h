@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "shadow/region/light_frame.h"
 #include "shadow/edges/segments.h"
+#include "shadow/region/light_frame.h"
 #include "shadow/region/visible.h"
 
 namespace steradian::shadow {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/random.h"
-#include "support/random_configurations.h"
 #include "shadow/edges/edges.h"
 #include "shadow/edges/segments.h"
 #include "steradian/polygon_light.h"
+#include "support/random_configurations.h"
 
 namespace steradian::shadow::families {
 

@@ -2,11 +2,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bench/studies/table2.h"
 #include "render/direct/closed_form.h"
 #include "render/direct/ltc_points.h"
 #include "render/direct/phong.h"
 #include "render/direct/sheen.h"
-#include "bench/studies/table2.h"
 
 namespace steradian {
 namespace {

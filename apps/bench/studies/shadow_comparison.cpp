@@ -5,14 +5,14 @@
 #include <cmath>
 #include <functional>
 
+#include "bench/studies/shadow_clipping.h"
 #include "render/surface/ray_scene.h"
 #include "shadow/edges/edge_arrays.h"
-#include "support/shadow_families.h"
-#include "support/rays_integral.h"
 #include "shadow/region/visible_part.h"
 #include "steradian/ltc.h"
 #include "steradian/polygon_derivatives.h"
-#include "bench/studies/shadow_clipping.h"
+#include "support/rays_integral.h"
+#include "support/shadow_families.h"
 
 namespace steradian::studies {
 namespace {

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <functional>
 
-#include "bench/run.h"
-#include "core/float_mode.h"
 #include "bench/phong_plane.h"
+#include "bench/run.h"
 #include "bench/studies/phong_baselines.h"
+#include "core/float_mode.h"
 
 namespace steradian::moment {
 namespace {

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/phong_plane.h"
+#include "bench/studies/line_plot.h"
+#include "bench/studies/table2.h"
 #include "core/files.h"
 #include "core/float_mode.h"
 #include "integrals/phong/phong.h"
-#include "bench/studies/line_plot.h"
-#include "bench/phong_plane.h"
-#include "bench/studies/table2.h"
 #include "steradian/picture.h"
 
 namespace steradian::moment {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "eval/shadowed.h"
 #include "integrals/curved_light.h"
 #include "integrals/point_light.h"
-#include "eval/shadowed.h"
 #include "steradian/error.h"
 #include "steradian/polygon_derivatives.h"
 

@@ -10,8 +10,8 @@
 
 #include "eval/answer.h"
 #include "lobes/lobe.h"
-#include "support/random_configurations.h"
 #include "steradian/capsule_light.h"
+#include "support/random_configurations.h"
 
 namespace steradian::eval::capsule_light_test {
 namespace {

@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "integrals/tables/table.h"
 #include "integrals/methods.h"
+#include "integrals/tables/table.h"
 #include "shadow/region/visible_part.h"
 #include "shapes/shape.h"
-#include "steradian/material.h"
 #include "steradian/area_light.h"
+#include "steradian/material.h"
 
 namespace steradian::eval {
 

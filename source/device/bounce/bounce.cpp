@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/budget.h"
-#include "render/bounce/receivers/filter.h"
-#include "render/bounce/lighting.h"
 #include "device/vulkan/shaders.h"
+#include "render/bounce/lighting.h"
+#include "render/bounce/receivers/filter.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "support/memory.h"
+#include "device/frame/frame.h"
 #include "night.h"
 #include "paths.h"
-#include "support/mixed_corner.h"
-#include "device/frame/frame.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "steradian/render_cache.h"
+#include "support/memory.h"
+#include "support/mixed_corner.h"
 
 namespace steradian::vulkan::bounce_test {
 namespace {

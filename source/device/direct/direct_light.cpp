@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "render/lights/light_bounds.h"
-#include "render/direct/ltc_points.h"
 #include "device/vulkan/shaders.h"
+#include "render/direct/ltc_points.h"
+#include "render/lights/light_bounds.h"
 #include "scene/table_file.h"
 #include "shapes/small_light.h"
 #include "steradian/error.h"
@@ -215,8 +215,6 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
 }
 
 bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
-
-bool DirectLight::has(const DirectMethod& method) { return shader_of(method) != kDiffuse; }
 
 bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
 

@@ -21,9 +21,6 @@ void check_device(const DeviceInfo& device);
 
 class DirectLight {
  public:
-  // Returns true if the shaders have the lobes of metallic-roughness surfaces by this method; else only diffuse light and sheen.
-  static bool has(const DirectMethod& method);
-
   // Objects on the device, for any number of pictures in turn. The device must outlive them. Throws Error if the device lacks something.
   struct Kept {
     explicit Kept(const Device& device);

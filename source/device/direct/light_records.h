@@ -1,4 +1,4 @@
-// Lights in the layout of shaders: shaders/lights.glsl.
+// Lights as shaders read them: records, and the details beside them.
 #pragma once
 
 #include <array>
@@ -9,6 +9,8 @@
 #include "render/lights/light_list.h"
 
 namespace steradian::vulkan {
+
+// Lights in the layout of shaders: shaders/lights.glsl.
 
 using Vec4Floats = std::array<float, 4>;
 
@@ -35,9 +37,8 @@ struct LightRecords {
   void keep(std::size_t lights, std::size_t vertices);                // keeps the first ones
 };
 
-// Details of lights beside their records, in the layout of shaders: textures (shaders/light_textures.glsl) and measured profiles
+// Details of lights beside their records, in the layout of shaders: textures (shaders/light_textures.glsl) and profiles
 // (shaders/light_profiles.glsl).
-
 class LightDetails {
  public:
   // Stores the details of the first lights as far as the capacity allows.

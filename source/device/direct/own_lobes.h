@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "device/direct/light_records.h"
 #include "render/frame/methods.h"
 #include "render/tile/tile.h"
-#include "device/direct/light_records.h"
 #include "steradian/phong.h"
 #include "steradian/scene.h"
 

@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "core/float_mode.h"
+#include "device/frame/kept_on_device.h"
+#include "render/bounce/pipeline.h"
 #include "render/frame/frame_surfaces.h"
-#include "render/lights/light_bounds.h"
 #include "render/frame/methods.h"
 #include "render/frame/tile_lighting.h"
-#include "render/bounce/pipeline.h"
-#include "device/frame/kept_on_device.h"
+#include "render/lights/light_bounds.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {

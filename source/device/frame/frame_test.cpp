@@ -6,10 +6,10 @@
 #include <numbers>
 #include <tuple>
 
-#include "support/memory.h"
 #include "night.h"
-#include "support/device_frames.h"
 #include "steradian/error.h"
+#include "support/device_frames.h"
+#include "support/memory.h"
 
 namespace steradian::vulkan::frame_test {
 namespace {
@@ -166,7 +166,7 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
     const Scene scene = scene_of(name);
     const double share = expect_same(std::string(name) + ", shadows", scene, options);
     std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
-    EXPECT_LE(share, 0.05) << name;
+    EXPECT_LE(share, 0.01) << name;  // a few points see thin regions
   }
   // Coats under bumps see other parts of lights than the layers below them.
   Scene scene = everything();
@@ -191,7 +191,10 @@ TEST_F(VulkanFrame, FindsTheVisiblePartsOfPolygons) {
   options.method = "ltc-compact";
   // A few points see thin regions.
   EXPECT_LE(expect_same("40 triangles", under_triangles(40), options), 0.01);
-  EXPECT_LE(expect_same("200 triangles", under_triangles(200), options), 0.15);
+  // A tenth of the points see more crossings than a subgroup has space for: kCrossings of shaders/shadow_turns.glsl.
+  const double many = expect_same("200 triangles", under_triangles(200), options);
+  EXPECT_GT(many, 0);
+  EXPECT_LE(many, 0.15);
   // The light crosses the triangles, which leave sections in its plane.
   const Scene crossed = under_triangles(12, Polygon{{{-1, 0.5, -1}, {1, 2.5, -1}, {1, 2.5, 1}, {-1, 0.5, 1}}, {}});
   EXPECT_EQ(expect_same("12 across", crossed, options), 0);
@@ -234,7 +237,7 @@ TEST_F(VulkanFrame, FindsPartsBehindManyEdges) {
   for (const auto& [name, light, spread] : lights) {
     const double share = expect_same(name, under_triangles(90, light, spread), options);
     std::printf("%s: %.2f %% of the parts by the host\n", name, 100 * share);
-    EXPECT_LE(share, 0.5) << name;
+    EXPECT_LE(share, 0.01) << name;  // a few points see thin regions
   }
 }
 

@@ -7,8 +7,8 @@
 
 #include "device/bounce/bounce.h"
 #include "device/direct/direct_light.h"
-#include "device/surface/raster_surfaces.h"
 #include "device/shadow/shadows.h"
+#include "device/surface/raster_surfaces.h"
 
 namespace steradian::vulkan {
 

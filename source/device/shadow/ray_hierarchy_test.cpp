@@ -9,11 +9,11 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "device/shadow/scene_rays.h"
+#include "device/vulkan/compute_program.h"
+#include "device/vulkan/shaders.h"
 #include "paths.h"
 #include "render/surface/ray_scene.h"
-#include "device/vulkan/compute_program.h"
-#include "device/shadow/scene_rays.h"
-#include "device/vulkan/shaders.h"
 #include "shadow/rays/triangle_rays.h"
 #include "steradian/load_scene.h"
 

@@ -1,4 +1,4 @@
-// The triangles of a scene that cast exact shadows, sorted for the rays of a device.
+// Rays on a device: the sorted triangles of a scene, and the first hits of a shadow map's rays.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,8 @@
 #include "steradian/scene.h"
 
 namespace steradian::vulkan {
+
+// The triangles of a scene that cast exact shadows, sorted for the rays of a device.
 
 class SceneRays {
  public:

@@ -7,8 +7,8 @@
 #include <deque>
 #include <vector>
 
-#include "render/shadow/taker.h"
 #include "device/direct/light_records.h"
+#include "render/shadow/taker.h"
 
 namespace steradian::vulkan {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "render/surface/gbuffer.h"
-#include "render/lights/light_bounds.h"
 #include "device/vulkan/shaders.h"
+#include "render/lights/light_bounds.h"
+#include "render/surface/gbuffer.h"
 
 namespace steradian::vulkan {
 namespace {

@@ -4,10 +4,10 @@
 #include <map>
 #include <string>
 
-#include "render/tile/tile.h"
-#include "device/vulkan/compute_program.h"
 #include "device/direct/direct_light.h"
 #include "device/surface/visibility.h"
+#include "device/vulkan/compute_program.h"
+#include "render/tile/tile.h"
 #include "steradian/render.h"
 
 namespace steradian::vulkan {

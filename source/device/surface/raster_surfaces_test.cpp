@@ -10,13 +10,13 @@
 #include <cstdio>
 #include <random>
 
+#include "device/frame/frame.h"
 #include "night.h"
 #include "paths.h"
 #include "render/frame/frame_surfaces.h"
-#include "device/frame/frame.h"
-#include "support/meshes.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "support/meshes.h"
 
 namespace steradian::vulkan::raster_surfaces_test {
 namespace {

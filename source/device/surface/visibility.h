@@ -4,8 +4,8 @@
 #include <array>
 #include <memory>
 
-#include "render/surface/camera_rays.h"
 #include "device/surface/scene_buffers.h"
+#include "render/surface/camera_rays.h"
 
 namespace steradian::vulkan {
 

@@ -1,4 +1,4 @@
-// A buffer that both the host and shaders read and write.
+// Buffers of a device: Buffer, and KeptBuffer, which stays from picture to picture.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,8 @@
 #include "device/vulkan/device.h"
 
 namespace steradian::vulkan {
+
+// A buffer that both the host and shaders read and write.
 
 // Main use by the host: memory near the device is slow for the host to read.
 enum class BufferUse { host_writes, host_reads };

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/budget.h"
+#include "device/direct/direct_light.h"
 #include "device/vulkan/buffer.h"
 #include "device/vulkan/compute_program.h"
-#include "device/direct/direct_light.h"
 #include "device/vulkan/handles.h"
 #include "device/vulkan/shaders.h"
 #include "steradian/error.h"

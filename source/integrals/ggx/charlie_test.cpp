@@ -7,13 +7,13 @@
 
 #include "core/simd.h"
 #include "lobes/charlie.h"
-#include "support/random_configurations.h"
-#include "support/random_squares.h"
 #include "render/direct/sheen.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"
 #include "steradian/ltc.h"
 #include "steradian/radiance.h"
+#include "support/random_configurations.h"
+#include "support/random_squares.h"
 
 namespace steradian::charlie_test {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "support/random_rectangles.h"
-#include "support/random_configurations.h"
 #include "render/direct/closed_form.h"
 #include "steradian/error.h"
+#include "support/random_configurations.h"
+#include "support/random_rectangles.h"
 
 namespace steradian::closed_form_test {
 namespace {

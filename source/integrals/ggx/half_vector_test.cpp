@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "support/random_rectangles.h"
-#include "support/random_configurations.h"
 #include "steradian/closed_form.h"
 #include "steradian/error.h"
+#include "support/random_configurations.h"
+#include "support/random_rectangles.h"
 
 namespace steradian::half_vector_test {
 namespace {

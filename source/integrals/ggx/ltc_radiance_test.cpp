@@ -8,10 +8,10 @@
 #include "core/random.h"
 #include "fit/lobe.h"
 #include "integrals/tables/ggx_tables.h"
-#include "support/random_configurations.h"
 #include "render/direct/ltc_points.h"
 #include "steradian/error.h"
 #include "steradian/ltc.h"
+#include "support/random_configurations.h"
 
 namespace steradian::ltc_radiance_test {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "support/random_configurations.h"
 #include "steradian/error.h"
 #include "steradian/phong.h"
+#include "support/random_configurations.h"
 
 namespace steradian::foreshortened_test {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "core/float_mode.h"
-#include "support/adversarial_quads.h"
-#include "integrals/phong/phong.h"
 #include "bench/studies/table2.h"
+#include "core/float_mode.h"
+#include "integrals/phong/phong.h"
 #include "render/direct/phong.h"
 #include "steradian/phong.h"
+#include "support/adversarial_quads.h"
 
 namespace steradian::phong_fuzz_test {
 namespace {

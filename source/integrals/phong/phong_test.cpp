@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "night.h"
+#include "steradian/error.h"
 #include "support/adversarial_quads.h"
 #include "support/random_configurations.h"
-#include "steradian/error.h"
 
 namespace steradian::phong_test {
 namespace {

@@ -1,4 +1,4 @@
-// Half precision: 1 sign, 5 exponent, 10 fraction bits. Rounds to nearest, ties to even; overflow goes to infinity.
+// Tables of linearly transformed cosines, and the half precision in which they are stored.
 #pragma once
 
 #include <array>
@@ -11,6 +11,8 @@
 #include "steradian/shading_point.h"
 
 namespace steradian {
+
+// Half precision: 1 sign, 5 exponent, 10 fraction bits. Rounds to nearest, ties to even; overflow goes to infinity.
 
 std::uint16_t half_from_float(float x);
 float float_from_half(std::uint16_t bits);
@@ -30,7 +32,7 @@ enum class ClassicNormalisation { middle, last };
 
 // Two textures as engines sample them: roughness along a row, sqrt(1 - cos theta) from row to row, nodes on the ends.
 //   matrix     M^-1 over its middle element: column 0 row 0, column 0 row 2, column 2 row 0, column 2 row 2
-//   magnitude  n_A, f_A, 0, form factor of a sphere clipped by the horizon (see clipped_sphere.h)
+//   magnitude  n_A, f_A, 0, form factor of a sphere clipped by the horizon (clipped_sphere_form_factor)
 struct ClassicTable {
   int size = 0;
   std::vector<std::array<float, 4>> matrix;

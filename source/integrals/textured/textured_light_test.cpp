@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "integrals/tables/ggx_tables.h"
-#include "fit/textured_error.h"
 #include "core/random.h"
+#include "fit/textured_error.h"
+#include "integrals/tables/ggx_tables.h"
 #include "steradian/kernels.h"
 
 namespace steradian::textured_light_test {

@@ -1,3 +1,5 @@
+// The methods of the plane for comparison: the literature's heuristic `par`, and rays, `sampled` and `marched`.
+//
 // Qiu, "Probabilistic Angular Radiance": the published heuristic, as written.
 //
 // Every body is the convex hull of its outline, represented by the chord between its two tangent vertices. Two key rays decide which of two
@@ -6,9 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include "plane/exact/world.h"
+
 #include "plane/exact/emission.h"
 #include "plane/exact/mean_over_directions.h"
+#include "plane/exact/world.h"
 
 namespace steradian::plane {
 namespace {

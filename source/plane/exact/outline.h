@@ -1,4 +1,4 @@
-// Outlines: the segments and arcs of bodies, which rays can hit.
+// Outlines of bodies, and the crossings of their curves.
 #pragma once
 
 #include <vector>
@@ -6,6 +6,8 @@
 #include "steradian/plane.h"
 
 namespace steradian::plane {
+
+// Outlines: the segments and arcs of bodies, which rays can hit.
 
 // An ellipse as the image of the unit circle: center + x cos(tau) + y sin(tau).
 struct Ellipse {

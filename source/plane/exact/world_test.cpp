@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "plane/exact/emission.h"
-#include "support/plane_families.h"
 #include "plane/exact/outline.h"
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
 #include "steradian/error.h"
+#include "support/plane_families.h"
 
 namespace steradian::plane::world_test {
 namespace {

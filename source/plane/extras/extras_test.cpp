@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "night.h"
-#include "support/plane_families.h"
 #include "plane/exact/random.h"
 #include "plane/extras/trace.h"
 #include "steradian/error.h"
 #include "steradian/plane_bounce.h"
 #include "steradian/plane_normals.h"
 #include "steradian/plane_stage.h"
+#include "support/plane_families.h"
 
 namespace steradian::plane::extras_test {
 namespace {

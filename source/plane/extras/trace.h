@@ -1,4 +1,4 @@
-// Fraction of light that remains after a straight path through bodies that transmit or absorb it.
+// Rays through extras: the fraction that a path leaves, and whole rays.
 #pragma once
 
 #include <span>
@@ -7,6 +7,8 @@
 #include "plane/exact/world.h"
 
 namespace steradian::plane {
+
+// Fraction of light that remains after a straight path through bodies that transmit or absorb it.
 
 // Bodies that hold a point.
 struct Start {

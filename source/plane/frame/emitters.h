@@ -1,4 +1,4 @@
-// Emitters of a light: whole disks, sides of edges, arcs of ellipses.
+// Emitters of a frame: those of lights, and walls that reflect.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,8 @@
 #include "plane/frame/scene.h"
 
 namespace steradian::plane {
+
+// Emitters of a light: whole disks, sides of edges, arcs of ellipses.
 
 // Emitters of a light, each with a radiance that is linear in the place on it, and the runs of its edges (runs.h). Empty for ellipses so
 // thin that packs would lose them in rounding.

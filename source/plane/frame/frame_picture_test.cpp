@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "support/plane_families.h"
 #include "steradian/plane.h"
+#include "support/plane_families.h"
 
 namespace steradian::plane::frame_picture_test {
 

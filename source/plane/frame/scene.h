@@ -8,12 +8,12 @@
 #include <functional>
 #include <vector>
 
-#include "plane/frame/tiles/cull.h"
-#include "plane/frame/events/events.h"
-#include "plane/frame/tiles/interior.h"
-#include "plane/frame/runs/silhouette.h"
 #include "core/budget.h"
 #include "plane/exact/world.h"
+#include "plane/frame/events/events.h"
+#include "plane/frame/runs/silhouette.h"
+#include "plane/frame/tiles/cull.h"
+#include "plane/frame/tiles/interior.h"
 
 namespace steradian::plane {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "plane/frame/emitters.h"
-#include "plane/stage/preparation.h"
 #include "plane/frame/runs/reaching.h"
+#include "plane/stage/preparation.h"
 
 namespace steradian::plane {
 

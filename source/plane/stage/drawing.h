@@ -1,4 +1,4 @@
-// The scenes of the frame benches: circular lights among random boxes.
+// Scenes that the benches make: fields of lights and boxes, and drawings.
 #pragma once
 
 #include <string>
@@ -7,6 +7,8 @@
 #include "steradian/plane.h"
 
 namespace steradian::plane {
+
+// The scenes of the frame benches: circular lights among random boxes.
 
 struct LightField {
   int lights, boxes;

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "plane/frame/tiles/blocker_bins.h"
 #include "plane/frame/scene.h"
+#include "plane/frame/tiles/blocker_bins.h"
 
 namespace steradian::plane {
 

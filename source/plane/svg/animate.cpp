@@ -13,8 +13,8 @@
 #include "core/budget.h"
 #include "plane/svg/document.h"
 #include "plane/svg/path.h"
-#include "plane/svg/timing.h"
 #include "plane/svg/style/values.h"
+#include "plane/svg/timing.h"
 #include "steradian/error.h"
 #include "steradian/plane_animation.h"
 

@@ -1,8 +1,8 @@
 // Drawings at a time: timing, values, transforms and motions of SMIL.
 #include <gtest/gtest.h>
 
-#include "plane/svg/timing.h"
 #include "plane/svg/style/values.h"
+#include "plane/svg/timing.h"
 #include "steradian/plane_animation.h"
 
 namespace steradian::plane::svg::animate_test {

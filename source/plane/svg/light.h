@@ -1,4 +1,4 @@
-// Glass, mirrors, translucent stones, and lines with colours along them.
+// Light in a drawing: the emission of an element, and effects of extras.
 #pragma once
 
 #include <vector>
@@ -7,6 +7,8 @@
 #include "steradian/plane.h"
 
 namespace steradian::plane::svg {
+
+// Glass, mirrors, translucent stones, and lines with colours along them.
 
 // Reads the effects of an occluder on light besides blocking. Throws Error with the element's line if its shape does not support them.
 void take_extras(const Document& document, pugi::xml_node n, const Style& style, PlaneBody& body);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/plane_families.h"
 #include "plane/exact/outline.h"
 #include "plane/exact/random.h"
 #include "plane/svg/stroke.h"
 #include "steradian/error.h"
 #include "steradian/plane.h"
+#include "support/plane_families.h"
 
 namespace steradian::plane::load_test {
 namespace {

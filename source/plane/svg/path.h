@@ -1,4 +1,4 @@
-// The d attribute of a path.
+// Outlines of SVG's shapes, and the d attribute of a path.
 #pragma once
 
 #include <string_view>
@@ -7,6 +7,8 @@
 #include "plane/svg/document.h"
 
 namespace steradian::plane::svg {
+
+// The d attribute of a path.
 
 // Draws path data. Throws std::string with a description of the error.
 void draw_path(std::string_view data, Pen& pen);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
 #include "render/bounce/cull.h"
 #include "render/bounce/virtual_lights.h"
-#include "core/random.h"
 
 namespace steradian::indirect::cull_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/bounce/receivers/blue_noise.h"
 #include "core/random.h"
+#include "render/bounce/receivers/blue_noise.h"
 #include "steradian/kernels.h"
 
 namespace steradian::indirect {

@@ -1,7 +1,7 @@
 #include "render/bounce/pairs.h"
 
-#include "render/bounce/receivers/arrays_pack.h"
 #include "render/bounce/lobe_pack.h"
+#include "render/bounce/receivers/arrays_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {

@@ -5,8 +5,8 @@
 
 #include "render/bounce/passes.h"
 #include "render/bounce/receivers/receivers.h"
-#include "render/surface/gbuffer.h"
 #include "render/direct/ltc_points.h"
+#include "render/surface/gbuffer.h"
 #include "steradian/render.h"
 
 namespace steradian::indirect {

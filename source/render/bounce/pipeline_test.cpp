@@ -8,11 +8,11 @@
 #include "render/bounce/receivers/blue_noise.h"
 #include "render/bounce/receivers/filter.h"
 #include "render/bounce/receivers/light_receivers.h"
-#include "support/mixed_corner.h"
 #include "render/bounce/true_light.h"
 #include "render/surface/camera_rays.h"
 #include "steradian/compare.h"
 #include "steradian/render.h"
+#include "support/mixed_corner.h"
 
 namespace steradian::indirect::pipeline_test {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "integrals/tables/ggx_tables.h"
 #include "fit/lobe.h"
+#include "integrals/tables/ggx_tables.h"
 #include "steradian/kernels.h"
 
 namespace steradian::indirect {

@@ -1,8 +1,8 @@
 // Ground truth of the bounce at one receiver, in double: the sum over all virtual lights, and path tracing.
 #pragma once
 
-#include "render/bounce/virtual_lights.h"
 #include "core/random.h"
+#include "render/bounce/virtual_lights.h"
 #include "render/sampled/monte_carlo.h"
 #include "render/surface/surface.h"
 

@@ -8,11 +8,11 @@
 
 #include "lobes/lobe.h"
 #include "render/surface/camera_rays.h"
-#include "support/meshes.h"
 #include "steradian/closed_form.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/ltc.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
 
 namespace steradian::diffuse_below_test {
 namespace {

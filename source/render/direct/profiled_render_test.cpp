@@ -5,13 +5,13 @@
 #include <memory>
 #include <tuple>
 
-#include "render/surface/camera_rays.h"
 #include "render/direct/irradiance.h"
-#include "render/lights/light_list.h"
 #include "render/frame/uneven_diffuse.h"
-#include "support/meshes.h"
+#include "render/lights/light_list.h"
+#include "render/surface/camera_rays.h"
 #include "steradian/radiance.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
 
 namespace steradian::profiled_render_test {
 namespace {

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "integrals/textured/textured_light.h"
-#include "support/random_configurations.h"
 #include "render/tile/tile.h"
+#include "support/random_configurations.h"
 
 namespace steradian::textured_means_test {
 namespace {

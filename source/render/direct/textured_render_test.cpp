@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "support/z_test.h"
+#include "paths.h"
 #include "render/surface/camera_rays.h"
-#include "support/meshes.h"
 #include "steradian/compare.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
-#include "paths.h"
+#include "support/meshes.h"
+#include "support/z_test.h"
 
 namespace steradian::textured_render_test {
 namespace {

@@ -1,4 +1,4 @@
-// DirectionGrid: an environment's map for integrals. It is constant over each of its texels, whose solid angles it knows.
+// An environment's map over directions: DirectionGrid for integrals, EnvironmentSampler for the reference methods.
 #pragma once
 
 #include <cmath>
@@ -8,6 +8,8 @@
 #include "steradian/environment.h"
 
 namespace steradian::environment {
+
+// DirectionGrid: an environment's map for integrals. It is constant over each of its texels, whose solid angles it knows.
 
 struct DirectionGrid {
   Picture map;

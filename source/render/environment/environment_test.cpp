@@ -7,12 +7,12 @@
 
 #include "core/random.h"
 #include "night.h"
-#include "support/z_test.h"
-#include "support/random_configurations.h"
 #include "render/environment/environment_light.h"
-#include "support/meshes.h"
 #include "steradian/area_light.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
+#include "support/random_configurations.h"
+#include "support/z_test.h"
 
 namespace steradian::environment_test {
 namespace {

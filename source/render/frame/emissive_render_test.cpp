@@ -1,8 +1,8 @@
 // Surfaces that shine and reflect are not lit by their own light.
 #include <gtest/gtest.h>
 
-#include "support/meshes.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
 
 namespace steradian::emissive_render_test {
 namespace {

@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "integrals/methods.h"
-#include "support/random_configurations.h"
 #include "render/direct/closed_form.h"
 #include "render/direct/comparison.h"
 #include "render/direct/half_vector.h"
 #include "render/direct/phong.h"
 #include "steradian/ellipse_light.h"
+#include "support/random_configurations.h"
 
 namespace steradian::lobe_packs_test {
 namespace {

@@ -15,11 +15,11 @@
 #include "core/float_mode.h"
 #include "render/bounce/pipeline.h"
 #include "render/frame/frame_surfaces.h"
-#include "render/surface/gbuffer.h"
 #include "render/frame/methods.h"
-#include "render/sampled/monte_carlo.h"
-#include "render/tile/pass_clock.h"
 #include "render/frame/tile_lighting.h"
+#include "render/sampled/monte_carlo.h"
+#include "render/surface/gbuffer.h"
+#include "render/tile/pass_clock.h"
 #include "steradian/error.h"
 
 namespace steradian {

@@ -6,17 +6,17 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "support/z_test.h"
 #include "core/simd.h"
 #include "render/surface/camera_rays.h"
-#include "support/meshes.h"
 #include "steradian/albedo.h"
 #include "steradian/capsule_light.h"
-#include "steradian/ellipse_light.h"
 #include "steradian/closed_form.h"
+#include "steradian/ellipse_light.h"
 #include "steradian/error.h"
 #include "steradian/ltc.h"
 #include "steradian/radiance.h"
+#include "support/meshes.h"
+#include "support/z_test.h"
 
 namespace steradian::render_test {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "render/lights/light_list.h"
 #include "render/direct/ltc_points.h"
 #include "render/frame/methods.h"
+#include "render/lights/light_list.h"
 #include "render/surface/surface.h"
 #include "render/tile/tile.h"
 #include "steradian/reference.h"

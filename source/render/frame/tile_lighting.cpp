@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "render/direct/direct.h"
-#include "render/surface/gbuffer.h"
 #include "render/frame/uneven_diffuse.h"
+#include "render/surface/gbuffer.h"
 
 namespace steradian {
 namespace {

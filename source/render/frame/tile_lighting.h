@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "render/frame/methods.h"
+#include "render/frame/specular.h"
 #include "render/lights/light_list.h"
 #include "render/many/many_light_pass.h"
-#include "render/frame/methods.h"
-#include "render/tile/pass_clock.h"
-#include "render/surface/ray_scene.h"
 #include "render/shadow/pass.h"
-#include "render/frame/specular.h"
+#include "render/surface/ray_scene.h"
+#include "render/tile/pass_clock.h"
 #include "steradian/render.h"
 
 namespace steradian {

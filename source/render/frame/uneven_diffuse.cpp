@@ -1,7 +1,7 @@
 #include "render/frame/uneven_diffuse.h"
 
-#include "integrals/textured/textured_light.h"
 #include "integrals/textured/profiled_light.h"
+#include "integrals/textured/textured_light.h"
 #include "render/direct/irradiance.h"
 #include "render/direct/textured_means.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrals/textured/textured_light.h"
 #include "integrals/textured/profiled_light.h"
+#include "integrals/textured/textured_light.h"
 #include "render/lights/light_bounds.h"
 #include "steradian/error.h"
 

@@ -32,7 +32,7 @@ struct PackLight {
   bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }
   bool is_even() const { return textured == nullptr && profiled == nullptr; }  // one radiance everywhere
   bool is_area() const { return !std::holds_alternative<packed::Punctual>(shape); }
-  bool is_pieces() const { return std::holds_alternative<packed::Pieces>(shape); }  // for the points of one tile (shadow_tile.h)
+  bool is_pieces() const { return std::holds_alternative<packed::Pieces>(shape); }  // for the points of one tile (shadow/tile.h)
   bool is_round() const { return is_area() && !is_polygon() && !is_pieces(); }
 
   // Calls use(shape) with the shape of a round light.

@@ -1,4 +1,4 @@
-// ReceiverSet: surface points whose diffuse light is summed together, of one tile or of many.
+// Receivers of many lights, and Cell, in which far lights light neighbouring receivers together.
 #pragma once
 
 #include <array>
@@ -14,6 +14,8 @@
 #include "steradian/vector.h"
 
 namespace steradian::lights {
+
+// ReceiverSet: surface points whose diffuse light is summed together, of one tile or of many.
 
 struct Receiver {
   Vec3f position, normal, albedo;

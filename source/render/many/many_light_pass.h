@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "render/surface/gbuffer.h"
 #include "render/lights/light_list.h"
 #include "render/many/many_lights.h"
+#include "render/surface/gbuffer.h"
 #include "steradian/render.h"
 
 namespace steradian {

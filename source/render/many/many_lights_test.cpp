@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "night.h"
-#include "support/meshes.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
 
 namespace steradian::many_lights_test {
 namespace {

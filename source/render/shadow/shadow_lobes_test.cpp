@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "night.h"
-#include "support/z_test.h"
-#include "support/judged_pictures.h"
 #include "render/surface/camera_rays.h"
-#include "support/meshes.h"
 #include "steradian/render.h"
+#include "support/judged_pictures.h"
+#include "support/meshes.h"
+#include "support/z_test.h"
 
 namespace steradian::shadow_lobes_test {
 namespace {

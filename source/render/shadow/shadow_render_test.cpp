@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/z_test.h"
+#include "steradian/render.h"
 #include "support/judged_pictures.h"
 #include "support/meshes.h"
-#include "steradian/render.h"
+#include "support/z_test.h"
 
 namespace steradian::shadow_render_test {
 namespace {

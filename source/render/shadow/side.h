@@ -1,4 +1,4 @@
-// A side of a light as shadows see it: that of a flat light, or the polygon that stands for a round light seen from one point.
+// A side of a light as shadows use it, and the fraction of it that rays find visible.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,8 @@
 #include "shadow/region/visible.h"
 
 namespace steradian {
+
+// A side of a light as shadows see it: that of a flat light, or the polygon that stands for a round light seen from one point.
 
 // Number of corners of polygons that stand for round lights. Penumbrae are then 4.5e-5 rms off.
 inline constexpr int kRoundCorners = 24;

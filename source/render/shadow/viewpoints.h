@@ -1,4 +1,4 @@
-// Groups: neighbouring surface points whose shadows are computed together.
+// The points of a tile as shadows use them, and their groups.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,8 @@
 #include "steradian/vector.h"
 
 namespace steradian {
+
+// Groups: neighbouring surface points whose shadows are computed together.
 
 // Slots of a tile in groups of 8 x 8 pixels, split at depth gaps: a shaft around both sides of a depth edge contains too much. Clusters are
 // groups without a gap between them.

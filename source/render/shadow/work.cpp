@@ -1,4 +1,4 @@
-// The shadow pass for sixteen points at a time.
+// The shadow pass for the points of a group: sixteen at a time, before round lights, and one by one.
 #include "render/shadow/work.h"
 
 #include <algorithm>

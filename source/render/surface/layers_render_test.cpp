@@ -1,8 +1,8 @@
 // Surfaces that let light from behind pass: blended ones and thin walls.
 #include <gtest/gtest.h>
 
-#include "support/meshes.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
 
 namespace steradian::layers_render_test {
 namespace {

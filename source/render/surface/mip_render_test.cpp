@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "support/random_configurations.h"
 #include "render/surface/camera_rays.h"
 #include "render/surface/surface.h"
-#include "support/meshes.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
+#include "support/random_configurations.h"
 
 namespace steradian::mip_render_test {
 namespace {

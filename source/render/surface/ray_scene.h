@@ -1,4 +1,4 @@
-// RayScene: intersection of rays with a scene, on Embree.
+// RayScene, the rays of a scene, and SceneParts, all structures over its meshes.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +17,8 @@
 #include "steradian/scene.h"
 
 namespace steradian {
+
+// RayScene: intersection of rays with a scene, on Embree.
 
 // Meshes that may block a ray, never shapes of lights: every mesh; meshes whose edges cast exact shadows; cut-outs, which have no edges.
 enum class Casters { all, with_edges, cut_outs };

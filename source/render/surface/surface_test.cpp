@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "support/z_test.h"
 #include "render/surface/camera_rays.h"
-#include "support/meshes.h"
 #include "steradian/closed_form.h"
 #include "steradian/render.h"
+#include "support/meshes.h"
+#include "support/z_test.h"
 
 namespace steradian::surface_test {
 namespace {

@@ -1,4 +1,4 @@
-// SurfaceTile: the G-buffer of one tile, as a structure of arrays that packs read.
+// Surfaces as packs read them: SurfaceTile, the G-buffer of a tile, and Points.
 #pragma once
 
 #include <array>
@@ -8,6 +8,8 @@
 #include "steradian/vector.h"
 
 namespace steradian {
+
+// SurfaceTile: the G-buffer of one tile, as a structure of arrays that packs read.
 
 struct SurfaceMaterial;
 

@@ -1,4 +1,4 @@
-// Faces of flat lights. Points on a light's visible face, which other lights illuminate, lie exactly in the plane that emits.
+// Emissive meshes as lights, and how exactly points lie on a flat light's face.
 #pragma once
 
 #include "core/budget.h"
@@ -6,6 +6,8 @@
 #include "steradian/scene.h"
 
 namespace steradian::scene {
+
+// Faces of flat lights. Points on a light's visible face, which other lights illuminate, lie exactly in the plane that emits.
 
 // The largest distance in float by which a point on a flat light's face may seem to be off its plane; 0 for a round light.
 //

@@ -7,11 +7,11 @@
 
 #include "scene/affine.h"
 #include "scene/framing.h"
-#include "support/gltf_test_file.h"
-#include "support/meshes.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
+#include "support/meshes.h"
 
 namespace steradian::scene::emitters_test {
 namespace {

@@ -1,10 +1,11 @@
-#include "scene/emitters/fit_round.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "scene/emitters/fit_round.h"
 #include "scene/emitters/symmetric_matrix.h"
 #include "steradian/capsule_light.h"
-#include <limits>
 #include "steradian/vector.h"
 
 namespace steradian::scene {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "scene/emitters/emitters.h"
-#include "support/gltf_test_file.h"
-#include "support/meshes.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
+#include "support/meshes.h"
 
 namespace steradian::scene::keep_strongest_test {
 namespace {

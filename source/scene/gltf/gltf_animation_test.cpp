@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::scene::gltf_animation_test {
 namespace {

@@ -1,4 +1,4 @@
-// Facts that a glTF file states about its extensions. They are read before everything else.
+// GltfDocument, and the extensions that a document uses.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,8 @@
 #include "steradian/load_scene.h"
 
 namespace steradian::scene {
+
+// Facts that a glTF file states about its extensions. They are read before everything else.
 
 // Throws Error for an extension that the file requires and that is not supported.
 void check_required_extensions(const JsonCursor& root);

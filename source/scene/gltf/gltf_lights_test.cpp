@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/gltf_test_file.h"
-#include "support/meshes.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
+#include "support/gltf_test_file.h"
+#include "support/meshes.h"
 
 namespace steradian::scene::gltf_lights_test {
 namespace {

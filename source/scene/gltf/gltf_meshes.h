@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "scene/gltf/gltf_nodes.h"
 #include "scene/emitters/kept_meshes.h"
+#include "scene/gltf/gltf_nodes.h"
 #include "scene/warnings.h"
 #include "steradian/scene.h"
 

@@ -1,4 +1,4 @@
-// The node tree of a glTF file: checked, flattened, with transforms multiplied out.
+// The nodes of a glTF file, and the skins that they move.
 #pragma once
 
 #include <cmath>
@@ -10,6 +10,8 @@
 #include "steradian/scene.h"
 
 namespace steradian::scene {
+
+// The node tree of a glTF file: checked, flattened, with transforms multiplied out.
 
 struct GltfNode {
   int index = 0;

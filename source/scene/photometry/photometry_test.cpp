@@ -5,11 +5,11 @@
 #include <functional>
 #include <numbers>
 
-#include "support/gltf_test_file.h"
 #include "steradian/error.h"
 #include "steradian/light_profile.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::photometry_test {
 namespace {

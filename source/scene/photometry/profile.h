@@ -1,13 +1,16 @@
-// Readers for the text of photometric files: lines with their numbers, and numbers with the line that they stand on.
+// Measured profiles in files: their text, the two formats, and the circle of their planes.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
+
 #include "steradian/light_profile.h"
 
 namespace steradian::scene {
+
+// Readers for the text of photometric files: lines with their numbers, and numbers with the line that they stand on.
 
 class PhotometryText {
  public:

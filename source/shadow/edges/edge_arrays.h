@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "shadow/edges/gather.h"
+#include "shadow/edges/segments.h"
 #include "shadow/lanes/lanes.h"
 #include "shadow/lanes/packs.h"
-#include "shadow/edges/segments.h"
 
 namespace steradian::shadow {
 

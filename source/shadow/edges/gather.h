@@ -1,4 +1,4 @@
-// Assembly of a point's segments: code that the scalar version and the packs share.
+// The edges that points need to test for a light: gathering for a group, and the segments of a point.
 #pragma once
 
 #include <array>
@@ -11,6 +11,8 @@
 #include "shadow/region/light_frame.h"
 
 namespace steradian::shadow {
+
+// Assembly of a point's segments: code that the scalar version and the packs share.
 
 // Kinds of ids, in the top bits.
 inline constexpr std::uint64_t kCutId = 1ull << 60, kCornerId = 2ull << 60, kClipId = 3ull << 60;

@@ -1,8 +1,8 @@
 // The lowest level and its boundary, for sixteen points at once.
 #include <climits>
 
-#include "shadow/lanes/lanes_pack.h"
 #include "shadow/edges/segments.h"
+#include "shadow/lanes/lanes_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {

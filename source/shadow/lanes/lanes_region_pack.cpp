@@ -1,6 +1,6 @@
 // The visible region, for sixteen points at once: whether it is thin, a position well inside, and the edges that bound it.
-#include "shadow/lanes/lanes_pack.h"
 #include "shadow/edges/segments.h"
+#include "shadow/lanes/lanes_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {

@@ -1,7 +1,8 @@
-#include "shadow/rays/shafts.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "shadow/rays/shafts.h"
 
 namespace steradian::shadow {
 

@@ -1,17 +1,20 @@
-// Open shafts: a test whether anything at all can lie between a group of points and lights, as a whole. See section "Open shafts" of
-// docs/theory/shadows.md.
+// Shafts between a group of points and lights: open shafts, and the shafts of round lights.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
-#include "shadow/region/light_frame.h"
-#include "shadow/edges/edges.h"
 #include <optional>
+#include <vector>
+
+#include "shadow/edges/edges.h"
+#include "shadow/region/light_frame.h"
 #include "steradian/area_light.h"
 
 namespace steradian::shadow {
+
+// Open shafts: a test whether anything at all can lie between a group of points and lights, as a whole. See section "Open shafts" of
+// docs/theory/shadows.md.
 
 // Half spaces that contain the hull of two boxes: its sides, or fewer.
 class HullOfBoxes {

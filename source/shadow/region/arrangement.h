@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "shadow/lanes/packs.h"
 #include "shadow/edges/segments.h"
+#include "shadow/lanes/packs.h"
 
 namespace steradian::shadow {
 

@@ -1,4 +1,4 @@
-// Axis-aligned boxes, from which trees over triangles and lights are built.
+// LightFrame, the coordinates of all shadow code, and the boxes of its trees.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include "steradian/vector.h"
 
 namespace steradian::shadow {
+
+// Axis-aligned boxes, from which trees over triangles and lights are built.
 
 inline double coordinate(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 

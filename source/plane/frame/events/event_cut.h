@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "plane/frame/tiles/disk_share.h"
 #include "plane/frame/events/event_lines.h"
 #include "plane/frame/events/events.h"
+#include "plane/frame/tiles/disk_share.h"
 #include "plane/frame/tiles/tile_cut.h"
 
 namespace steradian::plane::STERADIAN_ISA {

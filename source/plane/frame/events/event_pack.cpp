@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/pack_bits.h"
 #include "plane/frame/events/event_cut.h"
 #include "plane/frame/events/events.h"
-#include "core/pack_bits.h"
 
 namespace steradian::plane::STERADIAN_ISA {
 namespace {

@@ -1,4 +1,4 @@
-// Pairs of a round light and its possible blockers, with their event lines.
+// Round lights and their blockers: the pairs, and the traversal of the frame with them.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,8 @@
 #include "plane/frame/tiles/tiles.h"
 
 namespace steradian::plane {
+
+// Pairs of a round light and its possible blockers, with their event lines.
 
 // Writes a pair for each of the blockers, in their order, from `first` on. FrameScene::pairs must have capacity for them.
 void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<int>& blockers, std::size_t first);

@@ -1,4 +1,4 @@
-// The hull of a tile and an emitter, by the circles around them.
+// Convex regions of the plane: hulls of a tile and an emitter, gaps between regions, chains of an outline.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,8 @@
 #include "steradian/vector2.h"
 
 namespace steradian::plane {
+
+// The hull of a tile and an emitter, by the circles around them.
 
 // The hull is relative to the origin, like a BlockerList. Its slanted sides are (half + t growth) over the cosine of their slope away from
 // the axis, and a circle's distance to them shrinks by that cosine too. If one circle nearly contains the other, it has the larger one's

@@ -1,7 +1,4 @@
-// Relation of a blocker to an emitter: apart, or overlapping in a way that directions decide.
-//
-// If two convex outlines overlap, the nearer one changes, from one direction to the next, only at a crossing of the two that is visible on
-// both.
+// Relations of a blocker to an emitter: apart, overlapping, or occluding it from all of a tile.
 #pragma once
 
 #include <cmath>
@@ -11,6 +8,11 @@
 #include "plane/frame/scene.h"
 
 namespace steradian::plane {
+
+// Relation of a blocker to an emitter: apart, or overlapping in a way that directions decide.
+//
+// If two convex outlines overlap, the nearer one changes, from one direction to the next, only at a crossing of the two that is visible on
+// both.
 
 inline constexpr double kTouching = 1e-9;  // smaller overlaps count as none
 

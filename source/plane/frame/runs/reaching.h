@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "core/budget.h"
-#include "plane/frame/tiles/blocker_bins.h"
 #include "plane/frame/scene.h"
+#include "plane/frame/tiles/blocker_bins.h"
 
 namespace steradian::plane {
 

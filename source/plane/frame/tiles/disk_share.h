@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/pack.h"
-#include "plane/frame/events/events.h"
 #include "core/pack_bits.h"
+#include "plane/frame/events/events.h"
 
 namespace steradian::plane::STERADIAN_ISA {
 namespace {

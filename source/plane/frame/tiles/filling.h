@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "plane/frame/tiles/interior.h"
 #include "plane/frame/scene.h"
+#include "plane/frame/tiles/interior.h"
 #include "plane/frame/tiles/tiles.h"
 
 namespace steradian::plane {

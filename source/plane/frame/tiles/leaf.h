@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "plane/frame/runs/runs.h"
-#include "plane/frame/scene.h"
 #include "plane/frame/runs/shadow_ends.h"
+#include "plane/frame/scene.h"
 #include "plane/frame/tiles/tile.h"
 
 namespace steradian::plane {

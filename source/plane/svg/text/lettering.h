@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "plane/svg/text/fonts.h"
 #include "plane/svg/style/style.h"
+#include "plane/svg/text/fonts.h"
 
 namespace steradian::plane::svg {
 
