@@ -7,6 +7,7 @@
 #include <limits>
 #include <xsimd/xsimd.hpp>
 
+#include "core/words.h"
 #include "image/tone.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
@@ -49,23 +50,11 @@ Vec3f curved(Vec3f c, ToneCurve curve) {
 
 }  // namespace
 
-const char* name_of(ToneCurve curve) {
-  switch (curve) {
-    case ToneCurve::neutral: return "neutral";
-    case ToneCurve::clip: return "clip";
-    case ToneCurve::reinhard: return "reinhard";
-    case ToneCurve::filmic: return "filmic";
-  }
-  return "";
-}
+const char* name_of(ToneCurve curve) { return words::name_of(curve); }
 
 ToneCurve tone_curve_named(const std::string& name) {
-  std::string known;
-  for (const ToneCurve curve : kToneCurves) {
-    if (name == name_of(curve)) return curve;
-    known += (known.empty() ? "" : ", ") + std::string(name_of(curve));
-  }
-  throw UsageError("tone", "no curve is named '" + name + "'", "there are " + known);
+  if (const auto curve = words::find<ToneCurve>(name)) return *curve;
+  throw UsageError("tone", "no curve is named '" + name + "'", "there are " + words::choices<ToneCurve>(", "));
 }
 
 float srgb_encode(float linear) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/words.h"
 #include "eval/json_object.h"
 #include "lobes/lobe.h"
 #include "scene/table_file.h"
@@ -243,17 +244,12 @@ void read_method(Problems& problems, const Place& place, Json value, Query& quer
   query.method = method.value_or(Method::automatic);
 }
 
-void read_precision(Problems& problems, const Place& place, Json value, Query& query) {
+template <class Value>
+void read_word(Problems& problems, const Place& place, Json value, Value& result) {
   const std::string_view name = read_string(problems, place, value);
-  if (value.is_string() && name != "double" && name != "float") problems.add(place, quoted(name) + " is not known", "double or float");
-  query.precision = name == "float" ? Precision::float_ : Precision::double_;
-}
-
-void read_quality(Problems& problems, const Place& place, Json value, Query& query) {
-  const std::string_view name = read_string(problems, place, value);
-  if (value.is_string() && name != "draft" && name != "normal" && name != "high")
-    problems.add(place, quoted(name) + " is not known", "draft, normal or high");
-  query.quality = name == "high" ? Quality::high : name == "draft" ? Quality::draft : Quality::normal;
+  const std::optional<Value> found = words::find<Value>(name);
+  if (value.is_string() && !found) problems.add(place, quoted(name) + " is not known", words::choices<Value>());
+  result = found.value_or(result);
 }
 
 // {"positions": [...], "indices": [...]}
@@ -352,8 +348,8 @@ constexpr Field<Query> kQueryFields[] = {
     {"view", [](Problems& p, const Place& at, Json v, Query& q) { q.view = read_direction(p, at, v); }},
     {"material", read_materials, true},
     {"method", read_method},
-    {"precision", read_precision},
-    {"quality", read_quality},
+    {"precision", [](Problems& p, const Place& at, Json v, Query& q) { read_word(p, at, v, q.precision); }},
+    {"quality", [](Problems& p, const Place& at, Json v, Query& q) { read_word(p, at, v, q.quality); }},
     {"spp", [](Problems& p, const Place& at, Json v,
                Query& q) { q.spp = static_cast<int>(read_integer(p, at, v, 1, std::numeric_limits<int>::max())); }},
     {"seed", [](Problems& p, const Place& at, Json v,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/budget.h"
+#include "core/words.h"
 #include "plane/exact/emission.h"
 #include "plane/extras/extras.h"
 #include "plane/extras/sight.h"
@@ -14,20 +15,11 @@
 
 namespace steradian {
 
-const char* name_of(PlaneMethod method) {
-  switch (method) {
-    case PlaneMethod::exact: return "exact";
-    case PlaneMethod::par: return "par";
-    case PlaneMethod::sampled: return "sampled";
-    case PlaneMethod::marched: return "marched";
-  }
-  return "?";
-}
+const char* name_of(PlaneMethod method) { return words::name_of(method); }
 
 PlaneMethod plane_method_from_name(const std::string& name) {
-  for (PlaneMethod m : {PlaneMethod::exact, PlaneMethod::par, PlaneMethod::sampled, PlaneMethod::marched})
-    if (name == name_of(m)) return m;
-  throw Error("method", "unknown method '" + name + "' for a plane scene", "use exact, par, sampled or marched");
+  if (const auto method = words::find<PlaneMethod>(name)) return *method;
+  throw Error("method", "unknown method '" + name + "' for a plane scene", "use " + words::choices<PlaneMethod>());
 }
 
 PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
