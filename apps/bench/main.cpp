@@ -25,7 +25,8 @@ namespace {
 using namespace fit;
 
 struct Options {
-  std::string filter, simd, backend = "cpu", device;
+  std::string filter, simd, device;
+  Backend backend = Backend::cpu;
   double min_time = 0.5;
   bool json = false, list = false;
   bool table2 = false, textured = false, plane = false;
@@ -42,9 +43,7 @@ void print_table2(const Options& options) {
   for (const std::string& file : moment::write_table2_figures(options.figures, table.simd)) fmt::print(stderr, "wrote {}\n", file);
 }
 
-BenchList benches_of(const Options& options) {
-  return bench::all_benches({options.backend == "vulkan" ? Backend::vulkan : Backend::cpu, options.device});
-}
+BenchList benches_of(const Options& options) { return bench::all_benches({options.backend, options.device}); }
 
 std::vector<const BenchList::Entry*> chosen_of(const BenchList& list, const Options& options) {
   std::vector<const BenchList::Entry*> chosen;
@@ -61,7 +60,7 @@ std::vector<const BenchList::Entry*> chosen_of(const BenchList& list, const Opti
   const auto nearest = nearest_beginnings(options.filter.substr(0, options.filter.size() - (whole ? 1 : 0)), std::move(names), kMost);
   for (const std::string& name : nearest) hint += "\n  " + name;
   hint += fmt::format("\nand {} more: steradian bench --list{}", all - nearest.size(),
-                      options.backend == "vulkan" ? " --backend vulkan" : "; those of devices: --backend vulkan");
+                      options.backend == Backend::vulkan ? " --backend vulkan" : "; those of devices: --backend vulkan");
   throw Error("--filter", whole ? "no bench has the name " + options.filter : "no bench begins with " + options.filter, hint);
 }
 
@@ -157,7 +156,7 @@ void add_bench(CommandLine& line) {
       .group("Choice")
       .words({"sse2", "avx2", "avx512"})
       .default_text("widest");
-  verb.add("--backend", options->backend, "vulkan: frames on a device").group("Choice").words({"cpu", "vulkan"});
+  verb.add_word("--backend", options->backend, "vulkan: frames on a device").group("Choice");
   verb.add("--device", options->device, "of vulkan: number or part of the name in `steradian info`").group("Choice").default_text("");
   verb.add_flag("--list", options->list, "print the names of the chosen benches").group("Choice");
   verb.add("--min-time", options->min_time, "seconds of runs per bench").group("Measurement").range(0.0, 3600.0);

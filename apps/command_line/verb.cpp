@@ -145,6 +145,9 @@ VerbOption Verb::add(const std::string& name, double& value, const std::string& 
 VerbOption Verb::add_flag(const std::string& name, bool& value, const std::string& help) {
   return VerbOption(app_, app_->add_flag(name, value, help));
 }
+VerbOption Verb::add_function(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& help) {
+  return VerbOption(app_, app_->add_option_function<std::string>(name, set, help));
+}
 
 void Verb::add_limits(Limits& limits) {
   add("--max-memory", limits.memory, "memory for a file's contents: 500MB, 4GB").bytes().more("Limits");

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/words.h"
 #include "steradian/limits.h"
 
 namespace CLI {
@@ -80,6 +81,12 @@ class Verb {
   VerbOption add(const std::string& name, std::uint64_t& value, const std::string& help);
   VerbOption add(const std::string& name, double& value, const std::string& help);
   VerbOption add_flag(const std::string& name, bool& value, const std::string& help);
+  // An option that takes one of the words of core/words.h.
+  template <class Value>
+  VerbOption add_word(const std::string& name, Value& value, const std::string& help) {
+    const auto set = [&value](const std::string& word) { value = *words::find<Value>(word); };
+    return add_function(name, set, help).words(words::names<Value>()).default_text(words::name_of(value));
+  }
   void add_limits(Limits& limits);  // --max-memory and --max-work: the most that a file may use
   // Takes all arguments from the first that is no option of the verb, including --help.
   void pass_on(std::vector<std::string>& arguments);
@@ -90,6 +97,8 @@ class Verb {
   void callback(std::function<void()> run);
 
  private:
+  VerbOption add_function(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& help);
+
   CLI::App* app_;
 };
 

@@ -26,7 +26,7 @@ namespace steradian::app {
 namespace {
 
 struct CompareArguments {
-  std::string scene, output, size, exposure = "auto", shadows = "off";
+  std::string scene, output, size, exposure = "auto";
   std::vector<std::string> methods;
   bool settings = true;
   std::optional<int> max_lights;
@@ -105,9 +105,9 @@ Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareAr
       add("normal", r);
       return std::pair{settings, std::size_t{0}};
     }
-    for (const auto& [words, quality] : {std::pair{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}}) {
-      r.quality = quality;
-      add(words, r);
+    for (const words::Word<Quality>& quality : words::kTable<Quality>) {
+      r.quality = quality.value;
+      add(quality.name, r);
     }
     return std::pair{settings, std::size_t{1}};
   };
@@ -280,7 +280,6 @@ void run(CompareArguments& options) {
     const PictureSize size = picture_size(options.size.empty() ? "960x540" : options.size);
     options.render.width = size.width;
     options.render.height = size.height;
-    options.render.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
     subject = frame_subject(scene_of(options), options);
   }
   const Report report = compared(subject, options);
@@ -304,7 +303,7 @@ void add_compare(CommandLine& line) {
   verb.add("-o,--output", options->output, "folder of the report").required();
   verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',');
   verb.add_flag("!--one-setting", options->settings, "one quality and one number of samples a method");
-  verb.add("--shadows", options->shadows, "direct shadows").words({"off", "on", "exact"});
+  verb.add_word("--shadows", r.shadows, "direct shadows");
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels; default: 960x540, or the drawing's").group("Picture");
   verb.add("--camera", r.camera, "name of the camera; default: the file's first").group("Picture");
   verb.add("--exposure", options->exposure, "of the page and of FLIP: stops, or auto").group("Picture");

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "steradian/tone.h"
 #include "verb.h"
 
 namespace steradian::app {
@@ -23,12 +22,6 @@ std::optional<float> exposure_stops(const std::string& text) {
   if (std::sscanf(text.c_str(), "%f%n", &stops, &used) == 1 && static_cast<std::size_t>(used) == text.size() && stops >= -30 && stops <= 30)
     return stops;
   throw WrongOption("--exposure", "'" + text + "' is not auto or a number of stops, -30 to 30");
-}
-
-std::vector<std::string> tone_curve_names() {
-  std::vector<std::string> names;
-  for (const ToneCurve curve : kToneCurves) names.emplace_back(name_of(curve));
-  return names;
 }
 
 }  // namespace steradian::app

@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace steradian::app {
 
@@ -16,8 +15,5 @@ PictureSize picture_size(const std::string& text);
 
 // Parses stops, -30 to 30; none for "auto". Throws WrongOption.
 std::optional<float> exposure_stops(const std::string& text);
-
-// The values of --tone: the names of steradian/tone.h.
-std::vector<std::string> tone_curve_names();
 
 }  // namespace steradian::app

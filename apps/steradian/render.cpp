@@ -33,16 +33,14 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct RenderArguments {
-  std::string scene, output, size = kDefaultSize, backend = "cpu", shadows = "on", terminator = "strict", quality = "normal",
-                             indirect = "off", indirect_shadows = "off", indirect_quads = "on", indirect_clamp = "on", stats,
-                             exposure = "auto", tone = "neutral", environment, background = "on", light_units = "auto", occluders = "black",
-                             normal_map, light_sum = "auto", bounces = "0", frames, edits, animation;
+  std::string scene, output, size = kDefaultSize, indirect_shadows = "off", stats, exposure = "auto", normal_map, bounces = "0", frames,
+                             edits, animation;
   double fps = 24, bounce_lattice = 0, lamp_height = 45;
-  bool force = false;
+  bool force = false, moments = false, multiple_scattering = false, spp_given = false, resume = false;
   std::vector<std::string> lights;
-  std::optional<int> max_lights;
-  Limits limits;
-  bool moments = false, multiple_scattering = false, spp_given = false, resume = false;
+  ToneCurve tone = ToneCurve::neutral;
+  PlaneOccluders occluders = PlaneOccluders::black;
+  LoadOptions load;
   RenderOptions render;
 };
 
@@ -52,22 +50,12 @@ void parse_size(const std::string& text, RenderOptions& render) {
   render.height = size.height;
 }
 
-std::vector<AddedLight> added_lights(const std::vector<std::string>& names) {
-  std::vector<AddedLight> lights;
-  for (const std::string& name : names)
-    lights.push_back(name == "sun"      ? AddedLight::sun
-                     : name == "studio" ? AddedLight::studio
-                     : name == "none"   ? AddedLight::none
-                                        : AddedLight::standard);
-  return lights;
-}
-
 nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderStats& stats) {
   nlohmann::ordered_json passes = nlohmann::ordered_json::array();
   for (const PassTime& pass : stats.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
   return {{"version", version()},
           {"command", command_line()},
-          {"backend", options.backend},
+          {"backend", words::name_of(options.render.backend)},
           {"device", stats.device},
           {"simd", name_of(active_simd())},
           {"threads", stats.threads},
@@ -90,15 +78,8 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"total_ms", stats.total_ms}};
 }
 
-IndirectMode indirect_mode(const std::string& name) {
-  return name == "ltc" ? IndirectMode::ltc : name == "ggx" ? IndirectMode::ggx : name == "path" ? IndirectMode::path : IndirectMode::off;
-}
-
-void parse_indirect(RenderArguments& options) {
+void parse_indirect_shadows(RenderArguments& options) {
   IndirectOptions& indirect = options.render.indirect;
-  indirect.mode = indirect_mode(options.indirect);
-  indirect.quads = options.indirect_quads == "on";
-  indirect.soften = options.indirect_clamp == "on";
   if (options.indirect_shadows == "off") return;
   int used = 0;
   if (std::sscanf(options.indirect_shadows.c_str(), "%d%n", &indirect.shadow_rays, &used) != 1 ||
@@ -110,20 +91,22 @@ void parse_indirect(RenderArguments& options) {
 
 // True if the render may take minutes. Such a render saves its state when it is interrupted.
 bool samples(const RenderArguments& options) {
-  return options.render.method == "reference" || options.render.method == "sampled" || options.indirect == "path";
+  const RenderOptions& r = options.render;
+  return r.method == "reference" || r.method == "sampled" || r.indirect.mode == IndirectMode::path;
 }
 
 // Everything that the picture depends on.
 std::string identity_of(const RenderArguments& options, const Scene& scene) {
   const RenderOptions& r = options.render;
+  const LoadOptions& load = options.load;
   return fmt::format(
              "steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} {} | scattering {}",
-             version(), name_of(active_simd()), fingerprint({options.scene, options.environment}, scene), options.max_lights.value_or(0),
-             fmt::join(options.lights, ","), options.light_units, options.environment, options.background, r.camera, r.method,
-             options.quality, options.shadows, options.terminator, options.multiple_scattering) +
-         fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", options.indirect, r.indirect.virtual_lights,
-                     options.indirect_shadows, r.indirect.kept_pairs, options.indirect_quads, options.indirect_clamp, options.size, r.aa,
-                     r.spp, r.target_error, r.seed);
+             version(), name_of(active_simd()), fingerprint({options.scene, load.environment}, scene), load.max_lights.value_or(0),
+             fmt::join(options.lights, ","), words::name_of(load.light_units), load.environment, words::name_of(r.background), r.camera,
+             r.method, words::name_of(r.quality), words::name_of(r.shadows), words::name_of(r.terminator), options.multiple_scattering) +
+         fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", words::name_of(r.indirect.mode),
+                     r.indirect.virtual_lights, options.indirect_shadows, r.indirect.kept_pairs, words::name_of(r.indirect.quads),
+                     words::name_of(r.indirect.soften), options.size, r.aa, r.spp, r.target_error, r.seed);
 }
 
 // Renders the picture. The error for running out of memory gives the picture and its size.
@@ -141,21 +124,22 @@ Picture rendered(const Scene& scene, const RenderArguments& options, RenderStats
 // Refuses options without effect in three dimensions.
 void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
   const RenderOptions& r = options.render;
-  const bool path = options.indirect == "path", points = options.indirect == "ltc" || options.indirect == "ggx";
+  const bool ltc = r.indirect.mode == IndirectMode::ltc, path = r.indirect.mode == IndirectMode::path;
+  const bool points = ltc || r.indirect.mode == IndirectMode::ggx;
   const bool samples = r.method == "sampled" || path;
   const char* bounce = "--indirect ltc or ggx";
   verb.refuse_without_effect(
       {{"--spp", samples, "--method sampled or --indirect path"},
        {"--target-error", r.method == "reference", "--method reference"},
-       {"--terminator", options.shadows != "off", "--shadows on or exact"},
-       {"--light-error", options.light_sum != "all", "--lights auto or tree"},
-       {"--device", options.backend == "vulkan", "--backend vulkan"},
+       {"--terminator", r.shadows != Shadows::off, "--shadows on or exact"},
+       {"--light-error", r.lights != LightSum::all, "--lights auto or tree"},
+       {"--device", options.render.backend == Backend::vulkan, "--backend vulkan"},
        {"--resume", (samples || r.method == "reference") && options.frames.empty(), "--method reference or sampled, or --indirect path"},
        {"--vpls", points, bounce},
        {"--indirect-pairs", points, bounce},
        {"--indirect-clamp", points, bounce},
        {"--indirect-shadows", points, bounce},
-       {"--indirect-quads", options.indirect == "ltc", "--indirect ltc"},
+       {"--indirect-quads", ltc, "--indirect ltc"},
        {"--moments", false, "a plane scene (.svg)"},
        {"--occluders", false, "a plane scene (.svg)"},
        {"--normal-map", false, "a plane scene (.svg)"},
@@ -176,7 +160,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   verb.refuse_without_effect(
       {{"--quality", false, third},
        {"--table", false, third},
-       {"--shadows", options.shadows != "off", third},
+       {"--shadows", options.render.shadows != Shadows::off, third},
        {"--terminator", false, third},
        {"--multiple-scattering", false, third},
        {"--indirect", false, third},
@@ -195,7 +179,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
        {"--camera", false, third},
        {"--target-error", false, third},
        {"--resume", false, third},
-       {"--device", options.backend == "vulkan", "--backend vulkan"},
+       {"--device", options.render.backend == Backend::vulkan, "--backend vulkan"},
        {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
        {"--moments", options.output.ends_with(".exr") && options.normal_map.empty(), "-o FILE.exr, without --normal-map"},
        {"--normal-map", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
@@ -218,8 +202,8 @@ void run_plane(RenderArguments& options) {
   job.output = options.output;
   job.method = options.render.method;
   job.stats = options.stats;
-  job.limits = options.limits;
-  job.tone = tone_curve_named(options.tone);
+  job.limits = options.load.limits;
+  job.tone = options.tone;
   job.exposure = exposure_stops(options.exposure).value_or(0.0f);  // light maps keep their scale from frame to frame
   if (options.size != kDefaultSize) {
     parse_size(options.size, options.render);
@@ -232,15 +216,14 @@ void run_plane(RenderArguments& options) {
   job.edits = options.edits;
   job.fps = options.fps;
   job.force = options.force;
-  job.vulkan = options.backend == "vulkan";
+  job.vulkan = options.render.backend == Backend::vulkan;
   job.device = options.render.device;
   job.frame.aa = options.render.aa;
   job.frame.threads = options.render.threads;
   job.frame.moments = options.moments;
   job.normal_map = options.normal_map;
   job.lamp_height = options.lamp_height;
-  if (options.occluders == "fill") job.frame.occluders = PlaneOccluders::fill;
-  if (options.occluders == "clear") job.frame.occluders = PlaneOccluders::clear;
+  job.frame.occluders = options.occluders;
   job.frame.sampling = {options.spp_given ? options.render.spp : 64, options.render.seed};
   render_plane_scene(job);
 }
@@ -254,36 +237,21 @@ void run(const Verb& verb, RenderArguments& options) {
   if (render_options.method == "par" || render_options.method == "marched")
     throw WrongOption("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
-  render_options.backend = options.backend == "vulkan" ? Backend::vulkan : Backend::cpu;
-  render_options.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
-  render_options.terminator = options.terminator == "smooth" ? Terminator::smooth : Terminator::strict;
-  render_options.lights = options.light_sum == "all" ? LightSum::all : options.light_sum == "tree" ? LightSum::tree : LightSum::automatic;
-  render_options.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
-
   refuse_unused_in_space(verb, options);
   const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
-  parse_indirect(options);
-  LoadOptions load;
-  load.max_lights = options.max_lights;
-  load.limits = options.limits;
-  load.environment = options.environment;
-  load.light_units = options.light_units == "candela" ? LightUnits::candela
-                     : options.light_units == "watt"  ? LightUnits::watt
-                                                      : LightUnits::from_generator;
+  parse_indirect_shadows(options);
+  LoadOptions& load = options.load;
   load.aspect = static_cast<double>(render_options.width) / render_options.height;
-  load.lights = added_lights(options.lights);
-  if (!options.frames.empty()) {
-    render_options.background = options.background == "on";
+  for (const std::string& light : options.lights) load.lights.push_back(*words::find<AddedLight>(light));
+  if (!options.frames.empty())
     return render_scene_frames({options.scene, options.output, frame_range(options.frames), options.fps, options.animation, options.force,
-                                load, render_options, fixed_exposure, tone_curve_named(options.tone), options.multiple_scattering});
-  }
+                                load, render_options, fixed_exposure, options.tone, options.multiple_scattering});
   const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded = load_scene(options.scene, load);
   const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   verb.refuse_without_effect({{"--background", loaded.scene.environment != nullptr, "--environment, or a file with one"}});
-  render_options.background = options.background == "on";
   loaded.scene.multiple_scattering = options.multiple_scattering;
 
   std::unique_ptr<Progress> progress;
@@ -316,15 +284,15 @@ void run(const Verb& verb, RenderArguments& options) {
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", options.scene},
                       {"steradian.method", stats.method},
-                      {"steradian.shadows", options.shadows},
-                      {"steradian.terminator", options.terminator},
+                      {"steradian.shadows", words::name_of(render_options.shadows)},
+                      {"steradian.terminator", words::name_of(render_options.terminator)},
                       {"steradian.size", options.size},
                       {"steradian.aa", std::to_string(render_options.aa)},
                       {"steradian.seed", std::to_string(render_options.seed)},
                       {"steradian.exposure", fmt::format("{}", exposure)},
-                      {"steradian.tone", options.tone}};
+                      {"steradian.tone", name_of(options.tone)}};
   if (stats.light_tree) picture.metadata["steradian.light_error"] = fmt::format("{}", render_options.light_error);
-  write_picture(picture, options.output, exposure, tone_curve_named(options.tone));
+  write_picture(picture, options.output, exposure, options.tone);
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
   stats.total_ms += load_ms;
   if (!options.stats.empty()) write_file(options.stats, stats_json(options, stats).dump(2) + "\n");
@@ -339,6 +307,7 @@ void add_render(CommandLine& line) {
   verb.group("Pictures");
   verb.footer("`steradian methods` lists the methods with their errors.");
   RenderOptions& r = options->render;
+  r.shadows = Shadows::on;
   verb.add("SCENE", options->scene, "scene file").required();
   verb.add("-o,--output", options->output, "picture: .exr (linear) or .png (tone mapped)").required();
 
@@ -348,23 +317,23 @@ void add_render(CommandLine& line) {
         return known ? std::string() : "unknown method " + name + ", use " + methods::names();
       })
       .group("Light");
-  verb.add("--quality", options->quality, "accuracy of the method").words({"draft", "normal", "high"}).group("Light");
+  verb.add_word("--quality", r.quality, "accuracy of the method").group("Light");
   verb.add("--table", r.table, "LTC table for area lights (.json of `steradian fit`), not the built-in").group("Light");
   verb.add_flag("--multiple-scattering", options->multiple_scattering, "add the energy that single scattering by GGX loses").group("Light");
-  verb.add("--shadows", options->shadows, "direct shadows; exact has no fallback to rays").words({"off", "on", "exact"}).group("Light");
-  verb.add("--terminator", options->terminator, "shadow edge of curved meshes on themselves").words({"strict", "smooth"}).group("Light");
-  verb.add("--indirect", options->indirect, "one bounce, by virtual lights or paths").words({"off", "ltc", "ggx", "path"}).group("Light");
-  verb.add("--lights", options->light_sum, "sum of diffuse lights; tree groups far ones").words({"auto", "all", "tree"}).group("Light");
+  verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
+  verb.add_word("--terminator", r.terminator, "shadow edge of curved meshes on themselves").group("Light");
+  verb.add_word("--indirect", r.indirect.mode, "one bounce, by virtual lights or paths").group("Light");
+  verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");
-  verb.add("--light", options->lights, "extra light; may be repeated").words({"default", "none", "sun", "studio"}).group("Light");
-  verb.add("--environment", options->environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
+  verb.add("--light", options->lights, "extra light; may be repeated").words(words::names<AddedLight>()).group("Light");
+  verb.add("--environment", options->load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
 
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels").group("Picture");
   verb.add("--aa", r.aa, "primary samples a pixel").range(1, 4096).group("Picture");
   verb.add("--camera", r.camera, "name of the camera; default: the file's first").group("Picture");
-  verb.add("--background", options->background, "show the environment").words({"on", "off"}).group("Picture");
+  verb.add_word("--background", r.background, "show the environment").group("Picture");
   verb.add("--exposure", options->exposure, "of .png: stops, or auto for middle grey in the mean").group("Picture");
-  verb.add("--tone", options->tone, "of .png: tone curve").words(tone_curve_names()).group("Picture");
+  verb.add_word("--tone", options->tone, "of .png: tone curve").group("Picture");
 
   verb.add("--spp", r.spp, "of sampled: sample pairs a light").range(1, 1 << 20).group("Sampling");
   verb.add("--target-error", r.target_error, "of reference: relative rms error").range(1e-6, 1.0).group("Sampling");
@@ -376,7 +345,7 @@ void add_render(CommandLine& line) {
   verb.add("--animation", options->animation, "name of the animation; default: the file's first").group("Frames");
   verb.add_flag("--force", options->force, "render frames again whose files exist").group("Frames");
 
-  verb.add("--backend", options->backend, "where to compute").words({"cpu", "vulkan"}).group("Machine");
+  verb.add_word("--backend", r.backend, "where to compute").group("Machine");
   verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").group("Machine");
@@ -384,8 +353,8 @@ void add_render(CommandLine& line) {
   verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");
   verb.add("--indirect-shadows", options->indirect_shadows, "visibility by 1 to 64 rays a pixel, or off").more("Bounce");
   verb.add("--indirect-pairs", r.indirect.kept_pairs, "mean virtual lights a pixel; 0: all").range(0.0, 1e9).more("Bounce");
-  verb.add("--indirect-quads", options->indirect_quads, "of ltc: quads for alpha below 0.1").words({"on", "off"}).more("Bounce");
-  verb.add("--indirect-clamp", options->indirect_clamp, "bound near virtual lights by their area").words({"on", "off"}).more("Bounce");
+  verb.add_word("--indirect-quads", r.indirect.quads, "of ltc: quads for alpha below 0.1").more("Bounce");
+  verb.add_word("--indirect-clamp", r.indirect.soften, "bound near virtual lights by their area").more("Bounce");
 
   verb.add("--bounces", options->bounces, "number of bounces from walls, or all")
       .check([](const std::string& text) {
@@ -399,12 +368,12 @@ void add_render(CommandLine& line) {
   verb.add_flag("--moments", options->moments, "add the layers moment_x and moment_y (.exr)").more("Plane scenes (.svg)");
   verb.add("--normal-map", options->normal_map, "light this normal map (.png, .exr; green upwards)").more("Plane scenes (.svg)");
   verb.add("--lamp-height", options->lamp_height, "of --normal-map: degrees above the plane").range(0.0, 90.0).more("Plane scenes (.svg)");
-  verb.add("--occluders", options->occluders, "colour of occluders").words({"black", "fill", "clear"}).more("Plane scenes (.svg)");
+  verb.add_word("--occluders", options->occluders, "colour of occluders").more("Plane scenes (.svg)");
   verb.add("--edits", options->edits, "JSON file of what changes before which frame").more("Plane scenes (.svg)");
 
-  verb.add("--max-lights", options->max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
-  verb.add("--light-units", options->light_units, "unit of punctual lights").words({"auto", "candela", "watt"}).more("Limits");
-  verb.add_limits(options->limits);
+  verb.add("--max-lights", options->load.max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
+  verb.add_word("--light-units", options->load.light_units, "unit of punctual lights").more("Limits");
+  verb.add_limits(options->load.limits);
   verb.callback([options, verb] {
     options->spp_given = verb.given("--spp");
     run(verb, *options);

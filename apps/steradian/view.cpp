@@ -10,29 +10,17 @@ namespace steradian::app {
 namespace {
 
 struct ViewArguments {
-  std::string scene, size = "1280x720", shadows = "on", quality = "normal", exposure = "auto", tone = "neutral", backend = "cpu", script,
-                     record, panel = "on";
-  RenderOptions render;
+  std::string size = "1280x720", exposure = "auto";
+  view::WindowOptions window;
 };
 
-void run(const ViewArguments& options) {
-  view::WindowOptions window;
-  window.scene = options.scene;
-  window.render = options.render;
+void run(ViewArguments& options) {
+  view::WindowOptions& window = options.window;
   const PictureSize size = picture_size(options.size);
   window.render.width = size.width;
   window.render.height = size.height;
-  window.render.shadows = options.shadows == "off" ? Shadows::off : options.shadows == "exact" ? Shadows::exact : Shadows::on;
-  window.render.quality = options.quality == "draft" ? Quality::draft : options.quality == "high" ? Quality::high : Quality::normal;
-  if (options.backend == "vulkan") {
-    window.render.backend = Backend::vulkan;
-    window.render.shadows = Shadows::off;  // this backend has no shadows here
-  }
+  if (window.render.backend == Backend::vulkan) window.render.shadows = Shadows::off;  // this backend has no shadows here
   window.exposure = exposure_stops(options.exposure);
-  window.tone = tone_curve_named(options.tone);
-  window.script = options.script;
-  window.record = options.record;
-  window.panel = options.panel == "on";
   view::run_window(window);
 }
 
@@ -40,26 +28,28 @@ void run(const ViewArguments& options) {
 
 void add_view(CommandLine& line) {
   auto options = std::make_shared<ViewArguments>();
+  view::WindowOptions& window = options->window;
+  window.render.shadows = Shadows::on;
   Verb verb = line.verb("view", "Open a scene in a window and move its lights by hand");
   verb.group("Pictures");
   verb.footer("F1 in the window lists its keys. docs/view-scripts.md describes scripts.");
-  verb.add("SCENE", options->scene, "scene file (.gltf, .glb, .svg)").required();
+  verb.add("SCENE", window.scene, "scene file (.gltf, .glb, .svg)").required();
   verb.add("--size", options->size, "WIDTHxHEIGHT of the window in pixels");
-  verb.add("--method", options->render.method, "method of the specular lobe").check([](const std::string& name) {
+  verb.add("--method", window.render.method, "method of the specular lobe").check([](const std::string& name) {
     return method_of(name) ? std::string() : "unknown method " + name + ", use " + methods::names();
   });
-  verb.add("--quality", options->quality, "accuracy of the method").words({"draft", "normal", "high"});
-  verb.add("--shadows", options->shadows, "direct shadows; exact has no fallback to rays").words({"off", "on", "exact"});
-  verb.add("--camera", options->render.camera, "name of the camera; default: the file's first");
+  verb.add_word("--quality", window.render.quality, "accuracy of the method");
+  verb.add_word("--shadows", window.render.shadows, "direct shadows; exact has no fallback to rays");
+  verb.add("--camera", window.render.camera, "name of the camera; default: the file's first");
   verb.add("--exposure", options->exposure, "stops, or auto for middle grey in the first picture");
-  verb.add("--tone", options->tone, "tone curve").words(tone_curve_names());
-  verb.add("--aa", options->render.aa, "primary samples a pixel, at rest").range(1, 4096);
-  verb.add("--backend", options->backend, "where to compute").words({"cpu", "vulkan"});
-  verb.add("--device", options->render.device, "of vulkan: number or part of the name in `steradian info`");
-  verb.add("--threads", options->render.threads, "number of threads (0: all)").range(0, 4096);
-  verb.add("--panel", options->panel, "open the panel").words({"on", "off"});
-  verb.add("--script", options->script, "play this file of drags, keys and pictures");
-  verb.add("--record", options->record, "record a script into this file");
+  verb.add_word("--tone", window.tone, "tone curve");
+  verb.add("--aa", window.render.aa, "primary samples a pixel, at rest").range(1, 4096);
+  verb.add_word("--backend", window.render.backend, "where to compute");
+  verb.add("--device", window.render.device, "of vulkan: number or part of the name in `steradian info`");
+  verb.add("--threads", window.render.threads, "number of threads (0: all)").range(0, 4096);
+  verb.add_word("--panel", window.panel, "open the panel");
+  verb.add("--script", window.script, "play this file of drags, keys and pictures");
+  verb.add("--record", window.record, "record a script into this file");
   verb.callback([options] { run(*options); });
 }
 
