@@ -6,12 +6,13 @@
 #include <pybind11/stl.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "core/words.h"
 #include "steradian/error.h"
-#include "steradian/method.h"
 #include "steradian/picture.h"
 
 namespace steradian::python {
@@ -22,11 +23,12 @@ void add_integrals(py::module_& m);
 void add_pictures(py::module_& m);
 void add_plane(py::module_& m);
 
-inline Quality quality_of(const std::string& name) {
-  if (name == "draft") return Quality::draft;
-  if (name == "normal") return Quality::normal;
-  if (name == "high") return Quality::high;
-  throw Error("quality", "'" + name + "' is not known", "draft, normal or high");
+// The value of a word of core/words.h.
+template <class Value>
+Value value_of(const py::handle& word, const char* key) {
+  const auto name = word.cast<std::string>();
+  if (const std::optional<Value> value = words::find<Value>(name)) return *value;
+  throw Error(key, "'" + name + "' is not known", words::choices<Value>());
 }
 
 // H x W x 3, its own copy.

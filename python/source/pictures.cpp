@@ -23,28 +23,13 @@ Picture picture_of(const Pixels& pixels, const char* name) {
   return picture;
 }
 
-AddedLight added_light(const std::string& name) {
-  if (name == "default") return AddedLight::standard;
-  if (name == "none") return AddedLight::none;
-  if (name == "sun") return AddedLight::sun;
-  if (name == "studio") return AddedLight::studio;
-  throw Error("lights", "'" + name + "' is not known", "default, none, sun or studio");
-}
-
-LightUnits light_units(const std::string& name) {
-  if (name == "auto") return LightUnits::from_generator;
-  if (name == "candela") return LightUnits::candela;
-  if (name == "watt") return LightUnits::watt;
-  throw Error("light_units", "'" + name + "' is not known", "auto, candela or watt");
-}
-
 LoadedScene load(const std::string& path, const py::dict& o) {
   LoadOptions options;
   if (!o["max_lights"].is_none()) options.max_lights = o["max_lights"].cast<int>();
   options.environment = o["environment"].cast<std::string>();
-  options.light_units = light_units(o["light_units"].cast<std::string>());
+  options.light_units = value_of<LightUnits>(o["light_units"], "light_units");
   options.aspect = o["aspect"].cast<double>();
-  for (const auto& name : o["lights"].cast<std::vector<std::string>>()) options.lights.push_back(added_light(name));
+  for (const py::handle name : o["lights"]) options.lights.push_back(value_of<AddedLight>(name, "lights"));
   options.limits = {o["max_memory"].cast<std::uint64_t>(), o["max_work"].cast<std::uint64_t>()};
   const py::gil_scoped_release free;
   return load_scene(path, options);
@@ -135,34 +120,6 @@ class Watch {
   std::exception_ptr thrown_;
 };
 
-IndirectMode indirect_mode(const std::string& name) {
-  if (name == "off") return IndirectMode::off;
-  if (name == "ltc") return IndirectMode::ltc;
-  if (name == "ggx") return IndirectMode::ggx;
-  if (name == "path") return IndirectMode::path;
-  throw Error("indirect", "'" + name + "' is not known", "off, ltc, ggx or path");
-}
-
-Shadows shadows_of(const std::string& name) {
-  if (name == "off") return Shadows::off;
-  if (name == "on") return Shadows::on;
-  if (name == "exact") return Shadows::exact;
-  throw Error("shadows", "'" + name + "' is not known", "off, on or exact");
-}
-
-Terminator terminator_of(const std::string& name) {
-  if (name == "strict") return Terminator::strict;
-  if (name == "smooth") return Terminator::smooth;
-  throw Error("terminator", "'" + name + "' is not known", "strict or smooth");
-}
-
-LightSum light_sum(const std::string& name) {
-  if (name == "auto") return LightSum::automatic;
-  if (name == "all") return LightSum::all;
-  if (name == "tree") return LightSum::tree;
-  throw Error("lights", "'" + name + "' is not known", "auto, all or tree");
-}
-
 py::tuple render_scene(LoadedScene& loaded, const py::dict& o, const py::object& progress) {
   RenderOptions options;
   const auto number = [&](const char* key, int low) {
@@ -175,16 +132,16 @@ py::tuple render_scene(LoadedScene& loaded, const py::dict& o, const py::object&
   options.camera = o["camera"].cast<std::string>();
   options.method = o["method"].cast<std::string>();
   options.table = o["table"].cast<std::string>();
-  options.quality = quality_of(o["quality"].cast<std::string>());
-  options.shadows = shadows_of(o["shadows"].cast<std::string>());
-  options.terminator = terminator_of(o["terminator"].cast<std::string>());
-  options.lights = light_sum(o["lights"].cast<std::string>());
+  options.quality = value_of<Quality>(o["quality"], "quality");
+  options.shadows = value_of<Shadows>(o["shadows"], "shadows");
+  options.terminator = value_of<Terminator>(o["terminator"], "terminator");
+  options.lights = value_of<LightSum>(o["lights"], "lights");
   options.light_error = o["light_error"].cast<double>();
   options.background = o["background"].cast<bool>();
   options.aa = number("aa", 1);
   options.spp = number("spp", 1);
   options.target_error = o["target_error"].cast<double>();
-  options.indirect.mode = indirect_mode(o["indirect"].cast<std::string>());
+  options.indirect.mode = value_of<IndirectMode>(o["indirect"], "indirect");
   options.seed = o["seed"].cast<std::uint64_t>();
   options.threads = number("threads", 0);
   Watch watch(progress);

@@ -14,20 +14,13 @@ struct World {
 
 World world_of(PlaneSvg svg) { return {PlaneWorld(std::move(svg.scene)), std::move(svg.ignored)}; }
 
-PlaneOccluders occluders_of(const std::string& name) {
-  if (name == "black") return PlaneOccluders::black;
-  if (name == "fill") return PlaneOccluders::fill;
-  if (name == "clear") return PlaneOccluders::clear;
-  throw Error("occluders", "'" + name + "' is not known", "black, fill or clear");
-}
-
 py::tuple frame(const World& world, const py::dict& o) {
   PlaneFrameOptions options;
   options.width = o["width"].cast<int>();
   options.height = o["height"].cast<int>();
   options.method = plane_method_from_name(o["method"].cast<std::string>());
   options.sampling = {o["spp"].cast<int>(), o["seed"].cast<std::uint64_t>()};
-  options.occluders = occluders_of(o["occluders"].cast<std::string>());
+  options.occluders = value_of<PlaneOccluders>(o["occluders"], "occluders");
   options.aa = o["aa"].cast<int>();
   options.threads = o["threads"].cast<int>();
   Picture picture;
