@@ -276,7 +276,7 @@ void run(CompareArguments& options) {
   } else {
     if (options.methods.empty()) options.methods = {"auto", "ltc", "ltc-compact", "sampled"};
     for (const std::string& method : options.methods)
-      if (!method_of(method)) throw WrongOption("--methods", "unknown method " + method + ", use " + methods::names());
+      if (const std::string problem = unknown_method(method, false); !problem.empty()) throw WrongOption("--methods", problem);
     const PictureSize size = picture_size(options.size.empty() ? "960x540" : options.size);
     options.render.width = size.width;
     options.render.height = size.height;

@@ -13,6 +13,7 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "eval_plane.h"
+#include "picture_options.h"
 #include "steradian/error.h"
 #include "verbs.h"
 
@@ -177,7 +178,7 @@ void add_eval(CommandLine& line) {
   verb.add("-o,--output", options->output, "file of answers; default: standard output").group("Input and output").default_text("");
   verb.add_flag("--plane", options->plane, "light at points of plane scenes (.svg)").group("Input and output");
   verb.add("--method", options->method, "method of queries that name none").group("Defaults of a query").check([](const std::string& name) {
-    return method_of(name) || name == "par" || name == "marched" ? std::string() : "unknown method " + name + ", use " + methods::names();
+    return unknown_method(name, true);
   });
   verb.add("--spp", options->spp, "of sampled: sample pairs").group("Defaults of a query").range(1, std::numeric_limits<int>::max());
   verb.add("--seed", options->seed, "of sampled: seed of the random numbers").group("Defaults of a query");

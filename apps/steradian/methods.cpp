@@ -18,7 +18,8 @@ void print_table() {
   fmt::print(
       "\nauto takes the first method that serves the lobe; with --quality draft it takes ltc-compact for ggx.\n"
       "Errors: of the full lobe, or in % of the reflected light. docs/measured/accuracy.md has the measurements.\n"
-      "Plane scenes (.svg) have the methods exact, par, sampled, marched.\n");
+      "Plane scenes (.svg) have the methods {}.\n",
+      words::choices<PlaneMethod>(", "));
 }
 
 void print_json() {

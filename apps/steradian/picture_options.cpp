@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "integrals/methods.h"
 #include "verb.h"
 
 namespace steradian::app {
@@ -22,6 +23,11 @@ std::optional<float> exposure_stops(const std::string& text) {
   if (std::sscanf(text.c_str(), "%f%n", &stops, &used) == 1 && static_cast<std::size_t>(used) == text.size() && stops >= -30 && stops <= 30)
     return stops;
   throw WrongOption("--exposure", "'" + text + "' is not auto or a number of stops, -30 to 30");
+}
+
+std::string unknown_method(const std::string& name, bool plane) {
+  if (method_of(name) || (plane && words::find<PlaneMethod>(name))) return {};
+  return "unknown method " + name + ", use " + methods::names();
 }
 
 }  // namespace steradian::app

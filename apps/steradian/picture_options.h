@@ -1,4 +1,4 @@
-// Options shared by verbs with pictures: converts their words to numbers.
+// Options that several verbs share: parses their texts.
 #pragma once
 
 #include <optional>
@@ -15,5 +15,8 @@ PictureSize picture_size(const std::string& text);
 
 // Parses stops, -30 to 30; none for "auto". Throws WrongOption.
 std::optional<float> exposure_stops(const std::string& text);
+
+// Message for an unknown name of a method; empty for a known one. plane: methods of plane scenes are known, too.
+std::string unknown_method(const std::string& name, bool plane);
 
 }  // namespace steradian::app

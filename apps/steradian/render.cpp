@@ -15,7 +15,6 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/simd.h"
-#include "integrals/methods.h"
 #include "picture_options.h"
 #include "render_frames.h"
 #include "render_plane.h"
@@ -234,8 +233,7 @@ void run(const Verb& verb, RenderArguments& options) {
     refuse_unused_in_plane(verb, options);
     return run_plane(options);
   }
-  if (render_options.method == "par" || render_options.method == "marched")
-    throw WrongOption("--method", render_options.method + " is for plane scenes (.svg)");
+  if (!method_of(render_options.method)) throw WrongOption("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
   refuse_unused_in_space(verb, options);
   const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
@@ -312,10 +310,7 @@ void add_render(CommandLine& line) {
   verb.add("-o,--output", options->output, "picture: .exr (linear) or .png (tone mapped)").required();
 
   verb.add("--method", r.method, "method of the specular lobe; see `steradian methods`")
-      .check([](const std::string& name) {
-        const bool known = method_of(name).has_value() || name == "par" || name == "marched";
-        return known ? std::string() : "unknown method " + name + ", use " + methods::names();
-      })
+      .check([](const std::string& name) { return unknown_method(name, true); })
       .group("Light");
   verb.add_word("--quality", r.quality, "accuracy of the method").group("Light");
   verb.add("--table", r.table, "LTC table for area lights (.json of `steradian fit`), not the built-in").group("Light");

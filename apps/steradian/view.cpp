@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "../viewer/window.h"
-#include "integrals/methods.h"
 #include "picture_options.h"
 #include "verbs.h"
 
@@ -36,7 +35,7 @@ void add_view(CommandLine& line) {
   verb.add("SCENE", window.scene, "scene file (.gltf, .glb, .svg)").required();
   verb.add("--size", options->size, "WIDTHxHEIGHT of the window in pixels");
   verb.add("--method", window.render.method, "method of the specular lobe").check([](const std::string& name) {
-    return method_of(name) ? std::string() : "unknown method " + name + ", use " + methods::names();
+    return unknown_method(name, false);
   });
   verb.add_word("--quality", window.render.quality, "accuracy of the method");
   verb.add_word("--shadows", window.render.shadows, "direct shadows; exact has no fallback to rays");

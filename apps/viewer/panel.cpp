@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/words.h"
 #include "integrals/methods.h"
 #include "keys.h"
 #include "view_state.h"
@@ -29,11 +30,6 @@ bool edit_color(const char* label, Vec3d& color) {
   return true;
 }
 
-template <std::size_t N>
-bool choose(const char* label, const char* (&names)[N], int& chosen) {
-  return ImGui::Combo(label, &chosen, names, static_cast<int>(N));
-}
-
 // Chooses one of some names; true if the choice changed.
 template <class Names>
 bool choose_name(const char* label, const Names& names, std::string& chosen) {
@@ -48,6 +44,15 @@ bool choose_name(const char* label, const Names& names, std::string& chosen) {
   }
   ImGui::EndCombo();
   return changed;
+}
+
+// The same for the words of an option.
+template <class Value>
+bool choose_word(const char* label, Value& chosen) {
+  std::string name = words::name_of(chosen);
+  if (!choose_name(label, words::names<Value>(), name)) return false;
+  chosen = *words::find<Value>(name);
+  return true;
 }
 
 bool edit_area_shape(const Lamp& lamp, LampValues& v) {
@@ -157,9 +162,8 @@ void selected_controls(Session& s) {
     ImGui::TextDisabled("click on a light or a thing");
     return;
   }
-  const char* modes[] = {"move", "turn", "scale"};
   int mode = static_cast<int>(s.gizmo_mode);
-  if (choose("handles", modes, mode)) s.gizmo_mode = static_cast<GizmoMode>(mode);
+  if (ImGui::Combo("handles", &mode, "move\0turn\0scale\0")) s.gizmo_mode = static_cast<GizmoMode>(mode);
   NodePose pose = pose_of(s.document(), selected.node);
   if (!pose.is_matrix) {
     bool changed = drag_double("x", pose.translation.x, 0.01f, -1e6, 1e6, "%.3f");
@@ -204,41 +208,17 @@ void light_list(Session& s) {
   if (ImGui::SmallButton("delete")) s.remove_selected();
 }
 
-std::vector<std::string> method_names() {
-  std::vector<std::string> names = {"auto"};
-  for (const methods::Row& row : methods::all())
-    if (std::find(names.begin(), names.end(), row.name) == names.end()) names.emplace_back(row.name);
-  return names;
-}
-
 bool choose_method(const char* label, std::string& method) {
-  bool changed = false;
-  if (ImGui::BeginCombo(label, method.c_str())) {
-    for (const std::string& name : method_names())
-      if (ImGui::Selectable(name.c_str(), name == method)) {
-        method = name;
-        changed = true;
-      }
-    ImGui::EndCombo();
-  }
-  return changed;
+  std::vector<std::string> names = {"auto"};
+  for (const methods::Row& row : methods::all()) names.emplace_back(row.name);
+  return choose_name(label, names, method);
 }
 
 void render_controls(ViewState& state, Session& s) {
   RenderOptions& o = s.options();
   bool changed = choose_method("method", o.method);
-  const char* qualities[] = {"draft", "normal", "high"};
-  int quality = static_cast<int>(o.quality);
-  if (choose("quality", qualities, quality)) {
-    o.quality = static_cast<Quality>(quality);
-    changed = true;
-  }
-  const char* shadows[] = {"off", "on", "exact"};
-  int shadow = static_cast<int>(o.shadows);
-  if (choose("shadows", shadows, shadow)) {
-    o.shadows = static_cast<Shadows>(shadow);
-    changed = true;
-  }
+  changed |= choose_word("quality", o.quality);
+  changed |= choose_word("shadows", o.shadows);
   bool bounce = o.indirect.mode == IndirectMode::ltc;
   if (ImGui::Checkbox("one bounce", &bounce)) {
     o.indirect.mode = bounce ? IndirectMode::ltc : IndirectMode::off;
@@ -430,14 +410,7 @@ void draw_panel(ViewState& state) {
   if (ImGui::SliderFloat("exposure", &state.exposure, -8, 8, "%.2f stops")) state.display_wanted = true;
   ImGui::SameLine();
   if (ImGui::SmallButton("auto")) state.exposure_known = false;
-  if (ImGui::BeginCombo("tone curve", name_of(state.tone))) {
-    for (const ToneCurve curve : kToneCurves)
-      if (ImGui::Selectable(name_of(curve), curve == state.tone)) {
-        state.tone = curve;
-        state.display_wanted = true;
-      }
-    ImGui::EndCombo();
-  }
+  if (choose_word("tone curve", state.tone)) state.display_wanted = true;
   if (ImGui::CollapsingHeader("Files", ImGuiTreeNodeFlags_DefaultOpen)) {
     ImGui::InputText("##scene", &state.scene_name);
     ImGui::SameLine();
