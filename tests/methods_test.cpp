@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 
+#include "core/words.h"
 #include "paths.h"
 #include "render/frame/methods.h"
 #include "render/surface/camera_rays.h"
@@ -238,6 +239,25 @@ TEST(Methods, TheManualHasTheTable) {
   std::string expected = head;
   for (const Row& row : methods::all()) expected += manual_row(row) + "\n";
   EXPECT_EQ(manual.substr(begin, manual.find("\n\n", begin) + 1 - begin), expected);
+}
+
+// The add-on for Blender offers words of the tables.
+TEST(Methods, BlenderOffersKnownWords) {
+  const std::string engine = text_of("blender/steradian/engine.py");
+  const std::regex setting(R"re((\w+): bpy\.props\.EnumProperty\(([^\]]*)\])re"), item(R"re(\("([a-z-]+)", ")re");
+  std::set<std::string> found;
+  for (std::sregex_iterator s(engine.begin(), engine.end(), setting), end; s != end; ++s) {
+    const std::string option = (*s)[1], items = (*s)[2];
+    for (std::sregex_iterator i(items.begin(), items.end(), item); i != end; ++i) {
+      const std::string word = (*i)[1];
+      EXPECT_TRUE(option == "method"    ? method_of(word).has_value()
+                  : option == "shadows" ? words::find<Shadows>(word).has_value()
+                                        : words::find<IndirectMode>(word).has_value())
+          << option << " " << word;
+      found.insert(option);
+    }
+  }
+  EXPECT_EQ(found, (std::set<std::string>{"method", "shadows", "indirect"}));
 }
 
 }  // namespace steradian::methods_test
