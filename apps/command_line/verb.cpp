@@ -171,6 +171,10 @@ void Verb::refuse_without_effect(std::initializer_list<ConditionalOption> option
       throw WrongOption(option.name, std::string("changes nothing here: it needs ") + option.needs);
 }
 
+void Verb::refuse(std::initializer_list<const char*> names, const char* needs) const {
+  for (const char* name : names) refuse_without_effect({{name, false, needs}});
+}
+
 void Verb::callback(std::function<void()> run) {
   app_->callback([run = std::move(run)] {
     try {

@@ -94,6 +94,7 @@ class Verb {
   bool given(const std::string& name) const;
   // Throws WrongOption for the first option that the user gave and that has no effect.
   void refuse_without_effect(std::initializer_list<ConditionalOption> options) const;
+  void refuse(std::initializer_list<const char*> names, const char* needs) const;  // these never have an effect here
   void callback(std::function<void()> run);
 
  private:

@@ -139,45 +139,25 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--indirect-clamp", points, bounce},
        {"--indirect-shadows", points, bounce},
        {"--indirect-quads", ltc, "--indirect ltc"},
-       {"--moments", false, "a plane scene (.svg)"},
-       {"--occluders", false, "a plane scene (.svg)"},
-       {"--normal-map", false, "a plane scene (.svg)"},
-       {"--lamp-height", false, "a plane scene (.svg)"},
-       {"--bounces", false, "a plane scene (.svg)"},
-       {"--bounce-lattice", false, "a plane scene (.svg)"},
        {"--fps", !options.frames.empty(), "--frames"},
        {"--animation", !options.frames.empty(), "--frames"},
        {"--force", !options.frames.empty(), "--frames"},
-       {"--stats", options.frames.empty(), "one picture, not --frames"},
-       {"--edits", false, "a plane scene (.svg)"}});
+       {"--stats", options.frames.empty(), "one picture, not --frames"}});
+  verb.refuse({"--moments", "--occluders", "--normal-map", "--lamp-height", "--bounces", "--bounce-lattice", "--edits"},
+              "a plane scene (.svg)");
 }
 
 // Refuses options without effect in the plane, such as those of three dimensions.
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
+  verb.refuse({"--quality",          "--table",          "--terminator",     "--multiple-scattering", "--indirect",    "--vpls",
+               "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",      "--max-lights",  "--light",
+               "--lights",           "--light-error",    "--environment",    "--background",          "--light-units", "--camera",
+               "--target-error",     "--resume",         "--animation"},
+              third);
   verb.refuse_without_effect(
-      {{"--quality", false, third},
-       {"--table", false, third},
-       {"--shadows", options.render.shadows != Shadows::off, third},
-       {"--terminator", false, third},
-       {"--multiple-scattering", false, third},
-       {"--indirect", false, third},
-       {"--vpls", false, third},
-       {"--indirect-shadows", false, third},
-       {"--indirect-pairs", false, third},
-       {"--indirect-quads", false, third},
-       {"--indirect-clamp", false, third},
-       {"--max-lights", false, third},
-       {"--light", false, third},
-       {"--lights", false, third},
-       {"--light-error", false, third},
-       {"--environment", false, third},
-       {"--background", false, third},
-       {"--light-units", false, third},
-       {"--camera", false, third},
-       {"--target-error", false, third},
-       {"--resume", false, third},
+      {{"--shadows", options.render.shadows != Shadows::off, third},
        {"--device", options.render.backend == Backend::vulkan, "--backend vulkan"},
        {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
        {"--moments", options.output.ends_with(".exr") && options.normal_map.empty(), "-o FILE.exr, without --normal-map"},
@@ -190,7 +170,6 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
        {"--edits", !options.frames.empty(), "--frames"},
        {"--fps", !options.frames.empty(), "--frames"},
        {"--force", !options.frames.empty(), "--frames"},
-       {"--animation", false, third},
        {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
