@@ -57,9 +57,15 @@ void wrong_type(Problems& problems, const Place& place, const char* expected, Js
   problems.add(place, std::string("expected ") + expected + ", found " + type_name(found));
 }
 
+template <class T>
+static T read_as(Problems& problems, const Place& place, const char* expected, Json value) {
+  T x{};
+  if (value.get(x) != simdjson::SUCCESS) wrong_type(problems, place, expected, value);
+  return x;
+}
+
 double read_number(Problems& problems, const Place& place, Json value) {
-  double x = 0;
-  if (value.get(x) != simdjson::SUCCESS) wrong_type(problems, place, "a number", value);
+  const auto x = read_as<double>(problems, place, "a number", value);
   if (!std::isfinite(x)) problems.add(place, "the number is not finite");
   return x;
 }
@@ -80,16 +86,10 @@ std::int64_t read_integer(Problems& problems, const Place& place, Json value, st
   return x;
 }
 
-bool read_bool(Problems& problems, const Place& place, Json value) {
-  bool x = false;
-  if (value.get(x) != simdjson::SUCCESS) wrong_type(problems, place, "true or false", value);
-  return x;
-}
+bool read_bool(Problems& problems, const Place& place, Json value) { return read_as<bool>(problems, place, "true or false", value); }
 
 std::string_view read_string(Problems& problems, const Place& place, Json value) {
-  std::string_view x;
-  if (value.get(x) != simdjson::SUCCESS) wrong_type(problems, place, "a string", value);
-  return x;
+  return read_as<std::string_view>(problems, place, "a string", value);
 }
 
 Vec3d read_vector(Problems& problems, const Place& place, Json value) {

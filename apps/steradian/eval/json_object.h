@@ -49,6 +49,12 @@ struct Field {
   bool required = false;
 };
 
+// The function of a Field that stores the value in a member of the result. members: from the outermost to the innermost, `result.*a.*b`.
+template <auto read, auto... members, class T>
+void into(Problems& problems, const Place& place, Json value, T& result) {
+  (result.*....*members) = read(problems, place, value);
+}
+
 template <class T>
 void read_key(Problems& problems, const Place& place, Json value, const Field<T>& field, T& result) {
   field.read(problems, place, value, result);

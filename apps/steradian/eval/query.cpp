@@ -53,23 +53,18 @@ constexpr LightField kRadiance = {"radiance", [](Problems& p, const Place& at, J
                                     k.radiance = read_colour(p, at, v);
                                     k.has_radiance = true;
                                   }};
-constexpr LightField kIntensity = {"intensity",
-                                   [](Problems& p, const Place& at, Json v, LightKeys& k) { k.intensity = read_colour(p, at, v); }};
-constexpr LightField kProfile = {"profile", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.profile = read_profile(p, at, v); }};
-constexpr LightField kTowardsX = {"tangent",
-                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.towards_x = read_direction(p, at, v); }};
-constexpr LightField kTwoSided = {"two_sided",
-                                  [](Problems& p, const Place& at, Json v, LightKeys& k) { k.two_sided = read_bool(p, at, v); }};
-constexpr LightField kCenter = {"center", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.center = read_vector(p, at, v); },
-                                true};
-constexpr LightField kHalfAxisX = {"x", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.x = read_vector(p, at, v); }, true};
-constexpr LightField kHalfAxisY = {"y", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.y = read_vector(p, at, v); }, true};
-constexpr LightField kHalfAxisZ = {"z", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.z = read_vector(p, at, v); }, true};
-constexpr LightField kRadius = {"radius",
-                                [](Problems& p, const Place& at, Json v, LightKeys& k) { k.radius = read_not_negative(p, at, v); }, true};
+constexpr LightField kIntensity = {"intensity", into<read_colour, &LightKeys::intensity>};
+constexpr LightField kProfile = {"profile", into<read_profile, &LightKeys::profile>};
+constexpr LightField kTowardsX = {"tangent", into<read_direction, &LightKeys::towards_x>};
+constexpr LightField kTwoSided = {"two_sided", into<read_bool, &LightKeys::two_sided>};
+constexpr LightField kCenter = {"center", into<read_vector, &LightKeys::center>, true};
+constexpr LightField kHalfAxisX = {"x", into<read_vector, &LightKeys::x>, true};
+constexpr LightField kHalfAxisY = {"y", into<read_vector, &LightKeys::y>, true};
+constexpr LightField kHalfAxisZ = {"z", into<read_vector, &LightKeys::z>, true};
+constexpr LightField kRadius = {"radius", into<read_not_negative, &LightKeys::radius>, true};
 
 constexpr LightField kPolygonFields[] = {
-    {"vertices", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.polygon.vertices = read_contour(p, at, v); }, true},
+    {"vertices", into<read_contour, &LightKeys::polygon, &Polygon::vertices>, true},
     {"holes",
      [](Problems& p, const Place& at, Json v, LightKeys& k) {
        simdjson::dom::array holes;
@@ -94,17 +89,16 @@ constexpr LightField kCapsuleFields[] = {
     kRadiance,
 };
 constexpr LightField kPointFields[] = {
-    {"position", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.point_light.position = read_vector(p, at, v); }, true},
+    {"position", into<read_vector, &LightKeys::point_light, &PointLight::position>, true},
     kIntensity,
     kProfile,
-    {"aim", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.aim = read_direction(p, at, v); }},
+    {"aim", into<read_direction, &LightKeys::aim>},
     kTowardsX,
 };
 
 constexpr LightField kDirectionalFields[] = {
-    {"direction", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.directional_light.direction = read_direction(p, at, v); },
-     true},
-    {"illuminance", [](Problems& p, const Place& at, Json v, LightKeys& k) { k.directional_light.illuminance = read_colour(p, at, v); }},
+    {"direction", into<read_direction, &LightKeys::directional_light, &DirectionalLight::direction>, true},
+    {"illuminance", into<read_colour, &LightKeys::directional_light, &DirectionalLight::illuminance>},
 };
 
 Light solid(Shape shape, const LightKeys& k) {
@@ -236,20 +230,19 @@ void read_materials(Problems& problems, const Place& place, Json value, Query& q
 
 // ---- The query -------------------------------------------------------------------------------------------------
 
-void read_method(Problems& problems, const Place& place, Json value, Query& query) {
+Method read_method(Problems& problems, const Place& place, Json value) {
   const std::string_view name = read_string(problems, place, value);
-  if (!value.is_string()) return;
   const std::optional<Method> method = method_of(name);
-  if (!method) problems.add(place, quoted(name) + " is not supported", "supported: " + methods::names());
-  query.method = method.value_or(Method::automatic);
+  if (value.is_string() && !method) problems.add(place, quoted(name) + " is not supported", "supported: " + methods::names());
+  return method.value_or(Method::automatic);
 }
 
 template <class Value>
-void read_word(Problems& problems, const Place& place, Json value, Value& result) {
+Value read_word(Problems& problems, const Place& place, Json value) {
   const std::string_view name = read_string(problems, place, value);
   const std::optional<Value> found = words::find<Value>(name);
   if (value.is_string() && !found) problems.add(place, quoted(name) + " is not known", words::choices<Value>());
-  result = found.value_or(result);
+  return found.value_or(Value{});
 }
 
 // {"positions": [...], "indices": [...]}
@@ -343,21 +336,21 @@ constexpr Field<Query> kQueryFields[] = {
      }},
     {"light", read_light},
     {"lights", read_lights},
-    {"position", [](Problems& p, const Place& at, Json v, Query& q) { q.position = read_vector(p, at, v); }, true},
-    {"normal", [](Problems& p, const Place& at, Json v, Query& q) { q.normal = read_direction(p, at, v); }, true},
-    {"view", [](Problems& p, const Place& at, Json v, Query& q) { q.view = read_direction(p, at, v); }},
+    {"position", into<read_vector, &Query::position>, true},
+    {"normal", into<read_direction, &Query::normal>, true},
+    {"view", into<read_direction, &Query::view>},
     {"material", read_materials, true},
-    {"method", read_method},
-    {"precision", [](Problems& p, const Place& at, Json v, Query& q) { read_word(p, at, v, q.precision); }},
-    {"quality", [](Problems& p, const Place& at, Json v, Query& q) { read_word(p, at, v, q.quality); }},
+    {"method", into<read_method, &Query::method>},
+    {"precision", into<read_word<Precision>, &Query::precision>},
+    {"quality", into<read_word<Quality>, &Query::quality>},
     {"spp", [](Problems& p, const Place& at, Json v,
                Query& q) { q.spp = static_cast<int>(read_integer(p, at, v, 1, std::numeric_limits<int>::max())); }},
     {"seed", [](Problems& p, const Place& at, Json v,
                 Query& q) { q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max())); }},
     {"table", read_table},
     {"occluders", read_occluders},
-    {"geometric_normal", [](Problems& p, const Place& at, Json v, Query& q) { q.geometric_normal = read_direction(p, at, v); }},
-    {"derivatives", [](Problems& p, const Place& at, Json v, Query& q) { q.derivatives = read_bool(p, at, v); }},
+    {"geometric_normal", into<read_direction, &Query::geometric_normal>},
+    {"derivatives", into<read_bool, &Query::derivatives>},
 };
 
 }  // namespace
