@@ -105,7 +105,7 @@ Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareAr
       add("normal", r);
       return std::pair{settings, std::size_t{0}};
     }
-    for (const words::Word<Quality>& quality : words::kTable<Quality>) {
+    for (const words::OptionWord<Quality>& quality : words::kTable<Quality>) {
       r.quality = quality.value;
       add(quality.name, r);
     }

@@ -2,6 +2,7 @@
 // from here. Methods have a table of their own, integrals/methods.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -16,61 +17,63 @@
 namespace steradian::words {
 
 template <class Value>
-struct Word {
+struct OptionWord {
   Value value;
   const char* name;
 };
 
 template <class Value>
-inline constexpr std::array<Word<Value>, 0> kTable{};
+inline constexpr std::array<OptionWord<Value>, 0> kTable{};
 template <>
-inline constexpr auto kTable<bool> = std::to_array<Word<bool>>({{true, "on"}, {false, "off"}});
+inline constexpr auto kTable<bool> = std::to_array<OptionWord<bool>>({{true, "on"}, {false, "off"}});
 template <>
 inline constexpr auto kTable<Quality> =
-    std::to_array<Word<Quality>>({{Quality::draft, "draft"}, {Quality::normal, "normal"}, {Quality::high, "high"}});
+    std::to_array<OptionWord<Quality>>({{Quality::draft, "draft"}, {Quality::normal, "normal"}, {Quality::high, "high"}});
 template <>
-inline constexpr auto kTable<Precision> = std::to_array<Word<Precision>>({{Precision::double_, "double"}, {Precision::float_, "float"}});
+inline constexpr auto kTable<Precision> = std::to_array<OptionWord<Precision>>({{Precision::double_, "double"},
+                                                                                {Precision::float_, "float"}});
 template <>
 inline constexpr auto kTable<Shadows> =
-    std::to_array<Word<Shadows>>({{Shadows::off, "off"}, {Shadows::on, "on"}, {Shadows::exact, "exact"}});
+    std::to_array<OptionWord<Shadows>>({{Shadows::off, "off"}, {Shadows::on, "on"}, {Shadows::exact, "exact"}});
 template <>
-inline constexpr auto kTable<Terminator> = std::to_array<Word<Terminator>>({{Terminator::strict, "strict"},
-                                                                            {Terminator::smooth, "smooth"}});
+inline constexpr auto kTable<Terminator> = std::to_array<OptionWord<Terminator>>({{Terminator::strict, "strict"},
+                                                                                  {Terminator::smooth, "smooth"}});
 template <>
 inline constexpr auto kTable<LightSum> =
-    std::to_array<Word<LightSum>>({{LightSum::automatic, "auto"}, {LightSum::all, "all"}, {LightSum::tree, "tree"}});
+    std::to_array<OptionWord<LightSum>>({{LightSum::automatic, "auto"}, {LightSum::all, "all"}, {LightSum::tree, "tree"}});
 template <>
-inline constexpr auto kTable<Backend> = std::to_array<Word<Backend>>({{Backend::cpu, "cpu"}, {Backend::vulkan, "vulkan"}});
+inline constexpr auto kTable<Backend> = std::to_array<OptionWord<Backend>>({{Backend::cpu, "cpu"}, {Backend::vulkan, "vulkan"}});
 template <>
-inline constexpr auto kTable<IndirectMode> = std::to_array<Word<IndirectMode>>(
+inline constexpr auto kTable<IndirectMode> = std::to_array<OptionWord<IndirectMode>>(
     {{IndirectMode::off, "off"}, {IndirectMode::ltc, "ltc"}, {IndirectMode::ggx, "ggx"}, {IndirectMode::path, "path"}});
 template <>
-inline constexpr auto kTable<AddedLight> = std::to_array<Word<AddedLight>>(
+inline constexpr auto kTable<AddedLight> = std::to_array<OptionWord<AddedLight>>(
     {{AddedLight::standard, "default"}, {AddedLight::none, "none"}, {AddedLight::sun, "sun"}, {AddedLight::studio, "studio"}});
 template <>
-inline constexpr auto kTable<LightUnits> =
-    std::to_array<Word<LightUnits>>({{LightUnits::from_generator, "auto"}, {LightUnits::candela, "candela"}, {LightUnits::watt, "watt"}});
+inline constexpr auto kTable<LightUnits> = std::to_array<OptionWord<LightUnits>>({{LightUnits::from_generator, "auto"},
+                                                                                  {LightUnits::candela, "candela"},
+                                                                                  {LightUnits::watt, "watt"}});
 template <>
-inline constexpr auto kTable<ToneCurve> = std::to_array<Word<ToneCurve>>(
+inline constexpr auto kTable<ToneCurve> = std::to_array<OptionWord<ToneCurve>>(
     {{ToneCurve::neutral, "neutral"}, {ToneCurve::clip, "clip"}, {ToneCurve::reinhard, "reinhard"}, {ToneCurve::filmic, "filmic"}});
 template <>
-inline constexpr auto kTable<PlaneMethod> = std::to_array<Word<PlaneMethod>>(
+inline constexpr auto kTable<PlaneMethod> = std::to_array<OptionWord<PlaneMethod>>(
     {{PlaneMethod::exact, "exact"}, {PlaneMethod::par, "par"}, {PlaneMethod::sampled, "sampled"}, {PlaneMethod::marched, "marched"}});
 template <>
-inline constexpr auto kTable<PlaneOccluders> = std::to_array<Word<PlaneOccluders>>({{PlaneOccluders::black, "black"},
-                                                                                    {PlaneOccluders::fill, "fill"},
-                                                                                    {PlaneOccluders::clear, "clear"}});
+inline constexpr auto kTable<PlaneOccluders> = std::to_array<OptionWord<PlaneOccluders>>({{PlaneOccluders::black, "black"},
+                                                                                          {PlaneOccluders::fill, "fill"},
+                                                                                          {PlaneOccluders::clear, "clear"}});
 
 template <class Value>
 constexpr const char* name_of(Value value) {
-  for (const Word<Value>& word : kTable<Value>)
+  for (const OptionWord<Value>& word : kTable<Value>)
     if (word.value == value) return word.name;
   return "?";
 }
 
 template <class Value>
 constexpr std::optional<Value> find(std::string_view name) {
-  for (const Word<Value>& word : kTable<Value>)
+  for (const OptionWord<Value>& word : kTable<Value>)
     if (name == word.name) return word.value;
   return {};
 }
@@ -78,7 +81,7 @@ constexpr std::optional<Value> find(std::string_view name) {
 template <class Value>
 std::vector<std::string> names() {
   std::vector<std::string> names;
-  for (const Word<Value>& word : kTable<Value>) names.emplace_back(word.name);
+  for (const OptionWord<Value>& word : kTable<Value>) names.emplace_back(word.name);
   return names;
 }
 
@@ -86,9 +89,19 @@ std::vector<std::string> names() {
 template <class Value>
 std::string choices(const char* before_last = " or ") {
   std::string text;
-  for (const Word<Value>& word : kTable<Value>)
+  for (const OptionWord<Value>& word : kTable<Value>)
     text += (text.empty() ? "" : &word == &kTable<Value>.back() ? before_last : ", ") + std::string(word.name);
   return text;
+}
+
+// True if a list of words, separated by spaces, contains `word`.
+inline bool contains(std::string_view list, std::string_view word) {
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(' '), list.size());
+    if (list.substr(0, end) == word) return true;
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return false;
 }
 
 }  // namespace steradian::words

@@ -41,8 +41,6 @@ struct Key {
   std::string_view words{};  // for KeyKind::word, separated by spaces
 };
 
-bool is_word_of(const Key& key, std::string_view word);
-
 // True if the keys contain this one.
 template <class Keys>
 bool has_key(const Keys& keys, std::string_view name) {

@@ -84,15 +84,6 @@ Material in_frame(const Material& material, const Frame& frame) {
 std::span<const LobeRow> lobe_rows() { return rows(std::make_index_sequence<kKinds>()); }
 const LobeRow& row_of(Brdf brdf) { return lobe_rows()[static_cast<std::size_t>(brdf)]; }
 
-bool is_word_of(const Key& key, std::string_view word) {
-  for (std::string_view rest = key.words; !rest.empty();) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    if (rest.substr(0, end) == word) return true;
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return false;
-}
-
 std::optional<WidthProblem> check_width(const Draft& d) {
   if (!has_key(row_of(d.material.brdf).keys, "alpha")) return {};
   if (d.alpha_x != d.alpha_y) return WidthProblem{d.alpha_x ? "alpha_y" : "alpha_x", "missing", {}};

@@ -11,10 +11,7 @@ std::string member_place(const std::string& place, std::string_view key) {
   return place + (root ? ": " : ".") + std::string(key);
 }
 
-std::string shown(double x) {
-  std::string text = nlohmann::json(x).dump();
-  return text;
-}
+std::string shown(double x) { return nlohmann::json(x).dump(); }
 
 }  // namespace
 
@@ -117,16 +114,6 @@ Vec3d JsonCursor::vector(std::string_view key, Vec3d otherwise) const {
 int JsonCursor::index(std::string_view key, std::size_t count, std::string_view what) const {
   const auto member = find(key);
   return member ? member->as_index(count, what) : -1;
-}
-
-bool has_word(std::string_view words, std::string_view word) {
-  while (!words.empty()) {
-    const auto end = words.find(' ');
-    if (words.substr(0, end) == word) return true;
-    if (end == std::string_view::npos) break;
-    words.remove_prefix(end + 1);
-  }
-  return false;
 }
 
 std::optional<JsonCursor> find_extension(const JsonCursor& object, std::string_view name) {

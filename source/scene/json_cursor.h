@@ -94,9 +94,6 @@ std::array<double, N> JsonCursor::as_numbers() const {
   return result;
 }
 
-// True if `words`, separated by spaces, contains `word`.
-bool has_word(std::string_view words, std::string_view word);
-
 // The extension `name` of an object, if the object has it.
 std::optional<JsonCursor> find_extension(const JsonCursor& object, std::string_view name);
 

@@ -200,7 +200,7 @@ static void read_key(Problems& p, const Place& at, Json v, const Key& key, Draft
     case KeyKind::flag: value.flag = read_bool(p, at, v); break;
     case KeyKind::word:
       value.word = read_string(p, at, v);
-      if (v.is_string() && !lobes::is_word_of(key, value.word))
+      if (v.is_string() && !words::contains(key.words, value.word))
         p.add(at, eval::quoted(value.word) + " is not known", "one of: " + std::string(key.words));
       break;
   }

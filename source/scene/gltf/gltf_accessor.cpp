@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "core/words.h"
+
 namespace steradian::scene {
 namespace {
 
@@ -160,7 +162,7 @@ Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, con
 Layout allowed_layout(const JsonCursor& accessor, std::string_view types) {
   const Layout layout = layout_of(accessor);
   const std::string type = accessor.at("type").as_text();
-  if (!has_word(types, type)) accessor.at("type").fail("is " + type + ", must be " + std::string(types));
+  if (!words::contains(types, type)) accessor.at("type").fail("is " + type + ", must be " + std::string(types));
   return layout;
 }
 

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_materials.h"
 
+#include "core/words.h"
 #include "lobes/lobe.h"
 
 namespace steradian::scene {
@@ -137,7 +138,7 @@ lobes::KeyValue read_key(const JsonCursor& lobe, const lobes::Key& key) {
     case KeyKind::flag: value.flag = lobe.flag(name, false); break;
     case KeyKind::word:
       value.word = lobe.text(name, "");
-      if (!lobes::is_word_of(key, value.word))
+      if (!words::contains(key.words, value.word))
         lobe.at(name).fail("\"" + value.word + "\" is not known", "one of: " + std::string(key.words));
       break;
   }
