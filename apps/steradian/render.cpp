@@ -32,13 +32,12 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct RenderArguments {
-  std::string scene, output, size = kDefaultSize, indirect_shadows = "off", stats, exposure = "auto", normal_map, bounces = "0", frames,
-                             edits, animation;
-  double fps = 24, bounce_lattice = 0, lamp_height = 45;
-  bool force = false, moments = false, multiple_scattering = false, spp_given = false, resume = false;
+  std::string scene, output, size = kDefaultSize, indirect_shadows = "off", stats, exposure = "auto", bounces = "0", frames, animation;
+  double fps = 24;
+  bool force = false, multiple_scattering = false, spp_given = false, resume = false;
   std::vector<std::string> lights;
   ToneCurve tone = ToneCurve::neutral;
-  PlaneOccluders occluders = PlaneOccluders::black;
+  PlaneRender plane;  // the values that only plane scenes have
   LoadOptions load;
   RenderOptions render;
 };
@@ -160,10 +159,10 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
       {{"--shadows", options.render.shadows != Shadows::off, third},
        {"--device", options.render.backend == Backend::vulkan, "--backend vulkan"},
        {"--spp", method == "sampled" || method == "marched", "--method sampled or marched"},
-       {"--moments", options.output.ends_with(".exr") && options.normal_map.empty(), "-o FILE.exr, without --normal-map"},
+       {"--moments", options.output.ends_with(".exr") && options.plane.normal_map.empty(), "-o FILE.exr, without --normal-map"},
        {"--normal-map", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
-       {"--lamp-height", !options.normal_map.empty(), "--normal-map"},
-       {"--occluders", options.normal_map.empty(), "a light map, not --normal-map"},
+       {"--lamp-height", !options.plane.normal_map.empty(), "--normal-map"},
+       {"--occluders", options.plane.normal_map.empty(), "a light map, not --normal-map"},
        {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
        {"--frames", method == "auto" || method == "exact", "--method exact"},
        {"--bounce-lattice", options.bounces != "0", "--bounces"},
@@ -175,7 +174,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
 
 // A plane scene has its own size, one unit per pixel, and its own methods.
 void run_plane(RenderArguments& options) {
-  PlaneRender job;
+  PlaneRender job = options.plane;
   job.scene = options.scene;
   job.output = options.output;
   job.method = options.render.method;
@@ -189,19 +188,13 @@ void run_plane(RenderArguments& options) {
     job.frame.height = options.render.height;
   }
   job.bounces = options.bounces == "all" ? kAllBounces : std::stoi(options.bounces);
-  job.lattice = options.bounce_lattice;
   job.frames = options.frames;
-  job.edits = options.edits;
   job.fps = options.fps;
   job.force = options.force;
   job.vulkan = options.render.backend == Backend::vulkan;
   job.device = options.render.device;
   job.frame.aa = options.render.aa;
   job.frame.threads = options.render.threads;
-  job.frame.moments = options.moments;
-  job.normal_map = options.normal_map;
-  job.lamp_height = options.lamp_height;
-  job.frame.occluders = options.occluders;
   job.frame.sampling = {options.spp_given ? options.render.spp : 64, options.render.seed};
   render_plane_scene(job);
 }
@@ -336,14 +329,16 @@ void add_render(CommandLine& line) {
         return number || text == "all" ? std::string() : "give a number of bounces, or all";
       })
       .more("Plane scenes (.svg)");
-  verb.add("--bounce-lattice", options->bounce_lattice, "interpolate bounces within this error; 0: never")
+  verb.add("--bounce-lattice", options->plane.lattice, "interpolate bounces within this error; 0: never")
       .range(0.0, 1.0)
       .more("Plane scenes (.svg)");
-  verb.add_flag("--moments", options->moments, "add the layers moment_x and moment_y (.exr)").more("Plane scenes (.svg)");
-  verb.add("--normal-map", options->normal_map, "light this normal map (.png, .exr; green upwards)").more("Plane scenes (.svg)");
-  verb.add("--lamp-height", options->lamp_height, "of --normal-map: degrees above the plane").range(0.0, 90.0).more("Plane scenes (.svg)");
-  verb.add_word("--occluders", options->occluders, "colour of occluders").more("Plane scenes (.svg)");
-  verb.add("--edits", options->edits, "JSON file of what changes before which frame").more("Plane scenes (.svg)");
+  verb.add_flag("--moments", options->plane.frame.moments, "add the layers moment_x and moment_y (.exr)").more("Plane scenes (.svg)");
+  verb.add("--normal-map", options->plane.normal_map, "light this normal map (.png, .exr; green upwards)").more("Plane scenes (.svg)");
+  verb.add("--lamp-height", options->plane.lamp_height, "of --normal-map: degrees above the plane")
+      .range(0.0, 90.0)
+      .more("Plane scenes (.svg)");
+  verb.add_word("--occluders", options->plane.frame.occluders, "colour of occluders").more("Plane scenes (.svg)");
+  verb.add("--edits", options->plane.edits, "JSON file of what changes before which frame").more("Plane scenes (.svg)");
 
   verb.add("--max-lights", options->load.max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
   verb.add_word("--light-units", options->load.light_units, "unit of punctual lights").more("Limits");
