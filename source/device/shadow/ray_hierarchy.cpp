@@ -6,15 +6,12 @@
 #include <limits>
 
 #include "render/surface/ray_scene.h"
-#include "shadow/region/light_frame.h"
+#include "core/box.h"
 
 namespace steradian::vulkan {
 namespace {
 
 #include "shaders/ray_layout.glsl"
-
-using shadow::Box;
-using shadow::coordinate;
 
 constexpr std::size_t kLeaf = 4;  // most triangles
 static_assert(kLeaf < static_cast<std::size_t>(kLeafSizes));
@@ -24,8 +21,8 @@ constexpr double kCostOfTriangle = 1.5;  // relative to that of a box
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double half_area(const Box& b) {
-  const Vec3d d = b.high - b.low;
+double half_area(const Box3d& b) {
+  const Vec3d d = b.size();
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
@@ -40,12 +37,12 @@ class Builder {
     for (const RayTriangle& t : triangles) {
       Triangle triangle{t, {}, {}};
       for (Vec3d& corner : triangle.of.corners) triangle.box.add(corner = corner * static_cast<double>(unit_));
-      triangle.middle = (triangle.box.low + triangle.box.high) * 0.5;
+      triangle.middle = triangle.box.center();
       all_.add(triangle.box);
       triangles_.push_back(triangle);
     }
     // Positions relative to a ray's origin have errors of some roundings of their distance.
-    const Vec3d across = triangles_.empty() ? Vec3d{} : all_.high - all_.low;
+    const Vec3d across = triangles_.empty() ? Vec3d{} : all_.size();
     margin_ = 0x1p-20 * std::max({across.x, across.y, across.z});
     build(0, triangles_.size());
   }
@@ -65,7 +62,7 @@ class Builder {
  private:
   struct Triangle {
     RayTriangle of;
-    Box box;
+    Box3d box;
     Vec3d middle;
   };
   struct Split {
@@ -79,18 +76,19 @@ class Builder {
 
   // Finds the plane between two bins along an axis that separates the triangles' middles best, by the boxes' areas and numbers of
   // triangles. I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007.
-  void try_axis(std::size_t begin, std::size_t end, const Box& middles, int axis, Split& best) const {
+  void try_axis(std::size_t begin, std::size_t end, const Box3d& middles, int axis, Split& best) const {
     const double low = coordinate(middles.low, axis), width = (coordinate(middles.high, axis) - low) / kBins;
     if (!(width > 0)) return;
-    std::array<Box, kBins> boxes;
+    std::array<Box3d, kBins> boxes;
     std::array<std::size_t, kBins> counts{};
     for (std::size_t i = begin; i < end; ++i) {
       const auto bin = static_cast<std::size_t>(std::clamp((coordinate(triangles_[i].middle, axis) - low) / width, 0.0, kBins - 1.0));
       boxes[bin].add(triangles_[i].box);
       ++counts[bin];
     }
+    if (std::find(counts.begin(), counts.end(), 0) != counts.end()) return;  // an axis with an empty bin is not used
     std::array<double, kBins> above{};
-    Box box;
+    Box3d box;
     std::size_t count = 0;
     for (std::size_t b = kBins - 1; b > 0; --b) {
       box.add(boxes[b]);
@@ -108,7 +106,7 @@ class Builder {
   }
 
   void build(std::size_t begin, std::size_t end) {
-    Box box, middles;
+    Box3d box, middles;
     for (std::size_t i = begin; i < end; ++i) {
       box.add(triangles_[i].box);
       middles.add(triangles_[i].middle);
@@ -137,7 +135,7 @@ class Builder {
     vectors_[node + 1][3] = static_cast<std::uint32_t>(vectors_.size() / 2);
   }
 
-  Box all_;
+  Box3d all_;
   float unit_ = 1;
   double margin_ = 0;
   std::vector<Triangle> triangles_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadow/region/light_frame.h"
+#include "core/box.h"
 
 namespace steradian {
 namespace {
@@ -12,8 +12,7 @@ constexpr std::uint32_t kNone = UINT32_MAX;
 
 }  // namespace
 
-OpenLights::OpenLights(const std::vector<PackLight>& lights, const shadow::TriangleTree& triangles,
-                       const std::vector<shadow::Box>& cut_outs)
+OpenLights::OpenLights(const std::vector<PackLight>& lights, const shadow::TriangleTree& triangles, const std::vector<Box3d>& cut_outs)
     : triangles_(triangles), cut_outs_(cut_outs), leaf_of_(lights.size(), kNone) {
   std::vector<Node> leaves;
   for (const PackLight& light : lights) {
@@ -52,17 +51,17 @@ void OpenLights::build(std::uint32_t node, std::vector<Node>& leaves, std::size_
     leaf_of_[leaves[begin].light] = node;
     return;
   }
-  shadow::Box box;
+  Box3d box;
   double margin = INFINITY;
   for (std::size_t i = begin; i < end; ++i) {
     box.add(leaves[i].box);
     margin = std::min(margin, leaves[i].margin);
   }
-  const int axis = shadow::longest_side(box);
+  const int axis = box.longest_side();
   const std::size_t half = (begin + end) / 2;
   const auto at = [&](std::size_t i) { return leaves.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(half), at(end), [&](const Node& a, const Node& b) {
-    const auto middle = [axis](const Node& n) { return shadow::coordinate(n.box.low + n.box.high, axis); };
+    const auto middle = [axis](const Node& n) { return coordinate(n.box.low + n.box.high, axis); };
     const double x = middle(a), y = middle(b);
     return x != y ? x < y : a.light < b.light;
   });
@@ -78,7 +77,7 @@ void OpenLights::build(std::uint32_t node, std::vector<Node>& leaves, std::size_
 
 // True if the light lies above the horizons of the points' triangles, for points that have such a horizon.
 bool OpenLights::is_above(const TilePoints& points, const std::vector<std::uint32_t>& slots, const Node& node) const {
-  const Vec3d c = (node.box.low + node.box.high) * 0.5, h = (node.box.high - node.box.low) * 0.5;
+  const Vec3d c = node.box.center(), h = node.box.half();
   return std::all_of(slots.begin(), slots.end(), [&](std::uint32_t i) {
     const shadow::Viewpoint& at = points.points[i];
     if (!at.geometric_normal) return true;
@@ -111,7 +110,7 @@ void OpenLights::find(const TilePoints& points, const std::vector<const PackLigh
       const auto free = [&] {
         if (!is_above(points, slots, node)) return false;
         const shadow::HullOfBoxes hull(work.viewers.box(), node.box);
-        return std::none_of(cut_outs_.begin(), cut_outs_.end(), [&](const shadow::Box& b) { return hull.may_meet(b); }) &&
+        return std::none_of(cut_outs_.begin(), cut_outs_.end(), [&](const Box3d& b) { return hull.may_meet(b); }) &&
                triangles_.is_open(work.viewers, node.box, node.margin);
       };
       if (free()) continue;

@@ -13,7 +13,7 @@ namespace steradian {
 class OpenLights {
  public:
   // cut_outs: boxes of meshes that block light only in part, in addition to the mesh. Keeps the references.
-  OpenLights(const std::vector<PackLight>& lights, const shadow::TriangleTree& triangles, const std::vector<shadow::Box>& cut_outs);
+  OpenLights(const std::vector<PackLight>& lights, const shadow::TriangleTree& triangles, const std::vector<Box3d>& cut_outs);
 
   // Memory of one thread.
   struct Work {
@@ -26,7 +26,7 @@ class OpenLights {
 
  private:
   struct Node {
-    shadow::Box box;
+    Box3d box;
     double margin = INFINITY;  // least margin of the lights
     std::uint32_t parent = 0, first = 0;
     std::uint32_t light = 0;  // PackLight::index, for a leaf
@@ -37,7 +37,7 @@ class OpenLights {
   bool is_above(const TilePoints& points, const std::vector<std::uint32_t>& slots, const Node& node) const;
 
   const shadow::TriangleTree& triangles_;
-  const std::vector<shadow::Box>& cut_outs_;
+  const std::vector<Box3d>& cut_outs_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> leaf_of_;  // node by PackLight::index; kNone: never open
 };

@@ -5,25 +5,16 @@
 #include <cmath>
 
 namespace steradian::shadow {
-namespace {
-
-Vec3d least(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3d largest(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-
-}  // namespace
 
 double Shaft::enclose(const std::vector<Vec3d>& points, const Frame& axes) {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
-  for (const Vec3d& p : points) {
-    low = least(low, axes.to_local(p));
-    high = largest(high, axes.to_local(p));
-  }
-  const Vec3d half = (high - low) * 0.5;
-  center_ = axes.to_world((low + high) * 0.5);
+  Box3d box;
+  for (const Vec3d& p : points) box.add(axes.to_local(p));
+  const Vec3d half = box.half();
+  center_ = axes.to_world(box.center());
   half_[0] = axes.x * half.x;
   half_[1] = axes.y * half.y;
   half_[2] = axes.z * half.z;
-  return low.z;
+  return box.low.z;
 }
 
 Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up, Sections sections)
@@ -61,14 +52,14 @@ Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up
 
 Shaft::Shaft(Vec3d light, double half_side, const std::vector<Vec3d>& points, Vec3d up) : sections_(Sections::anywhere), origin_(light) {
   const Vec3d half{half_side, half_side, half_side};
-  Vec3d low = light - half, high = light + half;
+  Box3d all{light - half, light + half};
   for (const Vec3d& p : points) {
-    low = least(low, p);
-    high = largest(high, p);
+    all.add(p);
     far_ = std::max(far_, length(p - light));
   }
-  bounds_ = {bound_of({0, 0, -1}, -low.z), bound_of({0, 0, 1}, high.z),  bound_of({1, 0, 0}, high.x), bound_of({-1, 0, 0}, -low.x),
-             bound_of({0, 1, 0}, high.y),  bound_of({0, -1, 0}, -low.y), bound_of({0, 0, 1}, high.z)};
+  bounds_ = {bound_of({0, 0, -1}, -all.low.z), bound_of({0, 0, 1}, all.high.z), bound_of({1, 0, 0}, all.high.x),
+             bound_of({-1, 0, 0}, -all.low.x), bound_of({0, 1, 0}, all.high.y), bound_of({0, -1, 0}, -all.low.y),
+             bound_of({0, 0, 1}, all.high.z)};
   const Frame around = dot(up, up) > 0 ? Frame::from_normal(normalized(up)) : Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double lowest = enclose(points, around), of_light = dot(around.z, light) - std::sqrt(3.0) * half_side;
   bounds_[6] = bound_of(-around.z, -std::min(lowest, of_light));
@@ -79,8 +70,8 @@ double Shaft::rounding(Vec3d p) const {
   return 2e-6 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z) + far_) + 1e-12 * length(origin_);
 }
 
-bool Shaft::may_meet_box(Vec3d low, Vec3d high) const {
-  const Vec3d c = (low + high) * 0.5, h = (high - low) * 0.5;
+bool Shaft::may_meet(const Box3d& box) const {
+  const Vec3d c = box.center(), h = box.half();
   const double margin = rounding(c) + 2e-6 * (h.x + h.y + h.z);
   return std::none_of(bounds_.begin(), bounds_.end(), [&](const Bound& b) {
     return dot(b.normal, c) - (std::fabs(b.normal.x) * h.x + std::fabs(b.normal.y) * h.y + std::fabs(b.normal.z) * h.z) >
@@ -144,13 +135,10 @@ ShaftView Shaft::view_from(const LightFrame& frame) const {
 EdgeTree::EdgeTree(const EdgeMesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.edges.size());
   if (count == 0) return;
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
+  Box3d all;
   for (const Edge& e : mesh.edges)
-    for (const std::uint32_t v : {e.v0, e.v1}) {
-      low = least(low, mesh.vertices[v]);
-      high = largest(high, mesh.vertices[v]);
-    }
-  middle_ = (low + high) * 0.5;
+    for (const std::uint32_t v : {e.v0, e.v1}) all.add(mesh.vertices[v]);
+  middle_ = all.center();
   for (std::uint32_t begin = 0; begin < count; begin += kLeafEdges)
     leaves_.push_back(leaf_of(mesh, begin, std::min(begin + kLeafEdges, count)));
   nodes_.reserve(2 * leaves_.size());

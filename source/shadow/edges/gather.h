@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/box.h"
 #include "shadow/edges/edges.h"
 #include "shadow/edges/segments.h"
 #include "shadow/lanes/packs.h"
@@ -75,7 +76,7 @@ class Shaft {
   // An axis-aligned box around points and a light that lies in a cube about `light`, however near they are.
   Shaft(Vec3d light, double half_side, const std::vector<Vec3d>& points, Vec3d up = {});
 
-  bool may_meet_box(Vec3d low, Vec3d high) const;
+  bool may_meet(const Box3d& box) const;
   bool may_meet(const Vec3d* corners, int count) const;  // tests their hull
   bool may_meet_segment(Vec3d a, Vec3d b) const;
 

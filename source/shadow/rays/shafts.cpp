@@ -8,13 +8,13 @@ namespace steradian::shadow {
 
 // The hull's projection along an axis is the hull of two rectangles. In each of its four quadrants it has a slanted side if one rectangle
 // reaches further in one coordinate and the other in the second.
-HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
+HullOfBoxes::HullOfBoxes(const Box3d& a, const Box3d& b) : all_(a) {
   all_.add(b);
   for (int axis = 0; axis < 3; ++axis) {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
     for (const int sx : {-1, 1})
       for (const int sy : {-1, 1}) {
-        const auto corner = [&](const Box& box, int c, int sign) { return coordinate(sign < 0 ? box.low : box.high, c); };
+        const auto corner = [&](const Box3d& box, int c, int sign) { return coordinate(sign < 0 ? box.low : box.high, c); };
         const double ax = corner(a, x, sx), ay = corner(a, y, sy), bx = corner(b, x, sx), by = corner(b, y, sy);
         const double dx = sx * (ax - bx), dy = sy * (ay - by);
         if (!(dx * dy < 0)) continue;
@@ -24,12 +24,10 @@ HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
   }
 }
 
-bool HullOfBoxes::may_meet(const Box& b) const {
-  for (int c = 0; c < 3; ++c)
-    if (coordinate(b.low, c) > coordinate(all_.high, c) || coordinate(b.high, c) < coordinate(all_.low, c)) return false;
-  return std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
-    return s.u * coordinate(s.u > 0 ? b.low : b.high, s.x) + s.v * coordinate(s.v > 0 ? b.low : b.high, s.y) > s.offset;
-  });
+bool HullOfBoxes::may_meet(const Box3d& b) const {
+  return all_.meets(b) && std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
+           return s.u * coordinate(s.u > 0 ? b.low : b.high, s.x) + s.v * coordinate(s.v > 0 ? b.low : b.high, s.y) > s.offset;
+         });
 }
 
 bool HullOfBoxes::may_meet(const Vec3d (&corners)[3]) const {
@@ -57,16 +55,13 @@ void TriangleTree::Viewers::take(const std::vector<Vec3d>& points) {
   }
 }
 
-TriangleTree::Viewers::Range TriangleTree::Viewers::over(const Plane& plane, std::uint32_t triangle) {
-  Range& range = ranges_[triangle];
+Interval<double> TriangleTree::Viewers::over(const Plane& plane, std::uint32_t triangle) {
+  Interval<double>& range = ranges_[triangle];
   if (stamps_[triangle] == stamp_) return range;
   stamps_[triangle] = stamp_;
-  range = {INFINITY, -INFINITY};
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    const double h = plane.normal.x * x_[i] + plane.normal.y * y_[i] + plane.normal.z * z_[i] - plane.offset;
-    range.low = std::min(range.low, h);
-    range.high = std::max(range.high, h);
-  }
+  range = {};
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    range.add(plane.normal.x * x_[i] + plane.normal.y * y_[i] + plane.normal.z * z_[i] - plane.offset);
   return range;
 }
 
@@ -77,7 +72,7 @@ TriangleTree::TriangleTree(const EdgeMesh& mesh) : mesh_(mesh), order_(mesh.tria
 }
 
 void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Box box, middles;
+  Box3d box, middles;
   const auto middle = [&](std::uint32_t t) {
     const auto& c = mesh_.triangles[t];
     return (mesh_.vertices[c[0]] + mesh_.vertices[c[1]] + mesh_.vertices[c[2]]) / 3;
@@ -91,7 +86,7 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
     nodes_[node] = {box, begin, end - begin};
     return;
   }
-  const int axis = longest_side(middles);
+  const int axis = middles.longest_side();
   const std::uint32_t half = begin + (end - begin) / 2;
   std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
     const double x = coordinate(middle(a), axis), y = coordinate(middle(b), axis);
@@ -105,16 +100,16 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
 }
 
 // Returns true if all points and the whole light lie on one side of the triangle's plane.
-bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box& light, double margin) const {
+bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box3d& light, double margin) const {
   const Plane& plane = mesh_.planes[triangle];
-  const Vec3d c = (light.low + light.high) * 0.5, h = (light.high - light.low) * 0.5, n = plane.normal;
+  const Vec3d c = light.center(), h = light.half(), n = plane.normal;
   const double at = dot(n, c) - plane.offset, reach = std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z,
                slack = margin * length(n);
-  const Viewers::Range points = viewers.over(plane, triangle);
+  const Interval<double> points = viewers.over(plane, triangle);
   return (at - reach >= -slack && points.low >= 0) || (at + reach <= slack && points.high <= 0);
 }
 
-bool TriangleTree::is_open(Viewers& viewers, const Box& light, double margin) const {
+bool TriangleTree::is_open(Viewers& viewers, const Box3d& light, double margin) const {
   if (order_.empty()) return true;
   viewers.ranges_.resize(order_.size());
   viewers.stamps_.resize(order_.size());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadow/region/light_frame.h"
+#include "core/box.h"
 
 namespace steradian::shadow {
 namespace {
@@ -51,7 +51,7 @@ TriangleRays::TriangleRays(const EdgeMesh& mesh) {
 }
 
 void TriangleRays::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Box box, centers;
+  Box3d box, centers;
   const auto center = [](const Triangle& t) { return t.a + (t.ab + t.ac) / 3.0; };
   for (std::uint32_t i = begin; i < end; ++i) {
     const Triangle& t = triangles_[i];
@@ -59,12 +59,12 @@ void TriangleRays::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
     centers.add(center(t));
   }
   // Corners are summed again here: a rounding must not put a part of a triangle outside the box.
-  const double margin = 1e-12 * (std::fabs(box.low.x) + std::fabs(box.low.y) + std::fabs(box.low.z) + length(box.high - box.low));
+  const double margin = 1e-12 * (std::fabs(box.low.x) + std::fabs(box.low.y) + std::fabs(box.low.z) + length(box.size()));
   const Vec3d grow{margin, margin, margin};
   nodes_[node].low = box.low - grow;
   nodes_[node].high = box.high + grow;
-  const int axis = longest_side(centers);
-  if (end - begin <= 4 || !(coordinate(centers.high - centers.low, axis) > 0)) {
+  const int axis = centers.longest_side();
+  if (end - begin <= 4 || !(coordinate(centers.size(), axis) > 0)) {
     nodes_[node].first = begin;
     nodes_[node].count = end - begin;
     return;
