@@ -27,6 +27,12 @@ constexpr T coordinate(Vector3<T> v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+// Ties go to the first axis.
+template <class T>
+constexpr int longest_axis(Vector3<T> size) {
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
 // V: a vector of two or three coordinates.
 template <class V>
 struct Box {
@@ -64,10 +70,7 @@ struct Box {
     if constexpr (kSolid) z = low.z <= b.high.z && b.low.z <= high.z;
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && z;
   }
-  int longest_side() const requires kSolid {
-    const V d = size();
-    return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-  }
+  int longest_side() const { return longest_axis(size()); }
 };
 
 using Box2d = Box<Vec2d>;
