@@ -50,14 +50,15 @@ class BoxTree {
     return std::span(order_).subspan(node.first, nodes_[node.next].first - node.first);
   }
 
-  // Calls use(items) for the leaves of all nodes for which enter(node) is true, in order, until one returns true. Returns true if one did.
+  // Traverses the nodes for which enter(node) is true, in order. Calls use(first, last) with the places in order() of each leaf's items,
+  // until it returns true. Returns true if it did.
   template <class Enter, class Use>
   bool any_leaf(Enter enter, Use use) const {
     for (std::size_t n = 0; n + 1 < nodes_.size();) {
       const Node& node = nodes_[n];
       if (!enter(node))
         n = node.next;
-      else if (++n == node.next && use(items(node)))
+      else if (++n == node.next && use(node.first, nodes_[n].first))
         return true;
     }
     return false;

@@ -141,9 +141,14 @@ EdgeTree::EdgeTree(const EdgeMesh& mesh) {
   middle_ = all.center();
   for (std::uint32_t begin = 0; begin < count; begin += kLeafEdges)
     leaves_.push_back(leaf_of(mesh, begin, std::min(begin + kLeafEdges, count)));
-  nodes_.reserve(2 * leaves_.size());
-  nodes_.emplace_back();
-  build(0, 0, count);
+  const auto box_of = [&](std::uint32_t leaf) {
+    Box3f box;
+    for (int i = 0; i < std::popcount(leaves_[leaf].valid); ++i)
+      for (const auto& end : {leaves_[leaf].a, leaves_[leaf].b}) box.add(Vec3f{end[0][i], end[1][i], end[2][i]});
+    return box;
+  };
+  // The leaves stay in their order.
+  tree_ = BoxTree<Box3f>(leaves_.size(), box_of, [](auto leaves) { return leaves.size() > 1 ? (leaves.size() + 1) / 2 : 0; });
 }
 
 EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint32_t end) const {
@@ -174,40 +179,15 @@ EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint3
   return leaf;
 }
 
-void EdgeTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  if (end - begin <= kLeafEdges) {
-    const EdgeLeaf& leaf = leaves_[begin / kLeafEdges];
-    const auto low = [&](std::size_t c) {
-      return std::min(*std::min_element(leaf.a[c], leaf.a[c] + (end - begin)), *std::min_element(leaf.b[c], leaf.b[c] + (end - begin)));
-    };
-    const auto high = [&](std::size_t c) {
-      return std::max(*std::max_element(leaf.a[c], leaf.a[c] + (end - begin)), *std::max_element(leaf.b[c], leaf.b[c] + (end - begin)));
-    };
-    nodes_[node] = {{low(0), low(1), low(2)}, {high(0), high(1), high(2)}, begin / kLeafEdges, 0};
-    return;
-  }
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
-  const std::uint32_t half = middle_of(begin, end);
-  build(children, begin, half);
-  build(children + 1, half, end);
-  const Node &a = nodes_[children], &b = nodes_[children + 1];
-  nodes_[node] = {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-                  {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)},
-                  0,
-                  children};
-}
-
 void EdgeTree::gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const {
   edges.clear();
-  if (nodes_.empty()) return;
   LightFrame here;
   here.origin = middle_;
   here.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const ShaftView view = shaft.view_from(here);
   // The margins are those of edges, for the whole box.
-  const auto meets = [&view](const Vec3f& low, const Vec3f& high) {
-    const Vec3f c = (low + high) * 0.5f, h = (high - low) * 0.5f;
+  const auto meets = [&view](const BoxTree<Box3f>::Node& node) {
+    const Vec3f c = node.volume.center(), h = node.volume.half();
     const float margin = 4e-6f * (std::fabs(c.x) + std::fabs(c.y) + std::fabs(c.z) + h.x + h.y + h.z + view.reach);
     for (std::size_t s = 0; s < kShaftSides; ++s) {
       const float* n = view.normal[s];
@@ -216,20 +196,11 @@ void EdgeTree::gather(const ShadowTable& packs, const Shaft& shaft, std::vector<
     }
     return true;
   };
-  std::uint32_t stack[64];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (!meets(node.low, node.high)) continue;
-    if (node.children != 0) {
-      stack[depth++] = node.children + 1;
-      stack[depth++] = node.children;
-      continue;
-    }
-    for (std::uint32_t bits = packs.needed(leaves_[node.leaf], view); bits != 0; bits &= bits - 1)
-      edges.push_back(node.leaf * kLeafEdges + static_cast<std::uint32_t>(std::countr_zero(bits)));
-  }
+  tree_.any_leaf(meets, [&](std::uint32_t leaf, std::uint32_t) {
+    for (std::uint32_t bits = packs.needed(leaves_[leaf], view); bits != 0; bits &= bits - 1)
+      edges.push_back(leaf * kLeafEdges + static_cast<std::uint32_t>(std::countr_zero(bits)));
+    return false;
+  });
 }
 
 }  // namespace steradian::shadow

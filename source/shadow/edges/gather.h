@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/box.h"
+#include "core/box_tree.h"
 #include "shadow/edges/edges.h"
 #include "shadow/edges/segments.h"
 #include "shadow/lanes/packs.h"
@@ -114,16 +114,11 @@ class EdgeTree {
   void gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const;
 
  private:
-  struct Node {
-    Vec3f low, high;
-    std::uint32_t leaf = 0, children = 0;  // children 0: a leaf; else index of two adjacent children
-  };
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   EdgeLeaf leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint32_t end) const;
 
   Vec3d middle_;  // middle of all edges, origin of the coordinates
-  std::vector<Node> nodes_;
   std::vector<EdgeLeaf> leaves_;
+  BoxTree<Box3f> tree_;  // of the leaves
 };
 
 }  // namespace steradian::shadow

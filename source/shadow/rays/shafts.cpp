@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "shadow/rays/shafts.h"
 
@@ -65,39 +64,10 @@ Interval<double> TriangleTree::Viewers::over(const Plane& plane, std::uint32_t t
   return range;
 }
 
-TriangleTree::TriangleTree(const EdgeMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
-  std::iota(order_.begin(), order_.end(), 0u);
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(order_.size()));
-}
-
-void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Box3d box, middles;
-  const auto middle = [&](std::uint32_t t) {
-    const auto& c = mesh_.triangles[t];
-    return (mesh_.vertices[c[0]] + mesh_.vertices[c[1]] + mesh_.vertices[c[2]]) / 3;
-  };
-  for (std::uint32_t i = begin; i < end; ++i) {
-    for (const std::uint32_t v : mesh_.triangles[order_[i]]) box.add(mesh_.vertices[v]);
-    middles.add(middle(order_[i]));
-  }
-  constexpr std::uint32_t kLeaf = 4;
-  if (end - begin <= kLeaf) {
-    nodes_[node] = {box, begin, end - begin};
-    return;
-  }
-  const int axis = middles.longest_side();
-  const std::uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-    const double x = coordinate(middle(a), axis), y = coordinate(middle(b), axis);
-    return x != y ? x < y : a < b;
-  });
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
-  nodes_[node] = {box, children, 0};
-  build(children, begin, half);
-  build(children + 1, half, end);
-}
+TriangleTree::TriangleTree(const EdgeMesh& mesh)
+    : mesh_(mesh),
+      tree_(
+          mesh.triangles.size(), [&](std::uint32_t t) { return box_of(mesh, t); }, Halving{4}) {}
 
 // Returns true if all points and the whole light lie on one side of the triangle's plane.
 bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box3d& light, double margin) const {
@@ -110,28 +80,18 @@ bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box
 }
 
 bool TriangleTree::is_open(Viewers& viewers, const Box3d& light, double margin) const {
-  if (order_.empty()) return true;
-  viewers.ranges_.resize(order_.size());
-  viewers.stamps_.resize(order_.size());
+  viewers.ranges_.resize(mesh_.triangles.size());
+  viewers.stamps_.resize(mesh_.triangles.size());
   const HullOfBoxes hull(viewers.box_, light);
-  std::uint32_t stack[64];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (!hull.may_meet(node.box)) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.first + 1;
-      stack[depth++] = node.first;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const auto& t = mesh_.triangles[order_[i]];
-      const Vec3d corners[3] = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
-      if (hull.may_meet(corners) && !separates(order_[i], viewers, light, margin)) return false;
-    }
-  }
-  return true;
+  const auto blocks = [&](std::uint32_t triangle) {
+    const auto& t = mesh_.triangles[triangle];
+    const Vec3d corners[3] = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+    return hull.may_meet(corners) && !separates(triangle, viewers, light, margin);
+  };
+  return !tree_.any_leaf([&](const auto& node) { return hull.may_meet(node.volume); },
+                         [&](std::uint32_t first, std::uint32_t last) {
+                           return std::any_of(tree_.order().begin() + first, tree_.order().begin() + last, blocks);
+                         });
 }
 
 Ball ball_around(const AreaLight& area) {

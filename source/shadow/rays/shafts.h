@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/box.h"
+#include "core/box_tree.h"
 #include "shadow/edges/edges.h"
 #include "shadow/region/light_frame.h"
 #include "steradian/area_light.h"
@@ -62,16 +62,10 @@ class TriangleTree {
   bool is_open(Viewers& viewers, const Box3d& light, double margin) const;
 
  private:
-  struct Node {
-    Box3d box;
-    std::uint32_t first = 0, count = 0;  // range of a leaf's triangles; count 0: its children are at first and first + 1
-  };
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   bool separates(std::uint32_t triangle, Viewers& viewers, const Box3d& light, double margin) const;
 
   const EdgeMesh& mesh_;
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
+  BoxTree<Box3d> tree_;
 };
 
 // Round lights and groups of points: occluders that may lie between, found before each point uses its own polygon (round_light.h).
