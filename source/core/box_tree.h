@@ -43,6 +43,12 @@ class BoxTree {
     nodes_.push_back({{}, static_cast<std::uint32_t>(count), 0});
   }
 
+  // Replaces every volume by change(volume).
+  template <class Change>
+  void change(Change change) {
+    for (Node& node : nodes_) node.volume = change(node.volume);
+  }
+
   const std::vector<Node>& nodes() const { return nodes_; }
   // The items' numbers, leaf after leaf.
   const std::vector<std::uint32_t>& order() const { return order_; }

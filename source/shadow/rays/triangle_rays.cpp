@@ -37,21 +37,39 @@ bool meets_box(const Box3d& box, Vec3d from, Vec3d inverse) {
 
 }  // namespace
 
+// The boxes decide about rays that lie in the plane of a triangle but for roundings. So the halves are not those of Halving.
 TriangleRays::TriangleRays(const EdgeMesh& mesh) {
-  Box3d all;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) all.add(box_of(mesh, t));
-  // Corners are sums of `a` and a side: a rounding must not put a part of a triangle outside the box.
-  const double margin = 2e-12 * (std::fabs(all.low.x) + std::fabs(all.low.y) + std::fabs(all.low.z) + length(all.size()));
-  const auto grown = [&](std::uint32_t t) {
-    const Box3d box = box_of(mesh, t);
-    return Box3d{box.low - Box3d::all(margin), box.high + Box3d::all(margin)};
-  };
-  tree_ = BoxTree<Box3d>(mesh.triangles.size(), grown, Halving{4});
-  for (const std::uint32_t number : tree_.order()) {
-    const auto& t = mesh.triangles[number];
+  std::vector<Triangle> triangles;
+  for (const auto& t : mesh.triangles) {
     const Vec3d a = mesh.vertices[t[0]];
-    triangles_.push_back({a, mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a});
+    triangles.push_back({a, mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a});
   }
+  const auto box = [&](std::uint32_t i) {
+    const Triangle& t = triangles[i];
+    Box3d result;
+    for (const Vec3d v : {t.a, t.a + t.ab, t.a + t.ac}) result.add(v);
+    return result;
+  };
+  const auto center = [&](const BoxTree<Box3d>::Item& i) {
+    return triangles[i.number].a + (triangles[i.number].ab + triangles[i.number].ac) / 3.0;
+  };
+  const auto halve = [&](std::span<BoxTree<Box3d>::Item> items) -> std::size_t {
+    Box3d centers;
+    for (const auto& i : items) centers.add(center(i));
+    const int axis = centers.longest_side();
+    if (items.size() <= 4 || !(coordinate(centers.size(), axis) > 0)) return 0;
+    const auto half = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
+    std::nth_element(items.begin(), half, items.end(),
+                     [&](const auto& a, const auto& b) { return coordinate(center(a), axis) < coordinate(center(b), axis); });
+    return items.size() / 2;
+  };
+  tree_ = BoxTree<Box3d>(triangles.size(), box, halve);
+  // Corners are summed again here: a rounding must not put a part of a triangle outside the box.
+  tree_.change([](const Box3d& b) {
+    const double margin = 1e-12 * (std::fabs(b.low.x) + std::fabs(b.low.y) + std::fabs(b.low.z) + length(b.size()));
+    return Box3d{b.low - Box3d::all(margin), b.high + Box3d::all(margin)};
+  });
+  for (const std::uint32_t i : tree_.order()) triangles_.push_back(triangles[i]);
 }
 
 bool TriangleRays::between(Vec3d from, Vec3d to) const {
