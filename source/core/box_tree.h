@@ -97,8 +97,18 @@ class BoxTree {
   std::vector<std::uint32_t> order_;
 };
 
+// Puts the `half` items with the least middles along an axis first. Numbers settle ties. Returns `half`.
+template <class Item>
+std::size_t halve(std::span<Item> items, std::size_t half, int axis) {
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(), [axis](const Item& a, const Item& b) {
+    const auto x = coordinate(a.middle, axis), y = coordinate(b.middle, axis);
+    return x != y ? x < y : a.number < b.number;
+  });
+  return half;
+}
+
 // Halves items by their middles, along the longest side of the box around these, down to leaves of `leaf` items; the last one may have
-// fewer. Numbers settle ties, and ascend in a leaf, so that the order is unique.
+// fewer. Numbers ascend in a leaf, so that the order is unique.
 struct Halving {
   std::size_t leaf;
 
@@ -111,12 +121,7 @@ struct Halving {
     Box<decltype(Item::middle)> middles;
     for (const Item& item : items) middles.add(item.middle);
     const std::size_t half = (items.size() + 2 * leaf - 1) / (2 * leaf) * leaf;
-    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
-                     [axis = middles.longest_side()](const Item& a, const Item& b) {
-                       const auto x = coordinate(a.middle, axis), y = coordinate(b.middle, axis);
-                       return x != y ? x < y : a.number < b.number;
-                     });
-    return half;
+    return halve(items, half, middles.longest_side());
   }
 };
 

@@ -38,8 +38,14 @@ OpenLights::OpenLights(const std::vector<PackLight>& lights, const shadow::Trian
     volumes.push_back(volume);
     lights_.push_back(static_cast<std::uint32_t>(light.index));
   }
+  const auto halves = [&](std::span<BoxTree<Volume>::Item> items) -> std::size_t {
+    if (items.size() <= 1) return 0;
+    Volume all;
+    for (const auto& item : items) all.add(volumes[item.number]);
+    return halve(items, items.size() / 2, all.longest_side());
+  };
   tree_ = BoxTree<Volume>(
-      volumes.size(), [&](std::uint32_t i) { return volumes[i]; }, Halving{1});
+      volumes.size(), [&](std::uint32_t i) { return volumes[i]; }, halves);
 }
 
 // True if the lights lie above the horizons of the points' triangles, for points that have such a horizon.
