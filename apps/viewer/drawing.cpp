@@ -165,7 +165,7 @@ void Drawing::drag(Vec2d to) {
     change(*selection_, moved(pressed_body_, now - pressed_));
     return;
   }
-  const Vec2d middle = bounds_of(pressed_body_).middle();
+  const Vec2d middle = bounds_of(pressed_body_).center();
   const double from = length(pressed_ - middle);
   if (from > 0) change(*selection_, scaled(pressed_body_, middle, std::max(length(now - middle) / from, 0.02)));
 }
@@ -179,7 +179,7 @@ void Drawing::release(Vec2d at) {
 void Drawing::wheel(double steps, Vec2d) {
   if (!selection_) return;
   const PlaneBody& body = sheet_.scene.bodies[*selection_];
-  change(*selection_, scaled(body, bounds_of(body).middle(), std::pow(1.1, steps)));
+  change(*selection_, scaled(body, bounds_of(body).center(), std::pow(1.1, steps)));
   close_step();
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/box.h"
 #include "scene/emitters/merge_polygons.h"
 #include "scene/gltf/gltf_accessor.h"
 #include "steradian/error.h"
@@ -141,13 +142,12 @@ bool set_outline(Document& document, const Lamp& lamp, const Outline& outline) {
   if (!triangles) return false;
 
   std::vector<Vec3f> positions, normals;
-  Vec3f low{INFINITY, INFINITY, INFINITY}, high = -low;
+  Box3f box;
   const double height = dot(outline.contours[0][0], frame.z);  // puts all corners on one plane: dragged corners are only near it
   for (const auto& contour : outline.contours)
     for (const Vec3d& p : contour) {
       const auto q = static_cast<Vec3f>(p + frame.z * (height - dot(p, frame.z)));
-      low = {std::min(low.x, q.x), std::min(low.y, q.y), std::min(low.z, q.z)};
-      high = {std::max(high.x, q.x), std::max(high.y, q.y), std::max(high.z, q.z)};
+      box.add(q);
       positions.push_back(q);
     }
   if (positions.size() > kMostCorners) return false;
@@ -172,8 +172,8 @@ bool set_outline(Document& document, const Lamp& lamp, const Outline& outline) {
                                                 {"componentType", 5126},
                                                 {"type", "VEC3"},
                                                 {"count", positions.size()},
-                                                {"min", list(low)},
-                                                {"max", list(high)}});
+                                                {"min", list(box.low)},
+                                                {"max", list(box.high)}});
   document.set(indexed("accessors", accessor + 1),
                {{"bufferView", view + 1}, {"componentType", 5126}, {"type", "VEC3"}, {"count", normals.size()}});
   document.set(indexed("accessors", accessor + 2),

@@ -94,7 +94,7 @@ class Overlay {
 
 void draw_plane_handles(const Drawing& drawing, double scale) {
   if (!drawing.selection()) return;
-  const PlaneBox box = bounds_of(drawing.scene().bodies[*drawing.selection()]);
+  const Box2d box = bounds_of(drawing.scene().bodies[*drawing.selection()]);
   const auto at = [&](Vec2d p) {
     const Vec2d pixel = drawing.to_pixel(p) / scale;
     return ImVec2(static_cast<float>(pixel.x), static_cast<float>(pixel.y));

@@ -358,21 +358,21 @@ void body_controls(Drawing& d) {
     return;
   }
   PlaneBody body = d.scene().bodies[*d.selection()];
-  const PlaneBox box = bounds_of(body);
+  const Box2d box = bounds_of(body);
   bool changed = false;
-  Vec2d middle = box.middle();
+  Vec2d middle = box.center();
   if (drag_double("x", middle.x, 0.5f, -1e6, 1e6, "%.1f") | drag_double("y", middle.y, 0.5f, -1e6, 1e6, "%.1f")) {
-    body = moved(std::move(body), middle - box.middle());
+    body = moved(std::move(body), middle - box.center());
     changed = true;
   }
   double width = box.high.x - box.low.x;
   if (const double before = width; before > 0 && drag_double("width", width, 0.5f, 0.1, 1e6, "%.1f")) {
-    body = scaled(std::move(body), box.middle(), width / before);
+    body = scaled(std::move(body), box.center(), width / before);
     changed = true;
   }
   double turn = 0;
   if (drag_double("turn", turn, 0.5f, -180, 180, "%.0f degrees")) {
-    body = turned(std::move(body), box.middle(), turn * 3.14159265358979324 / 180);
+    body = turned(std::move(body), box.center(), turn * 3.14159265358979324 / 180);
     changed = true;
   }
   if (body.light && !body.light->gradient) changed |= edit_color("radiance", body.light->radiance);

@@ -82,28 +82,6 @@ std::optional<std::size_t> body_at(const PlaneScene& scene, Vec2d point, double 
   return best;
 }
 
-PlaneBox bounds_of(const PlaneBody& body) {
-  constexpr double kFar = std::numeric_limits<double>::max();
-  PlaneBox box{{kFar, kFar}, {-kFar, -kFar}};
-  const auto add = [&](Vec2d p) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  };
-  if (body.shape == PlaneBody::Shape::ellipse) {
-    const Vec2d reach{std::hypot(body.x_axis.x, body.y_axis.x), std::hypot(body.x_axis.y, body.y_axis.y)};
-    add(body.center - reach);
-    add(body.center + reach);
-    return box;
-  }
-  const double wide = body.shape == PlaneBody::Shape::capsule ? body.radius : 0;
-  for (const auto& contour : body.contours)
-    for (const Vec2d p : contour) {
-      add(p - Vec2d{wide, wide});
-      add(p + Vec2d{wide, wide});
-    }
-  return box;
-}
-
 PlaneBody moved(PlaneBody body, Vec2d by) {
   return mapped(
       std::move(body), [&](Vec2d p) { return p + by; }, [](Vec2d d) { return d; });

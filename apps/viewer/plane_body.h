@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "plane/exact/outline.h"
 #include "steradian/plane.h"
 
 namespace steradian::view {
@@ -10,11 +11,7 @@ namespace steradian::view {
 // The uppermost body that contains a point, or is within `reach` of it, because thin bodies are hard to hit.
 std::optional<std::size_t> body_at(const PlaneScene& scene, Vec2d point, double reach);
 
-struct PlaneBox {
-  Vec2d low, high;
-  Vec2d middle() const { return (low + high) * 0.5; }
-};
-PlaneBox bounds_of(const PlaneBody& body);
+using plane::bounds_of;
 
 PlaneBody moved(PlaneBody body, Vec2d by);
 // Scales about a point. A gradient scales along, a spot's axis turns.

@@ -126,9 +126,9 @@ bool set_of_drawing(Drawing& d, const std::string& what, const nlohmann::json& v
   else if (what == "color")
     body.color = three_of(what, value);
   else if (what == "scale")
-    body = scaled(body, bounds_of(body).middle(), number_of(what, value));
+    body = scaled(body, bounds_of(body).center(), number_of(what, value));
   else if (what == "turn")
-    body = turned(body, bounds_of(body).middle(), number_of(what, value) * 3.14159265358979324 / 180);
+    body = turned(body, bounds_of(body).center(), number_of(what, value) * 3.14159265358979324 / 180);
   else
     return false;
   d.change(*d.selection(), std::move(body));

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/box.h"
+
 namespace steradian::scene {
 namespace {
 
@@ -23,15 +25,12 @@ Sphere bounding_sphere(const Scene& scene) {
 }  // namespace
 
 void measure_bounds(Scene& scene) {
-  bool any = false;
+  Box3d box;
   for (const Mesh& mesh : scene.meshes)
-    for (const Vec3f& p : mesh.positions) {
-      const Vec3d v = static_cast<Vec3d>(p);
-      if (!any) scene.bounds_min = scene.bounds_max = v;
-      any = true;
-      scene.bounds_min = {std::min(scene.bounds_min.x, v.x), std::min(scene.bounds_min.y, v.y), std::min(scene.bounds_min.z, v.z)};
-      scene.bounds_max = {std::max(scene.bounds_max.x, v.x), std::max(scene.bounds_max.y, v.y), std::max(scene.bounds_max.z, v.z)};
-    }
+    for (const Vec3f& p : mesh.positions) box.add(static_cast<Vec3d>(p));
+  if (box.is_empty()) return;
+  scene.bounds_min = box.low;
+  scene.bounds_max = box.high;
 }
 
 Camera framing_camera(const Scene& scene, double aspect) {

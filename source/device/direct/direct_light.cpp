@@ -92,16 +92,16 @@ std::size_t most_of_buffer(const DeviceInfo& device, BufferForm form = BufferFor
 struct Distances {
   float nearest = 0, farthest = 0;
 };
-Distances distances(Vec3f p, Vec3f low, Vec3f high) {
+Distances distances(Vec3f p, const Box3f& box) {
   Distances d;
   const auto add = [&](float at, float from, float to) {
     const float outside = std::max({from - at, at - to, 0.0f}), across = std::max(at - from, to - at);
     d.nearest += outside * outside;
     d.farthest += across * across;
   };
-  add(p.x, low.x, high.x);
-  add(p.y, low.y, high.y);
-  add(p.z, low.z, high.z);
+  add(p.x, box.low.x, box.high.x);
+  add(p.y, box.low.y, box.high.y);
+  add(p.z, box.low.z, box.high.z);
   return d;
 }
 
@@ -283,7 +283,7 @@ double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) 
 bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
   const double least = least_distance2(light, pass);
-  const Distances d = distances(light.middle, where.low, where.high);
+  const Distances d = distances(light.middle, where.positions);
   // Parts may be small at points where the whole light is not: kNeverSmall.
   const auto small = static_cast<float>(shadowed ? std::min(least, 100.0) : least);
   return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
@@ -370,7 +370,7 @@ bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
 void DirectLight::list_lights(Tile& tile) const {
   const bool leaks = method_.ggx == Method::ltc_clipless;  // lights that reach the tile, also from below the horizon
   for (Square& square : tile.squares) {
-    if (!any_surface(square.bounds)) continue;
+    if (square.bounds.positions.is_empty()) continue;
     for (const PackLight* light : tile.lights.lights) {
       if (!leaks && !reaches(*light, square.bounds)) continue;
       square.lights.push_back({light, is_cut(tile, *light), sees_whole(*light, square.bounds), sees_whole(*light, square.bounds, kPushed)});
@@ -429,7 +429,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
       if (square.any_coat) list(work, place, tiles[i], square, {specular_shader_, true});
       for (const std::size_t number : square.own)
         for (const OwnLobes::Lobe& lobe : own_lobes_.of(number)) list(work, place, tiles[i], square, {shader_of(lobe), false, &lobe});
-      if (any_surface(square.bounds)) list_shares(work, place, tiles[i], square);
+      if (!square.bounds.positions.is_empty()) list_shares(work, place, tiles[i], square);
     }
   }
   if (work.groups.empty()) return;

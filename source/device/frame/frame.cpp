@@ -151,7 +151,7 @@ struct Frame::Parts {
     RasterSurfaces::find_squares(direct.radiance(), place, tile);
     SurfaceBounds all;
     for (const DirectLight::Square& square : tile.squares) add(all, square.bounds);
-    if (any_surface(all)) tile.lights = lights_reaching(light_pointers, all);
+    if (!all.positions.is_empty()) tile.lights = lights_reaching(light_pointers, all);
     direct.list_lights(tile);
   }
 

@@ -4,17 +4,15 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "core/box_tree.h"
 #include "render/surface/ray_scene.h"
-#include "shadow/region/light_frame.h"
 
 namespace steradian::vulkan {
 namespace {
 
 #include "shaders/ray_layout.glsl"
-
-using shadow::Box;
-using shadow::coordinate;
 
 constexpr std::size_t kLeaf = 4;  // most triangles
 static_assert(kLeaf < static_cast<std::size_t>(kLeafSizes));
@@ -22,75 +20,63 @@ constexpr auto kFirst = static_cast<std::size_t>(kHead);  // first vector of the
 constexpr int kBins = 16;
 constexpr double kCostOfTriangle = 1.5;  // relative to that of a box
 
+using Item = BoxTree<Box3d>::Item;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double half_area(const Box& b) {
-  const Vec3d d = b.high - b.low;
+double half_area(const Box3d& b) {
+  const Vec3d d = b.size();
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-class Builder {
- public:
-  explicit Builder(const std::vector<RayTriangle>& triangles) {
-    float size = 0;
-    for (const RayTriangle& t : triangles)
-      for (const Vec3d& v : t.corners)
-        size = std::max(size, static_cast<float>(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)})));
-    unit_ = unit_of_size(size);
-    for (const RayTriangle& t : triangles) {
-      Triangle triangle{t, {}, {}};
-      for (Vec3d& corner : triangle.of.corners) triangle.box.add(corner = corner * static_cast<double>(unit_));
-      triangle.middle = (triangle.box.low + triangle.box.high) * 0.5;
-      all_.add(triangle.box);
-      triangles_.push_back(triangle);
-    }
-    // Positions relative to a ray's origin have errors of some roundings of their distance.
-    const Vec3d across = triangles_.empty() ? Vec3d{} : all_.high - all_.low;
-    margin_ = 0x1p-20 * std::max({across.x, across.y, across.z});
-    build(0, triangles_.size());
-  }
+std::uint32_t bits(double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); }
+std::array<std::uint32_t, 4> vector(Vec3d v, std::uint32_t w) { return {bits(v.x), bits(v.y), bits(v.z), w}; }
 
-  std::vector<std::array<std::uint32_t, 4>> vectors() {
-    const std::size_t nodes = vectors_.size() / 2;
-    for (std::size_t n = 0; n < nodes; ++n) {
-      std::uint32_t& leaf = vectors_[2 * n][3];
-      if (leaf != 0) leaf += static_cast<std::uint32_t>((kFirst + 2 * nodes) * static_cast<std::size_t>(kLeafSizes));
+// Splits triangles at the plane between two bins along an axis that separates their middles best, by the boxes' areas and numbers of
+// triangles. I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007.
+class AreaSplit {
+ public:
+  explicit AreaSplit(const std::vector<Box3d>& boxes) : boxes_(boxes) {}
+
+  std::size_t operator()(std::span<Item> items) const {
+    Box3d box, middles;
+    for (const Item& item : items) {
+      box.add(boxes_[item.number]);
+      middles.add(item.middle);
     }
-    vectors_.insert(vectors_.begin(), {std::bit_cast<std::uint32_t>(unit_), 0, 0, 0});
-    for (const Triangle& t : triangles_)
-      for (const Vec3d& v : t.of.corners) vectors_.push_back(vector(v, t.of.number));
-    return std::move(vectors_);
+    Plane plane;
+    for (int axis = 0; axis < 3; ++axis) try_axis(items, middles, axis, plane);
+    const std::size_t count = items.size();
+    const bool whole = count <= kLeaf &&
+                       !(2 * half_area(box) + kCostOfTriangle * plane.cost < kCostOfTriangle * static_cast<double>(count) * half_area(box));
+    if (whole) return 0;
+    const auto middle =
+        std::partition(items.begin(), items.end(), [&](const Item& item) { return coordinate(item.middle, plane.axis) < plane.at; });
+    // Any half will do for triangles at one place, and if roundings leave a side empty.
+    if (!(plane.cost < kInfinity) || middle == items.begin() || middle == items.end()) return count / 2;
+    return static_cast<std::size_t>(middle - items.begin());
   }
 
  private:
-  struct Triangle {
-    RayTriangle of;
-    Box box;
-    Vec3d middle;
-  };
-  struct Split {
+  struct Plane {
     double cost = kInfinity;  // in half areas
     int axis = 0;
     double at = 0;
   };
 
-  static std::uint32_t bits(double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); }
-  static std::array<std::uint32_t, 4> vector(Vec3d v, std::uint32_t w) { return {bits(v.x), bits(v.y), bits(v.z), w}; }
-
-  // Finds the plane between two bins along an axis that separates the triangles' middles best, by the boxes' areas and numbers of
-  // triangles. I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007.
-  void try_axis(std::size_t begin, std::size_t end, const Box& middles, int axis, Split& best) const {
+  void try_axis(std::span<const Item> items, const Box3d& middles, int axis, Plane& best) const {
     const double low = coordinate(middles.low, axis), width = (coordinate(middles.high, axis) - low) / kBins;
     if (!(width > 0)) return;
-    std::array<Box, kBins> boxes;
+    std::array<Box3d, kBins> boxes;
     std::array<std::size_t, kBins> counts{};
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto bin = static_cast<std::size_t>(std::clamp((coordinate(triangles_[i].middle, axis) - low) / width, 0.0, kBins - 1.0));
-      boxes[bin].add(triangles_[i].box);
+    for (const Item& item : items) {
+      const auto bin = static_cast<std::size_t>(std::clamp((coordinate(item.middle, axis) - low) / width, 0.0, kBins - 1.0));
+      boxes[bin].add(boxes_[item.number]);
       ++counts[bin];
     }
+    if (std::find(counts.begin(), counts.end(), 0) != counts.end()) return;  // an axis with an empty bin is not used
     std::array<double, kBins> above{};
-    Box box;
+    Box3d box;
     std::size_t count = 0;
     for (std::size_t b = kBins - 1; b > 0; --b) {
       box.add(boxes[b]);
@@ -107,46 +93,39 @@ class Builder {
     }
   }
 
-  void build(std::size_t begin, std::size_t end) {
-    Box box, middles;
-    for (std::size_t i = begin; i < end; ++i) {
-      box.add(triangles_[i].box);
-      middles.add(triangles_[i].middle);
-    }
-    const std::size_t node = vectors_.size(), count = end - begin;
-    const Vec3d grow{margin_, margin_, margin_};
-    vectors_.push_back(vector(box.low - grow, 0));
-    vectors_.push_back(vector(box.high + grow, 0));
-    Split split;
-    for (int axis = 0; axis < 3; ++axis) try_axis(begin, end, middles, axis, split);
-    const bool whole = count <= kLeaf &&
-                       !(2 * half_area(box) + kCostOfTriangle * split.cost < kCostOfTriangle * static_cast<double>(count) * half_area(box));
-    if (whole) {
-      // Counted from the first triangle, until the number of nodes is known.
-      vectors_[node][3] = static_cast<std::uint32_t>(3 * begin * static_cast<std::size_t>(kLeafSizes) + count);
-    } else {
-      const auto first = triangles_.begin();
-      const auto at = [&](std::size_t i) { return first + static_cast<std::ptrdiff_t>(i); };
-      auto middle = std::partition(at(begin), at(end), [&](const Triangle& t) { return coordinate(t.middle, split.axis) < split.at; });
-      // Any half will do for triangles at one place, and if roundings leave a side empty.
-      if (!(split.cost < kInfinity) || middle == at(begin) || middle == at(end)) middle = at(begin + count / 2);
-      const auto half = static_cast<std::size_t>(middle - first);
-      build(begin, half);
-      build(half, end);
-    }
-    vectors_[node + 1][3] = static_cast<std::uint32_t>(vectors_.size() / 2);
-  }
-
-  Box all_;
-  float unit_ = 1;
-  double margin_ = 0;
-  std::vector<Triangle> triangles_;
-  std::vector<std::array<std::uint32_t, 4>> vectors_;
+  const std::vector<Box3d>& boxes_;
 };
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(const std::vector<RayTriangle>& triangles) { return Builder(triangles).vectors(); }
+std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(std::vector<RayTriangle> triangles) {
+  float size = 0;
+  for (const RayTriangle& t : triangles)
+    for (const Vec3d& v : t.corners) size = std::max(size, static_cast<float>(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)})));
+  const float unit = unit_of_size(size);
+  std::vector<Box3d> boxes(triangles.size());
+  Box3d all;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (Vec3d& corner : triangles[i].corners) boxes[i].add(corner = corner * static_cast<double>(unit));
+    all.add(boxes[i]);
+  }
+  const BoxTree<Box3d> tree(
+      triangles.size(), [&](std::uint32_t i) { return boxes[i]; }, AreaSplit(boxes));
+
+  // Positions relative to a ray's origin have errors of some roundings of their distance.
+  const double margin = triangles.empty() ? 0 : 0x1p-20 * coordinate(all.size(), all.longest_side());
+  std::vector<std::array<std::uint32_t, 4>> vectors = {{std::bit_cast<std::uint32_t>(unit), 0, 0, 0}};
+  const std::size_t count = tree.nodes().size() - 1;
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const BoxTree<Box3d>::Node& node = tree.nodes()[n];
+    const std::size_t place = (kFirst + 2 * count + 3 * node.first) * static_cast<std::size_t>(kLeafSizes) + tree.items(node).size();
+    vectors.push_back(vector(node.volume.low - Box3d::all(margin), node.next == n + 1 ? static_cast<std::uint32_t>(place) : 0));
+    vectors.push_back(vector(node.volume.high + Box3d::all(margin), node.next));
+  }
+  for (const std::uint32_t i : tree.order())
+    for (const Vec3d& v : triangles[i].corners) vectors.push_back(vector(v, triangles[i].number));
+  return vectors;
+}
 
 std::size_t least_of_hierarchy(std::size_t triangles) {
   const std::size_t leaves = std::max<std::size_t>((triangles + kLeaf - 1) / kLeaf, 1);

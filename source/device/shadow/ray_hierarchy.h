@@ -15,7 +15,7 @@ struct RayTriangle {
 };
 
 // Vectors in the layout of shaders/ray_layout.glsl.
-std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(const std::vector<RayTriangle>& triangles);
+std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(std::vector<RayTriangle> triangles);
 
 // Least number of its vectors: triangles that exceed a buffer need not be sorted.
 std::size_t least_of_hierarchy(std::size_t triangles);

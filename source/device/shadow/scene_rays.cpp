@@ -39,7 +39,7 @@ std::shared_ptr<const SceneRays> SceneRays::of(std::shared_ptr<const Device> dev
   }
   const std::size_t most = std::min<std::size_t>(kLargestBuffer, device->info().storage_buffer);
   if (least_of_hierarchy(sorted.size()) > most / (4 * sizeof(std::uint32_t))) return nullptr;
-  const auto vectors = ray_hierarchy(sorted);
+  const auto vectors = ray_hierarchy(std::move(sorted));
   const std::size_t bytes = vectors.size() * sizeof vectors[0];
   if (bytes > most) return nullptr;
   std::shared_ptr<SceneRays> rays(new SceneRays(std::move(device), bytes, std::move(triangles)));

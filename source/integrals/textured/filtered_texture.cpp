@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/box.h"
+
 namespace steradian {
 namespace {
 
@@ -25,11 +27,6 @@ bool covers(const std::vector<std::array<double, 2>>& v, const std::vector<std::
       if ((v[i][1] > y) != (v[j][1] > y) && x < (v[j][0] - v[i][0]) * (y - v[i][1]) / (v[j][1] - v[i][1]) + v[i][0]) inside = !inside;
   return inside;
 }
-
-struct Bounds {
-  double left = INFINITY, right = -INFINITY, bottom = INFINITY, top = -INFINITY;
-  double extent() const { return std::max(right - left, top - bottom); }
-};
 
 int texels_for(double length, double spacing) { return std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-6))); }
 
@@ -117,26 +114,25 @@ FilteredTexture::Level FilteredTexture::rastered(const AreaLight& light, const P
                                                  const std::vector<Image>& images) const {
   const LightTexture& texture = *light.texture;
   const Image& image = images[static_cast<std::size_t>(texture.use.image)];
-  Bounds bounds;
+  Box2d box;
   std::vector<std::array<double, 2>> outline;
   for (const Vec3d& v : polygon.vertices) {
     outline.push_back({dot(v - origin_, x_), dot(v - origin_, y_)});
-    bounds.left = std::min(bounds.left, outline.back()[0]);
-    bounds.right = std::max(bounds.right, outline.back()[0]);
-    bounds.bottom = std::min(bounds.bottom, outline.back()[1]);
-    bounds.top = std::max(bounds.top, outline.back()[1]);
+    box.add(Vec2d{outline.back()[0], outline.back()[1]});
   }
+  const Vec2d size = box.size();
+  const double extent = std::max(size.x, size.y);
   // Texels per metre, from the steeper of the two coordinates (KHR_texture_transform included).
   const float* t = texture.use.uv;
   const auto row = [&](int i) { return texture.du * static_cast<double>(t[i]) + texture.dv * static_cast<double>(t[i + 1]); };
   const double density = std::max({length(row(0)) * image.width, length(row(3)) * image.height, 1e-6});
   Level level;
-  level.spacing = std::max(1 / density, bounds.extent() / kMostTexels);
-  level.spacing = std::min(level.spacing, bounds.extent() / 8);  // at least 8 texels, to resolve the outline
-  level.width = texels_for(bounds.right - bounds.left, level.spacing);
-  level.height = texels_for(bounds.top - bounds.bottom, level.spacing);
-  level.left = (bounds.left + bounds.right - (level.width - 1) * level.spacing) / 2;
-  level.bottom = (bounds.bottom + bounds.top - (level.height - 1) * level.spacing) / 2;
+  level.spacing = std::max(1 / density, extent / kMostTexels);
+  level.spacing = std::min(level.spacing, extent / 8);  // at least 8 texels, to resolve the outline
+  level.width = texels_for(size.x, level.spacing);
+  level.height = texels_for(size.y, level.spacing);
+  level.left = (box.low.x + box.high.x - (level.width - 1) * level.spacing) / 2;
+  level.bottom = (box.low.y + box.high.y - (level.height - 1) * level.spacing) / 2;
   level.sigma = kTexelSigma * level.spacing;
   // Enough points to reach all of the texture's texels.
   const int steps = std::clamp(static_cast<int>(std::ceil(level.spacing * density)), kCoverageSteps, 16);

@@ -32,7 +32,7 @@ Heights heights(const Line& line, const Facet& f) { return {line.height(f.a), li
 
 // A line across the longer side of the facets' middles, with half of them on each side.
 Line halving(const std::vector<Facet>& facets) {
-  Box box;
+  Box2d box;
   for (const Facet& f : facets) box.add((f.a + f.b) * 0.5);
   const bool wide = box.high.x - box.low.x > box.high.y - box.low.y;
   std::vector<double> middles;

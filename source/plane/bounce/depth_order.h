@@ -55,7 +55,7 @@ class DepthOrder {
     double offset = 0;
     std::int32_t front = -1, back = -1;
     std::uint32_t first = 0, last = 0, facets = 0;  // on the line; in the subtree
-    Box box;                                        // around the subtree
+    Box2d box;                                      // around the subtree
   };
   std::vector<Node> nodes_;
   std::vector<Facet> facets_;

@@ -61,8 +61,7 @@ std::vector<double> crossings_on(const World& world, std::size_t index) {
   const auto body = static_cast<std::size_t>(curve.body);
   std::vector<double> shares{0, 1};
   for (std::size_t other = 0; other < world.boxes.size(); ++other) {
-    const Box &a = world.boxes[body], &b = world.boxes[other];
-    if (other == body || b.low.x > a.high.x || b.high.x < a.low.x || b.low.y > a.high.y || b.high.y < a.low.y) continue;
+    if (other == body || !world.boxes[body].meets(world.boxes[other])) continue;
     for (std::size_t c = world.first_curve[other]; c < world.first_curve[other + 1]; ++c) {
       const Crossings crossings = intersect(curve, world.curves[c]);
       for (int k = 0; k < crossings.count; ++k) {

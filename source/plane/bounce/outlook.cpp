@@ -27,20 +27,18 @@ class Looker {
 
   bool done() const { return gaps_.empty(); }
 
-  bool hides(const Box& box) const {
-    const Vec2d middle = (box.low + box.high) * 0.5 - from_, half = (box.high - box.low) * 0.5;
+  bool hides(const Box2d& box) const {
+    const Vec2d middle = box.center() - from_, half = box.half();
     const double ahead_of = dot(middle, normal_), reach = std::fabs(half.x * normal_.x) + std::fabs(half.y * normal_.y);
     if (ahead_of + reach <= kOnOwnLine) return true;
     if (ahead_of - reach <= kOnOwnLine) return false;
-    double low = kFarSlope, high = -kFarSlope;
+    Interval<double> slopes{kFarSlope, -kFarSlope};
     for (const Vec2d corner : {box.low, box.high, Vec2d{box.low.x, box.high.y}, Vec2d{box.high.x, box.low.y}}) {
       const Vec2d to = corner - from_;
-      const double slope = dot(to, along_) / dot(to, normal_);
-      low = std::min(low, slope);
-      high = std::max(high, slope);
+      slopes.add(dot(to, along_) / dot(to, normal_));
     }
-    const auto gap = gap_after(gaps_, low);
-    return gap == gaps_.end() || gap->begin >= high;
+    const auto gap = gap_after(gaps_, slopes.low);
+    return gap == gaps_.end() || gap->begin >= slopes.high;
   }
 
   // Facets arrive nearest first: each covers the directions that are still free.
@@ -209,7 +207,7 @@ Outlook::Outlook(const World& world) : world_(world), order_(world) {
 void Outlook::look(const Curve* own, Vec2d from, Vec2d normal, std::vector<SeenPart>& parts) const {
   Looker looker(world_, own, from, normal);
   order_.walk(
-      from, [&](const Facet& facet) { looker.add(facet); }, [&](const Box& box) { return looker.hides(box); },
+      from, [&](const Facet& facet) { looker.add(facet); }, [&](const Box2d& box) { return looker.hides(box); },
       [&] { return looker.done(); });
   looker.finish(parts);
   for (const Curve* c : others_) looker.insert(*c, parts);

@@ -88,12 +88,8 @@ bool crosses(Vec2d key, Vec2d a, Vec2d b) {
   return cross(key, a) * cross(key, b) <= 0 && origin_side * key_side <= 0;
 }
 
-struct Interval {
-  double begin, end;
-};
-
-bool blocks(const Tangents& light, const Tangents& body, Interval in_light, double begin, double end) {
-  const bool body_within = begin > in_light.begin && end < in_light.end;
+bool blocks(const Tangents& light, const Tangents& body, Interval<double> in_light, double begin, double end) {
+  const bool body_within = begin > in_light.low && end < in_light.high;
   if (body_within) return !crosses(body.first, light.first, light.second) && !crosses(body.second, light.first, light.second);
   return crosses(light.first, body.first, body.second) || crosses(light.second, body.first, body.second);
 }
@@ -111,25 +107,25 @@ PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps) {
     const auto& light = world.scene.bodies[i].light;
     Tangents seen;
     if (!light || !tangents_of(world, i, from, vertices, seen)) continue;
-    const Interval whole{seen.begin, seen.end};
-    std::vector<Interval> blocked;
+    const Interval<double> whole{seen.begin, seen.end};
+    std::vector<Interval<double>> blocked;
     for (const auto& [present, body] : bodies) {
       if (!present) continue;
       for (double turn : {-2 * pi, 0.0, 2 * pi}) {
         const double begin = body.begin + turn, end = body.end + turn;
-        if (end <= whole.begin || begin >= whole.end) continue;
-        if (blocks(seen, body, whole, begin, end)) blocked.push_back({std::max(begin, whole.begin), std::min(end, whole.end)});
+        if (end <= whole.low || begin >= whole.high) continue;
+        if (blocks(seen, body, whole, begin, end)) blocked.push_back({std::max(begin, whole.low), std::min(end, whole.high)});
       }
     }
     // On a line, the repeated union of pairs is a sweep.
-    std::sort(blocked.begin(), blocked.end(), [](Interval a, Interval b) { return a.begin < b.begin; });
-    double dark = 0, reach = whole.begin;
-    for (const Interval& b : blocked) {
-      dark += std::max(b.end - std::max(b.begin, reach), 0.0);
-      if (overlaps == ParOverlaps::merged) reach = std::max(reach, b.end);
+    std::sort(blocked.begin(), blocked.end(), [](Interval<double> a, Interval<double> b) { return a.low < b.low; });
+    double dark = 0, reach = whole.low;
+    for (const Interval<double>& b : blocked) {
+      dark += std::max(b.high - std::max(b.low, reach), 0.0);
+      if (overlaps == ParOverlaps::merged) reach = std::max(reach, b.high);
     }
     const Vec3d radiance = light->gradient ? radiance_at(*light, (light->gradient->from + light->gradient->to) * 0.5) : light->radiance;
-    sum.radiance += radiance * (std::max(whole.end - whole.begin - dark, 0.0) / (2 * pi));
+    sum.radiance += radiance * (std::max(whole.high - whole.low - dark, 0.0) / (2 * pi));
   }
   return sum;
 }
@@ -168,11 +164,8 @@ PlaneLight marched_light(const World& world, Vec2d from, const PlaneSampling& sa
   constexpr int kMostSteps = 256;
   const int inside = world.inside(from).body;
   if (inside >= 0) return sampled_light(world, from, sampling);
-  Box all;
-  for (const Box& box : world.boxes) {
-    all.add(box.low);
-    all.add(box.high);
-  }
+  Box2d all;
+  for (const Box2d& box : world.boxes) all.add(box);
   const double reach = length({std::max(from.x - all.low.x, all.high.x - from.x), std::max(from.y - all.low.y, all.high.y - from.y)});
   return mean_over_directions(from, sampling, [&](Vec2d u) -> Vec3d {
     double r = 0;

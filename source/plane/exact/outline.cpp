@@ -27,8 +27,8 @@ void orient(const PlaneBody& body, const EdgeRows& rows, std::vector<Curve>& edg
     for (Curve& e : edges) e.two_sided = true;
     return;
   }
-  const Box box = bounds_of(body);
-  const double step = 1e-7 * length(box.high - box.low);
+  const Box2d box = bounds_of(body);
+  const double step = 1e-7 * length(box.size());
   std::vector<Curve> pieces;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     Vec2d from = edges[i].a;
@@ -219,8 +219,8 @@ bool contains(const PlaneBody& body, Vec2d p) {
   return winding.within(body.even_odd);
 }
 
-Box bounds_of(const PlaneBody& body) {
-  Box box;
+Box2d bounds_of(const PlaneBody& body) {
+  Box2d box;
   switch (body.shape) {
     case PlaneBody::Shape::ellipse: {
       const Vec2d half{std::hypot(body.x_axis.x, body.y_axis.x), std::hypot(body.x_axis.y, body.y_axis.y)};

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/box.h"
 #include "steradian/plane.h"
 
 namespace steradian::plane {
@@ -52,15 +53,7 @@ struct RadianceEnds {
 };
 RadianceEnds radiance_ends(const PlaneEmission& emission, Vec2d a, Vec2d b);
 
-struct Box {
-  Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
-  void add(Vec2d p) {
-    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y)};
-    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y)};
-  }
-  bool holds(Vec2d p) const { return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y; }
-};
-Box bounds_of(const PlaneBody& body);
+Box2d bounds_of(const PlaneBody& body);
 
 // Crossings of two curves.
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kFar = 1e300;
 
-Box box_of(const Curve& c) {
-  Box box;
+Box2d box_of(const Curve& c) {
+  Box2d box;
   box.add(c.a);
   box.add(c.b);
   if (c.kind == Curve::Kind::arc) {
@@ -57,20 +57,18 @@ RayHit hit_curve(const Curve& c, Vec2d from, Vec2d u, int inside) {
 }
 
 RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>& bodies) : bodies_(&bodies) {
-  Box all;
-  std::vector<Box> boxes;
+  Box2d all;
+  std::vector<Box2d> boxes;
   for (const Curve& c : curves) {
     boxes.push_back(box_of(c));
-    all.add(boxes.back().low);
-    all.add(boxes.back().high);
+    all.add(boxes.back());
   }
+  std::vector<Box2d> body_boxes;
   for (const PlaneBody& body : bodies) {
-    const Box box = bounds_of(body);
-    if (box.low.x > box.high.x) continue;
-    all.add(box.low);
-    all.add(box.high);
+    body_boxes.push_back(bounds_of(body));
+    all.add(body_boxes.back());
   }
-  if (all.low.x > all.high.x) return;
+  if (all.is_empty()) return;
   low_ = all.low;
   high_ = all.high;
   const Vec2d size = high_ - low_;
@@ -78,17 +76,15 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
   const double wanted = 2.0 * static_cast<double>(curves.size()) + 1;
   // A lower bound of the cell size: a thin scene must not need millions of cells.
   cell_ = std::max(std::sqrt(std::max(size.x, larger * 1e-3) * std::max(size.y, larger * 1e-3) / wanted), larger / 2000);
-  std::vector<Box> body_boxes;
-  for (const PlaneBody& body : bodies) body_boxes.push_back(bounds_of(body));
   // Curves and bodies that span many cells are entered in all of them. Cells become coarser until there are no more than a few entries
   // each.
   const auto lay_out = [&] {
     columns_ = static_cast<int>(size.x / cell_) + 1;
     rows_ = static_cast<int>(size.y / cell_) + 1;
     std::size_t entries = 0;
-    for (const std::vector<Box>* some : {&boxes, &body_boxes})
-      for (const Box& box : *some)
-        if (box.low.x <= box.high.x)
+    for (const std::vector<Box2d>* some : {&boxes, &body_boxes})
+      for (const Box2d& box : *some)
+        if (!box.is_empty())
           entries += static_cast<std::size_t>(row(box.high.y) - row(box.low.y) + 1) *
                      static_cast<std::size_t>(column(box.high.x) - column(box.low.x) + 1);
     return entries;
@@ -96,7 +92,7 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
   while (lay_out() > 64 * (boxes.size() + body_boxes.size()) + 10'000 && columns_ * rows_ > 1) cell_ *= 2;
   cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   cell_bodies_.resize(cells_.size());
-  const auto cells_of = [&](const Box& box, auto&& put) {
+  const auto cells_of = [&](const Box2d& box, auto&& put) {
     for (int y = row(box.low.y); y <= row(box.high.y); ++y)
       for (int x = column(box.low.x); x <= column(box.high.x); ++x)
         put(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x), x, y);
@@ -113,7 +109,7 @@ RayGrid::RayGrid(const std::vector<Curve>& curves, const std::vector<PlaneBody>&
       cells_[cell].push_back(&c);
     });
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (body_boxes[i].low.x <= body_boxes[i].high.x)
+    if (!body_boxes[i].is_empty())
       cells_of(body_boxes[i], [&](std::size_t cell, int, int) { cell_bodies_[cell].push_back(static_cast<int>(i)); });
 }
 

@@ -26,7 +26,7 @@ PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
   Inside result;
   for (int i : grid.bodies_near(p)) {
     const std::size_t k = static_cast<std::size_t>(i);
-    if (!boxes[k].holds(p) || !contains(k, p)) continue;
+    if (!boxes[k].contains(p) || !contains(k, p)) continue;
     if (!scene.bodies[k].light) return {i, true};
     result.body = std::max(result.body, i);
   }
@@ -37,7 +37,7 @@ int PlaneWorld::Impl::occluder_at(Vec2d p) const {
   int result = -1;
   for (int i : grid.bodies_near(p)) {
     const std::size_t k = static_cast<std::size_t>(i);
-    if (i > result && !scene.bodies[k].light && boxes[k].holds(p) && contains(k, p)) result = i;
+    if (i > result && !scene.bodies[k].light && boxes[k].contains(p) && contains(k, p)) result = i;
   }
   return result;
 }
@@ -79,9 +79,9 @@ PlaneLight envelope_light(const World& world, const std::vector<const Curve*>& c
 // Directions and distances in which a light can be visible: the wedge around its bounding circle.
 class Wedge {
  public:
-  Wedge(const Box& light, Vec2d from) : from_(from) {
-    const Vec2d to = (light.low + light.high) * 0.5 - from;
-    const double radius = 0.5 * length(light.high - light.low) * (1 + 1e-9), d = length(to);
+  Wedge(const Box2d& light, Vec2d from) : from_(from) {
+    const Vec2d to = light.center() - from;
+    const double radius = light.radius() * (1 + 1e-9), d = length(to);
     everything_ = d <= radius;
     if (everything_) return;
     const double sine = radius / d, cosine = std::sqrt(1 - sine * sine);
@@ -134,10 +134,10 @@ Vec3d light_between(const World& world, const std::vector<Curve>& parts, Vec2d f
 
 namespace {
 
-double nearest_in(const Box& box, Vec2d p) {
+double nearest_in(const Box2d& box, Vec2d p) {
   return length({std::max({box.low.x - p.x, 0.0, p.x - box.high.x}), std::max({box.low.y - p.y, 0.0, p.y - box.high.y})});
 }
-double farthest_in(const Box& box, Vec2d p) {
+double farthest_in(const Box2d& box, Vec2d p) {
   return length({std::max(p.x - box.low.x, box.high.x - p.x), std::max(p.y - box.low.y, box.high.y - p.y)});
 }
 

@@ -41,7 +41,7 @@ struct PlaneWorld::Impl {
   std::optional<PlaneScene> given;       // as the user gave it, if the scale is not 1
   std::vector<plane::Curve> curves;      // all bodies, in the scene's order
   std::vector<std::size_t> first_curve;  // by body, and the number of curves at the end
-  std::vector<plane::Box> boxes;         // by body
+  std::vector<Box2d> boxes;              // by body
   plane::RayGrid grid;
   std::vector<plane::EdgeRows> rows;            // for outlines with many edges
   std::vector<int> rows_of;                     // by body: index of its rows, or -1

@@ -300,7 +300,7 @@ TEST(PlanePar, SeesHalfOfALightFromInside) {
     const PlaneWorld world(scene);
     for (const PlaneBody& b : scene.bodies) {
       if (!b.light) continue;
-      const Box box = bounds_of(b);
+      const Box2d box = bounds_of(b);
       for (int i = 0; i < 100; ++i) {
         const Vec2d p{random.uniform(box.low.x, box.high.x), random.uniform(box.low.y, box.high.y)};
         if (!contains(b, p)) continue;

@@ -29,13 +29,14 @@ void take_work(const World& world, const PixelGrid& grid, Budget& budget) {
 
 struct Tile {
   int x0, y0, x1, y1;
-  Vec2d low, high;
+  Box2d box;
   Tile(const PixelGrid& grid, int column, int row)
-      : x0(column * kSide), y0(row * kSide), x1(std::min(x0 + kSide, grid.width)), y1(std::min(y0 + kSide, grid.height)) {
-    low = grid.at(x0, y0);
-    high = grid.at(x1 - 1, y1 - 1);
-  }
-  Disk disk() const { return {(low + high) * 0.5, 0.5 * length(high - low)}; }
+      : x0(column * kSide),
+        y0(row * kSide),
+        x1(std::min(x0 + kSide, grid.width)),
+        y1(std::min(y0 + kSide, grid.height)),
+        box{grid.at(x0, y0), grid.at(x1 - 1, y1 - 1)} {}
+  Disk disk() const { return {box.center(), box.radius()}; }
 };
 
 // Calls f(x, y, light) for all pixels.
@@ -51,10 +52,7 @@ void for_each_pixel(const World& world, const PixelGrid& grid, const SightRules&
     tbb::parallel_for(0, columns, [&](int column) {
       const Tile tile(grid, column, row);
       if (only != nullptr && !only->any(tile.x0, tile.y0, kSide)) return;
-      const auto overlaps = [&](std::size_t i) {
-        const Box& box = world.boxes[i];
-        return box.low.x <= tile.high.x && box.low.y <= tile.high.y && box.high.x >= tile.low.x && box.high.y >= tile.low.y;
-      };
+      const auto overlaps = [&](std::size_t i) { return world.boxes[i].meets(tile.box); };
       const View view = view_of(world, tile.disk(), rules.all || std::any_of(deep.begin(), deep.end(), overlaps));
       if (view.blocking.empty() && view.all.empty() && world.scene.suns.empty()) return;
       for (int y = tile.y0; y < tile.y1; ++y)

@@ -209,8 +209,8 @@ class Seen {
       for (const Curve* c : curves) {
         if (c->body != body) {
           body = c->body;
-          const Box& box = world_.boxes[static_cast<std::size_t>(body)];
-          is_met = fan.may_hold({seen_at((box.low + box.high) * 0.5), 0.5 * length(box.high - box.low)});
+          const Box2d& box = world_.boxes[static_cast<std::size_t>(body)];
+          is_met = fan.may_hold({seen_at(box.center()), box.radius()});
         }
         if (is_met) near.push_back(c);
       }

@@ -49,7 +49,7 @@ Start start_at(const World& world, Vec2d p) {
   Start start;
   for (int i : world.grid.bodies_near(p)) {
     const auto k = static_cast<std::size_t>(i);
-    if (world.extras->matter[k] == Matter::clear || !world.boxes[k].holds(p) || !world.contains(k, p)) continue;
+    if (world.extras->matter[k] == Matter::clear || !world.boxes[k].contains(p) || !world.contains(k, p)) continue;
     if (world.extras->matter[k] == Matter::deep)
       start.deep.push_back(i);
     else if (world.scene.bodies[k].light)

@@ -11,9 +11,9 @@ namespace {
 
 using std::numbers::pi;
 
-Disk disk_of(const Box& box) {
-  if (!(box.low.x <= box.high.x)) return {{1e300, 1e300}, 0};
-  return {(box.low + box.high) * 0.5, 0.5 * length(box.high - box.low)};
+Disk disk_of(const Box2d& box) {
+  if (box.is_empty()) return {{1e300, 1e300}, 0};
+  return {box.center(), box.radius()};
 }
 
 // Targets that an eye looks at. It errs on the large side by a little: a hull counts as a capsule, with a margin for rounding.

@@ -148,9 +148,9 @@ void Preparation::add_convex(const std::vector<Vec2d>& vertices, int owner) {
   b.body = owner;
   b.first = frame_.vertices.size();
   b.count = vertices.size();
-  Box box;
+  Box2d box;
   for (Vec2d v : vertices) box.add(v);
-  b.center = (box.low + box.high) * 0.5;
+  b.center = box.center();
   for (Vec2d v : vertices) b.bound = std::max(b.bound, length(v - b.center));
   frame_.vertices.insert(frame_.vertices.end(), vertices.begin(), vertices.end());
   b.outline = static_cast<int>(frame_.outlines.size());

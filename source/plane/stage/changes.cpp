@@ -19,12 +19,9 @@ void Preparation::touch(std::size_t body) {
       if (dot(away, away) < reach * reach * (1 + 1e-12)) dirty_[i] = 1;
     }
   }
-  const Box& box = world_.boxes[body];
-  for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
-    const Box& other = world_.boxes[i];
-    if (box.low.x <= other.high.x && other.low.x <= box.high.x && box.low.y <= other.high.y && other.low.y <= box.high.y)
-      dirty_interior_[i] = 1;
-  }
+  const Box2d& box = world_.boxes[body];
+  for (std::size_t i = 0; i < world_.boxes.size(); ++i)
+    if (box.meets(world_.boxes[i])) dirty_interior_[i] = 1;
 }
 
 void Preparation::forget(std::size_t body) {

@@ -38,14 +38,14 @@ class Marking {
 
   // Marks the tiles of a body that moves, is added or is removed.
   void mark(std::size_t body) {
-    const Box& box = world_.boxes[body];
+    const Box2d& box = world_.boxes[body];
     // The pixels within bodies change, and the blocks that are filled entirely.
     for_each_tile(box.low, box.high, [&](int x, int y) {
       tiles_.mark(x, y, kTileSide);
       store_.at(x, y).kept = false;
     });
-    const Vec2d middle = (box.low + box.high) * 0.5;
-    const double radius = 0.5 * length(box.high - box.low) + kNear;
+    const Vec2d middle = box.center();
+    const double radius = box.radius() + kNear;
     for (std::size_t index = 0; index < frame_.emitters.size(); ++index) {
       const Emitter& e = frame_.emitters[index];
       const auto owner = static_cast<std::size_t>(e.body);
@@ -71,7 +71,7 @@ class Marking {
 
  private:
   static constexpr double kNear = 1e-3;
-  static bool near(const Box& a, const Box& b) {
+  static bool near(const Box2d& a, const Box2d& b) {
     return a.low.x <= b.high.x + kNear && b.low.x <= a.high.x + kNear && a.low.y <= b.high.y + kNear && b.low.y <= a.high.y + kNear;
   }
 

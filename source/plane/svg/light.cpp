@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/box.h"
+
 namespace steradian::plane::svg {
 
 void take_extras(const Document& document, pugi::xml_node n, const Style& style, PlaneBody& body) {
@@ -147,23 +149,19 @@ class Paint {
     const double det = t.determinant();
     if (det == 0) return t;
     const Transform inverse{t.d / det, -t.b / det, -t.c / det, t.a / det, (t.c * t.f - t.d * t.e) / det, (t.b * t.e - t.a * t.f) / det};
-    Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
-    const auto grow = [&](Vec2d p) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    };
+    Box2d box;
     for (const auto& c : body.contours)
-      for (Vec2d p : c) grow(inverse.apply(p));
+      for (Vec2d p : c) box.add(inverse.apply(p));
     if (body.contours.empty()) {
       const Vec2d c = inverse.apply(body.center), x = inverse.apply_vector(body.x_axis), y = inverse.apply_vector(body.y_axis);
       const Vec2d half{std::hypot(x.x, y.x), std::hypot(x.y, y.y)};
-      grow(c - half);
-      grow(c + half);
+      box.add(c - half);
+      box.add(c + half);
     }
-    const Vec2d size = high - low;
+    const Vec2d size = box.size();
     if (!(size.x > 0 && size.y > 0))
       document_.fail(n, "a gradient across a shape without width or height", "use gradientUnits=\"userSpaceOnUse\"");
-    return t * Transform{size.x, 0, 0, size.y, low.x, low.y};
+    return t * Transform{size.x, 0, 0, size.y, box.low.x, box.low.y};
   }
 
   Document& document_;

@@ -102,7 +102,7 @@ TEST(LoadSvg, TransformsNestAndUseMoves) {
   const PlaneSvg svg = load(R"~(<defs><rect id="box" width="2" height="1"/></defs>
     <g transform="translate(10 20)"><g transform="scale(3) rotate(90)"><use href="#box" x="1"/></g></g>)~");
   ASSERT_EQ(svg.scene.bodies.size(), 1u);
-  const Box box = bounds_of(svg.scene.bodies[0]);
+  const Box2d box = bounds_of(svg.scene.bodies[0]);
   EXPECT_NEAR(box.low.x, 7, 1e-12);
   EXPECT_NEAR(box.high.x, 10, 1e-12);
   EXPECT_NEAR(box.low.y, 23, 1e-12);
@@ -329,15 +329,7 @@ TEST(LoadSvg, OccludersKeepTheirColour) {
 
 namespace {
 
-Vec2d middle_of(const PlaneBody& body) {
-  Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
-  for (const auto& contour : body.contours)
-    for (Vec2d p : contour) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-  return (low + high) * 0.5;
-}
+Vec2d middle_of(const PlaneBody& body) { return bounds_of(body).center(); }
 
 }  // namespace
 

@@ -29,8 +29,8 @@ struct Passed {
 
 struct CullTable {
   // Returns the number of lights that may reach the box.
-  std::size_t (*eggs)(const Bounds<kEggPlanes>& bounds, const Box& box, const Passed<kEggPlanes>& passed);
-  std::size_t (*spheroids)(const Bounds<kSpheroidPlanes>& bounds, const Box& box, const Passed<kSpheroidPlanes>& passed);
+  std::size_t (*eggs)(const Bounds<kEggPlanes>& bounds, const ReceiverBounds& box, const Passed<kEggPlanes>& passed);
+  std::size_t (*spheroids)(const Bounds<kSpheroidPlanes>& bounds, const ReceiverBounds& box, const Passed<kSpheroidPlanes>& passed);
 };
 
 // The lights of every block of a tile, as indices into the set. The memory of one thread, reused for every tile.
@@ -55,7 +55,7 @@ class TileLists {
     std::array<std::size_t, kBlocks> count{};
 
     template <class Cull>
-    void run(Cull cull, const Bounds<planes>& all, const Box& box, const std::array<Box, kBlocks>& blocks);
+    void run(Cull cull, const Bounds<planes>& all, const ReceiverBounds& box, const std::array<ReceiverBounds, kBlocks>& blocks);
   };
   Kind<kEggPlanes> diffuse_;
   Kind<kSpheroidPlanes> glossy_;

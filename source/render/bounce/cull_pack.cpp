@@ -6,10 +6,10 @@ STERADIAN_BEGIN_ISA
 namespace {
 
 using indirect::Bounds;
-using indirect::Box;
 using indirect::kEggPlanes;
 using indirect::kSpheroidPlanes;
 using indirect::Passed;
+using indirect::ReceiverBounds;
 using PackMask = PackKernels::mask;
 
 // Writes the chosen lanes side by side. The output needs capacity for a whole pack.
@@ -54,7 +54,7 @@ STERADIAN_INLINE std::size_t run(const Bounds<planes>& bounds, const Passed<plan
 // Tests an egg against a box, by two bounds. First, d^3 <= range^2 h, with the least distance d and the greatest height h above the light's
 // plane: boxes in the plane itself are culled. Second, the ball that holds the egg, which large boxes need. In addition, no light comes
 // from below the horizons of all receivers: n.v is largest where each of its three products is.
-__attribute__((flatten)) std::size_t eggs(const Bounds<kEggPlanes>& bounds, const Box& box, const Passed<kEggPlanes>& passed) {
+__attribute__((flatten)) std::size_t eggs(const Bounds<kEggPlanes>& bounds, const ReceiverBounds& box, const Passed<kEggPlanes>& passed) {
   const PackVec3 c = broadcast(box.center), h = broadcast(box.half), m = broadcast(box.normal), w = broadcast(box.normal_half);
   const auto& p = bounds.plane;
   return run(bounds, passed, [&](std::size_t i) {
@@ -83,7 +83,7 @@ __attribute__((flatten)) std::size_t eggs(const Bounds<kEggPlanes>& bounds, cons
 // below the box' centre separates the box from it. They are also apart if the box' bounds along the lobe's axes miss the egg in the ball:
 // |w|^3 <= w_z, w in units of the range. A sharp and bright lobe's ball is so large that it contains everything near its light. The egg
 // begins at the light, and extends one way.
-__attribute__((flatten)) std::size_t spheroids(const Bounds<kSpheroidPlanes>& bounds, const Box& box,
+__attribute__((flatten)) std::size_t spheroids(const Bounds<kSpheroidPlanes>& bounds, const ReceiverBounds& box,
                                                const Passed<kSpheroidPlanes>& passed) {
   const PackVec3 c = broadcast(box.center), h = broadcast(box.half);
   const PackReal across = broadcast(indirect::kBallRadius), along = broadcast(indirect::kBallAlong),

@@ -6,55 +6,43 @@
 namespace steradian {
 namespace {
 
-struct Interval {
-  float low = INFINITY, high = -INFINITY;
-  void add(float x) {
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
-};
-
-Vec3f lowest(Vec3f a, Vec3f b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3f highest(Vec3f a, Vec3f b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-
-struct LightBox {
-  Interval x, y, z;
-};
-LightBox box_of(Vec3f low, Vec3f high) { return {{low.x, high.x}, {low.y, high.y}, {low.z, high.z}}; }
-
 // Largest and least products of two numbers from two intervals.
-float largest_product(Interval a, Interval b) { return std::max({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
-float least_product(Interval a, Interval b) { return std::min({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high}); }
+float largest_product(Interval<float> a, Interval<float> b) {
+  return std::max({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+}
+float least_product(Interval<float> a, Interval<float> b) {
+  return std::min({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+}
 
 // Largest or least height of the vertex v above the surfaces' horizons.
-float height(Vec3f v, const LightBox& positions, const LightBox& normals, float (*product)(Interval, Interval)) {
-  const auto along = [&](float c, Interval p, Interval n) { return product({c - p.high, c - p.low}, n); };
-  return along(v.x, positions.x, normals.x) + along(v.y, positions.y, normals.y) + along(v.z, positions.z, normals.z);
+float height(Vec3f v, const Box3f& positions, const Box3f& normals, float (*product)(Interval<float>, Interval<float>)) {
+  const Vec3f low = v - positions.high, high = v - positions.low;
+  return product({low.x, high.x}, {normals.low.x, normals.high.x}) + product({low.y, high.y}, {normals.low.y, normals.high.y}) +
+         product({low.z, high.z}, {normals.low.z, normals.high.z});
 }
-float largest_height(Vec3f v, const LightBox& positions, const LightBox& normals) { return height(v, positions, normals, largest_product); }
-float least_height(Vec3f v, const LightBox& positions, const LightBox& normals) { return height(v, positions, normals, least_product); }
+float largest_height(Vec3f v, const Box3f& positions, const Box3f& normals) { return height(v, positions, normals, largest_product); }
+float least_height(Vec3f v, const Box3f& positions, const Box3f& normals) { return height(v, positions, normals, least_product); }
 
 // Range of the box' heights above a plane.
-Interval heights(const LightBox& box, Vec3f normal, Vec3f point) {
-  Interval h;
+Interval<float> heights(const Box3f& box, Vec3f normal, Vec3f point) {
+  Interval<float> h;
   for (int i = 0; i < 8; ++i) {
-    const Vec3f p{(i & 1) != 0 ? box.x.high : box.x.low, (i & 2) != 0 ? box.y.high : box.y.low, (i & 4) != 0 ? box.z.high : box.z.low};
+    const Vec3f p{(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y, (i & 4) != 0 ? box.high.z : box.low.z};
     h.add(dot(p - point, normal));
   }
   return h;
 }
 
-bool faces(const auto& flat, const LightBox& positions) { return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0; }
-bool faces(const packed::Ellipsoid&, const LightBox&) { return true; }
-bool faces(const packed::Capsule&, const LightBox&) { return true; }
-bool faces(const packed::Punctual&, const LightBox&) { return true; }
-bool faces(const packed::Pieces&, const LightBox&) { return true; }
+bool faces(const auto& flat, const Box3f& positions) { return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0; }
+bool faces(const packed::Ellipsoid&, const Box3f&) { return true; }
+bool faces(const packed::Capsule&, const Box3f&) { return true; }
+bool faces(const packed::Punctual&, const Box3f&) { return true; }
+bool faces(const packed::Pieces&, const Box3f&) { return true; }
 
-bool reaches(const PackLight& light, const LightBox& positions, const LightBox& normals) {
+bool reaches(const PackLight& light, const Box3f& positions, const Box3f& normals) {
   if (const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
       punctual != nullptr && punctual->kind == PunctualKind::directional) {
-    const Interval zero{0, 0};
-    return largest_height(-static_cast<Vec3f>(punctual->direction), {zero, zero, zero}, normals) > 0;
+    return largest_height(-static_cast<Vec3f>(punctual->direction), {Vec3f{}, Vec3f{}}, normals) > 0;
   }
   return std::visit(
       [&](const auto& shape) {
@@ -65,14 +53,14 @@ bool reaches(const PackLight& light, const LightBox& positions, const LightBox& 
 }
 
 // True if the light's shape lies completely above the horizons. (SeenWhole enlarges it by `spread`.)
-bool above(const auto& shape, const LightBox& positions, const LightBox& normals) {
+bool above(const auto& shape, const Box3f& positions, const Box3f& normals) {
   return !shape.any_bound([&](Vec3f point, float radius) { return !(least_height(point, positions, normals) > radius); });
 }
-bool before(const auto& flat, const LightBox& positions) { return heights(positions, flat.normal, flat.point).low > 0; }
+bool before(const auto& flat, const Box3f& positions) { return heights(positions, flat.normal, flat.point).low > 0; }
 
 struct SeenWhole {
-  const LightBox& positions;
-  const LightBox& normals;
+  const Box3f& positions;
+  const Box3f& normals;
   float spread;
   bool operator()(const packed::Polygon& p) const { return before(p, positions) && above(p, positions, normals); }
   bool operator()(packed::Disk d) const {
@@ -95,30 +83,23 @@ struct SeenWhole {
 }  // namespace
 
 void add(SurfaceBounds& to, const SurfaceBounds& other) {
-  to.low = lowest(to.low, other.low);
-  to.high = highest(to.high, other.high);
-  to.normal_low = lowest(to.normal_low, other.normal_low);
-  to.normal_high = highest(to.normal_high, other.normal_high);
+  to.positions.add(other.positions);
+  to.normals.add(other.normals);
 }
 
 void add(SurfaceBounds& to, const SurfaceTile& tile, std::size_t first, std::size_t count) {
   for (std::size_t i = first; i < first + count; ++i) {
     if (tile.material[i] == nullptr) continue;
-    const Vec3f p{tile.position.x[i], tile.position.y[i], tile.position.z[i]}, n{tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]};
-    add(to, {p, p, n, n});
-    if (!(tile.coat[i] > 0)) continue;
-    const Vec3f c{tile.coat_normal.x[i], tile.coat_normal.y[i], tile.coat_normal.z[i]};
-    add(to, {p, p, c, c});
+    to.positions.add(Vec3f{tile.position.x[i], tile.position.y[i], tile.position.z[i]});
+    to.normals.add(Vec3f{tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
+    if (tile.coat[i] > 0) to.normals.add(Vec3f{tile.coat_normal.x[i], tile.coat_normal.y[i], tile.coat_normal.z[i]});
   }
 }
 
-bool reaches(const PackLight& light, const SurfaceBounds& surfaces) {
-  return reaches(light, box_of(surfaces.low, surfaces.high), box_of(surfaces.normal_low, surfaces.normal_high));
-}
+bool reaches(const PackLight& light, const SurfaceBounds& surfaces) { return reaches(light, surfaces.positions, surfaces.normals); }
 
 bool sees_whole(const PackLight& light, const SurfaceBounds& surfaces, float spread) {
-  const LightBox positions = box_of(surfaces.low, surfaces.high), normals = box_of(surfaces.normal_low, surfaces.normal_high);
-  return std::visit(SeenWhole{positions, normals, spread}, light.shape);
+  return std::visit(SeenWhole{surfaces.positions, surfaces.normals, spread}, light.shape);
 }
 
 }  // namespace steradian

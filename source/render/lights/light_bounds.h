@@ -5,7 +5,6 @@
 
 namespace steradian {
 
-inline bool any_surface(const SurfaceBounds& bounds) { return bounds.low.x <= bounds.high.x; }
 void add(SurfaceBounds& to, const SurfaceBounds& other);
 // Adds `count` of a tile's slots. Coats add normals of their own.
 void add(SurfaceBounds& to, const SurfaceTile& tile, std::size_t first, std::size_t count);

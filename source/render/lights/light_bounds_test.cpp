@@ -61,14 +61,15 @@ TEST(LightBounds, WhatIsSeenWholeIsSoByEverySurface) {
   for (int i = 0; i < 4000; ++i) {
     const PackLight light = i % 2 == 0 ? polygon(random) : disk(random);
     SurfaceBounds bounds;
-    bounds.low = random.vector(3);
-    bounds.high = bounds.low + random.in({0, 0, 0}, {0.5f, 0.5f, 0.5f});
-    bounds.normal_low = random.vector(1);
-    bounds.normal_high = bounds.normal_low + random.in({0, 0, 0}, {0.2f, 0.2f, 0.2f});
+    bounds.positions.low = random.vector(3);
+    bounds.positions.high = bounds.positions.low + random.in({0, 0, 0}, {0.5f, 0.5f, 0.5f});
+    bounds.normals.low = random.vector(1);
+    bounds.normals.high = bounds.normals.low + random.in({0, 0, 0}, {0.2f, 0.2f, 0.2f});
     const bool says = sees_whole(light, bounds);
     bool all = true;
     for (int k = 0; k < 64; ++k) {
-      const Looked looked = look(light, random.in(bounds.low, bounds.high), random.in(bounds.normal_low, bounds.normal_high));
+      const Looked looked =
+          look(light, random.in(bounds.positions.low, bounds.positions.high), random.in(bounds.normals.low, bounds.normals.high));
       const bool sees = looked.lit && looked.least > -1e-5f;
       ASSERT_TRUE(sees || !says) << "light " << i << ", height " << looked.least;
       all = all && sees;
@@ -89,13 +90,13 @@ TEST(LightBounds, ARoundLightThatCountsAsLargerIsNoLongerSeenWhole) {
   scene.area_lights.push_back(light);
   const PackLight disk = prepare_lights(scene).front();
   SurfaceBounds floor;
-  floor.low = {-1, 0, 1};
-  floor.high = {1, 0, 2};
-  floor.normal_low = floor.normal_high = {0, 1, 0};
+  floor.positions.low = {-1, 0, 1};
+  floor.positions.high = {1, 0, 2};
+  floor.normals.low = floor.normals.high = {0, 1, 0};
   EXPECT_TRUE(sees_whole(disk, floor));
   EXPECT_TRUE(sees_whole(disk, floor, 1.9f));
   EXPECT_FALSE(sees_whole(disk, floor, 2.1f));
-  floor.low.z = -1;  // some of it is behind the light
+  floor.positions.low.z = -1;  // some of it is behind the light
   EXPECT_FALSE(sees_whole(disk, floor));
 }
 

@@ -121,14 +121,12 @@ ReachingLights lights_reaching(std::span<const PackLight* const> lights, const S
 
 ReachingLights lights_reaching(std::span<const PackLight* const> lights, const SurfaceBounds& surfaces) {
   ReachingLights result;
-  result.low = surfaces.low;
-  result.high = surfaces.high;
-  const auto low = static_cast<Vec3d>(result.low), high = static_cast<Vec3d>(result.high);
+  const Box3d box{static_cast<Vec3d>(surfaces.positions.low), static_cast<Vec3d>(surfaces.positions.high)};
   for (const PackLight* light : lights) {
     if (!reaches(*light, surfaces)) continue;
     result.lights.push_back(light);
     if (!light->is_polygon()) continue;
-    std::optional<packed::Polygon> cut = with_long_edges_cut(light->polygon, (low + high) / 2, length(high - low) / 2);
+    std::optional<packed::Polygon> cut = with_long_edges_cut(light->polygon, box.center(), box.radius());
     if (!cut) continue;
     result.cut.push_back(std::make_unique<PackLight>(*light));
     result.cut.back()->shape = std::move(*cut);

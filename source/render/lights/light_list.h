@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/box.h"
 #include "render/tile/tile.h"
 #include "shapes/capsule.h"
 #include "shapes/ellipse.h"
@@ -52,17 +53,15 @@ PackLight prepare_light(const PreparedPolygon& polygon);
 // All lights of a scene, and additional area lights, which must outlive the result. Skips lights without area, power or volume.
 std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLight> beside = {});
 
-// A box of surfaces' positions and a box of their normals. An empty box has low above high.
+// Boxes of surfaces' positions and of their normals.
 struct SurfaceBounds {
-  Vec3f low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  Vec3f normal_low{INFINITY, INFINITY, INFINITY}, normal_high{-INFINITY, -INFINITY, -INFINITY};
+  Box3f positions, normals;
 };
 
 // Lights that may reach a surface of a tile.
 struct ReachingLights {
   std::vector<const PackLight*> lights;
   std::vector<std::unique_ptr<PackLight>> cut;  // lights that some pointers refer to; see with_long_edges_cut
-  Vec3f low{}, high{};                          // box of the surfaces' positions; low is above high if empty
 };
 
 // Selects lights by the bounds, against the lights' planes and the surfaces' horizons.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/box.h"
 #include "steradian/kernels.h"
 
 namespace steradian::lights {
@@ -40,16 +41,6 @@ Vec3f mean_normal(ReceiverSpan points) {
   return dot(sum, sum) > 1e-12f ? normalized(sum) : points.front().normal;
 }
 
-struct Range {
-  float low = INFINITY, high = -INFINITY;
-  void add(float x) {
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
-  float middle() const { return (low + high) / 2; }
-  float half() const { return (high - low) / 2; }
-};
-
 template <class Key>
 std::pair<ReceiverSpan, ReceiverSpan> divided(ReceiverSpan points, float at, Key key) {
   const auto middle = std::partition(points.begin(), points.end(), [&](const Receiver& q) { return key(q) < at; });
@@ -70,7 +61,7 @@ Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye
   cell.eye = eye;
   // Positions are relative to the first point: products of coordinates far from the origin would lose digits.
   const Vec3f origin = points.front().position;
-  std::array<Range, 3> along;
+  std::array<Interval<float>, 3> along;
   for (const Receiver& q : points) {
     const Vec3f p = q.position - origin, off = q.normal - cell.normal;
     for (std::size_t k = 0; k < 3; ++k) along[k].add(dot(p, axes[k]));
@@ -118,20 +109,14 @@ Disorder disorder_of(ReceiverSpan points, const Cell& cell) {
 }
 
 std::pair<ReceiverSpan, ReceiverSpan> divided_by_normals(ReceiverSpan points) {
-  Range x, y, z;
-  for (const Receiver& q : points) {
-    x.add(q.normal.x);
-    y.add(q.normal.y);
-    z.add(q.normal.z);
-  }
-  const bool by_x = x.half() >= y.half() && x.half() >= z.half(), by_y = !by_x && y.half() >= z.half();
-  const auto key = [&](const Receiver& q) { return by_x ? q.normal.x : by_y ? q.normal.y : q.normal.z; };
-  return divided(points, (by_x ? x : by_y ? y : z).middle(), key);
+  Box3f normals;
+  for (const Receiver& q : points) normals.add(q.normal);
+  const int axis = normals.longest_side();
+  return divided(points, coordinate(normals.center(), axis), [&](const Receiver& q) { return coordinate(q.normal, axis); });
 }
 
 std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const Cell& cell) {
-  const bool by_x = cell.half.x >= cell.half.y && cell.half.x >= cell.half.z, by_y = !by_x && cell.half.y >= cell.half.z;
-  const Vec3f axis = cell.axes[by_x ? 0 : by_y ? 1 : 2];
+  const Vec3f axis = cell.axes[static_cast<std::size_t>(longest_axis(cell.half))];
   return divided(points, 0, [&](const Receiver& q) { return dot(q.position - cell.center, axis); });
 }
 

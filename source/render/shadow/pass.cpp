@@ -34,7 +34,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
       open_(lights, edges_->triangles, cut_outs_) {
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.is_light_shape || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != AlphaMode::mask) continue;
-    shadow::Box box;
+    Box3d box;
     for (const Vec3f p : mesh.positions) box.add(static_cast<Vec3d>(p));
     cut_outs_.push_back(box);
   }
@@ -205,7 +205,7 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
 }
 
 bool ShadowPass::meets_cut_outs(const Shaft& shaft) const {
-  return std::any_of(cut_outs_.begin(), cut_outs_.end(), [&](const shadow::Box& b) { return shaft.may_meet_box(b.low, b.high); });
+  return std::any_of(cut_outs_.begin(), cut_outs_.end(), [&](const Box3d& b) { return shaft.may_meet(b); });
 }
 
 }  // namespace steradian

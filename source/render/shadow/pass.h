@@ -74,7 +74,7 @@ class ShadowPass {
   const std::vector<PackLight>& lights_;
   const shadow::EdgeMesh& mesh_;
   const shadow::EdgeTree& tree_;
-  std::vector<shadow::Box> cut_outs_;                            // boxes of meshes whose material has holes
+  std::vector<Box3d> cut_outs_;                                  // boxes of meshes whose material has holes
   std::shared_ptr<const std::vector<shadow::Segment>> ellipse_;  // outline of the polygons that stand for ellipsoids
   std::vector<Flat> flats_;                                      // one per light; without sides if the light is not flat
   OpenLights open_;

@@ -4,22 +4,18 @@
 #include <array>
 #include <cmath>
 
-#include "shadow/region/light_frame.h"
+#include "core/box.h"
 #include "steradian/scene.h"
 
 namespace steradian {
 namespace {
-
-using shadow::Box;
-using shadow::coordinate;
-using shadow::longest_side;
 
 // Fraction of the longest side of all members: a gap between neighbours of this width splits them.
 constexpr double kGap = 0.35;
 
 struct Member {
   std::uint32_t number;
-  Box box;
+  Box3d box;
 };
 
 // Splits members at gaps between their boxes along the longest side of all members.
@@ -28,10 +24,10 @@ void split(std::vector<Member>& members, std::vector<std::vector<std::uint32_t>>
   while (!ranges.empty()) {
     const auto [begin, end] = ranges.back();
     ranges.pop_back();
-    Box all;
+    Box3d all;
     for (std::size_t i = begin; i < end; ++i) all.add(members[i].box);
-    const int axis = longest_side(all);
-    const double longest = coordinate(all.high - all.low, axis);
+    const int axis = all.longest_side();
+    const double longest = coordinate(all.size(), axis);
     const auto from = members.begin() + static_cast<std::ptrdiff_t>(begin), to = members.begin() + static_cast<std::ptrdiff_t>(end);
     std::stable_sort(from, to, [&](const Member& a, const Member& b) { return coordinate(a.box.low, axis) < coordinate(b.box.low, axis); });
     double reached = -INFINITY;

@@ -109,7 +109,6 @@ void ShadowPass::add_lanes(const LightSide* const* sides, const std::uint32_t* s
 
 // The shadow pass for round lights: each point sees a polygon of its own.
 
-using shadow::coordinate;
 using shadow::LightFrame;
 using shadow::Shaft;
 using shadow::Viewpoint;
@@ -117,8 +116,8 @@ using Seen = TileShadow::Seen;
 
 namespace {
 
-shadow::Box box_around(const std::vector<Vec3d>& positions) {
-  shadow::Box box;
+Box3d box_around(const std::vector<Vec3d>& positions) {
+  Box3d box;
   for (const Vec3d& p : positions) box.add(p);
   return box;
 }
@@ -171,11 +170,11 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   work.take(slots);
   const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
   const shadow::Ball ball = shadow::ball_around(*light.area);
-  const shadow::Box box = box_around(work.positions);
-  const int axis = longest_side(box);
-  if (!behind && !together && coordinate(box.high - box.low, axis) > ball.radius) {
+  const Box3d box = box_around(work.positions);
+  const int axis = box.longest_side();
+  if (!behind && !together && coordinate(box.size(), axis) > ball.radius) {
     // The group is too wide for a frame behind the light, but its halves may have one.
-    const double middle = coordinate(box.low + box.high, axis) / 2;
+    const double middle = coordinate(box.center(), axis);
     std::array<std::vector<std::uint32_t>, 2> halves;
     for (const std::uint32_t i : slots) halves[coordinate(work.at(i).position, axis) < middle ? 0 : 1].push_back(i);
     for (const auto& half : halves)

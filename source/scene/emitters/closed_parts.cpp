@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -29,14 +28,11 @@ struct Grid {
   double cell = 1;
 
   explicit Grid(const std::vector<Triangle>& triangles) {
-    Vec3d high;
-    if (!triangles.empty()) low = high = triangles[0][0];
+    Box3d box;
     for (const Triangle& t : triangles)
-      for (const Vec3d& v : t) {
-        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-      }
-    const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+      for (const Vec3d& v : t) box.add(v);
+    low = box.low;
+    const double extent = coordinate(box.size(), box.longest_side());
     if (extent > 0) cell = extent / 1048576;
   }
   Key key_of(Vec3d p) const {
@@ -95,17 +91,11 @@ bool is_closed(const MeshPart& part, const std::vector<Corners>& corners) {
 }
 
 void measure(MeshPart& part, const std::vector<Triangle>& triangles) {
-  const double inf = std::numeric_limits<double>::infinity();
-  part.low = {inf, inf, inf};
-  part.high = {-inf, -inf, -inf};
   const Vec3d origin = triangles[part.triangles.front()][0];  // avoids cancellation for a part far from the world's origin
   for (const std::size_t t : part.triangles) {
     const Triangle& p = triangles[t];
     part.volume += dot(p[0] - origin, cross(p[1] - origin, p[2] - origin)) / 6;
-    for (const Vec3d& v : p) {
-      part.low = {std::min(part.low.x, v.x), std::min(part.low.y, v.y), std::min(part.low.z, v.z)};
-      part.high = {std::max(part.high.x, v.x), std::max(part.high.y, v.y), std::max(part.high.z, v.z)};
-    }
+    for (const Vec3d& v : p) part.box.add(v);
   }
 }
 

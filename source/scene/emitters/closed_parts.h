@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/box.h"
 #include "scene/emitters/merge_polygons.h"
 
 namespace steradian::scene {
@@ -14,7 +15,7 @@ struct MeshPart {
   std::vector<std::size_t> triangles;
   bool closed = false;  // every edge is used once in each direction
   double volume = 0;    // volume of a closed part [m^3]: negative where its triangles face inwards
-  Vec3d low, high;      // bounds
+  Box3d box;
 };
 
 // The parts of a list of triangles, in the order of their first triangles. Triangles with two equal corners belong to no part.

@@ -165,26 +165,13 @@ AreaLight to_round_light(const Scene& scene, const Mesh& mesh, const Shape& shap
   return light;
 }
 
-struct Bounds {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-
-  void add(Vec3d v) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
-  bool any() const { return low.x <= high.x; }
-};
-
 // For each mesh, the bounds of all other meshes, computed in one pass from either end.
-std::vector<Bounds> bounds_of_the_others(const Scene& scene) {
-  std::vector<Bounds> result(scene.meshes.size());
+std::vector<Box3d> bounds_of_the_others(const Scene& scene) {
+  std::vector<Box3d> result(scene.meshes.size());
   const auto pass = [&](auto begin, auto end, auto out) {
-    Bounds before;
+    Box3d before;
     for (auto mesh = begin; mesh != end; ++mesh, ++out) {
-      if (before.any()) {
-        out->add(before.low);
-        out->add(before.high);
-      }
+      out->add(before);
       for (const Vec3f& p : mesh->positions) before.add(static_cast<Vec3d>(p));
     }
   };
@@ -194,16 +181,16 @@ std::vector<Bounds> bounds_of_the_others(const Scene& scene) {
 }
 
 // True if the part is a dome around all other meshes, which it lights.
-bool encloses(const MeshPart& part, const Bounds& others) {
-  const Vec3d a = others.low - part.low, b = part.high - others.high;
-  return others.any() && a.x > 0 && a.y > 0 && a.z > 0 && b.x > 0 && b.y > 0 && b.z > 0;
+bool encloses(const MeshPart& part, const Box3d& others) {
+  const Vec3d a = others.low - part.box.low, b = part.box.high - others.high;
+  return !others.is_empty() && a.x > 0 && a.y > 0 && a.z > 0 && b.x > 0 && b.y > 0 && b.z > 0;
 }
 
 // The side on which a mesh emits. Files set `doubleSided` on nearly everything. On a closed surface the far half would then shine through
 // the near one, so closed surfaces emit outwards. A dome around the scene is an exception: from inside, both sides are right.
 enum class Shines { as_the_file_says, outwards, outwards_and_faces_inwards };
 
-Shines where_it_shines(const SurfaceMaterial& m, const MeshPart& part, const Bounds& others) {
+Shines where_it_shines(const SurfaceMaterial& m, const MeshPart& part, const Box3d& others) {
   if (!part.closed || part.volume == 0) return Shines::as_the_file_says;
   if (!m.double_sided) return part.volume > 0 ? Shines::outwards : Shines::as_the_file_says;
   if (encloses(part, others)) return Shines::as_the_file_says;
@@ -267,7 +254,7 @@ std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& 
 
 std::size_t add_emitters(Scene& scene, Budget& budget, const std::string& path) {
   std::size_t without_area = 0;
-  const std::vector<Bounds> others = bounds_of_the_others(scene);
+  const std::vector<Box3d> others = bounds_of_the_others(scene);
   for (std::size_t index = 0; index < scene.meshes.size(); ++index) {
     Mesh& mesh = scene.meshes[index];
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];

@@ -4,6 +4,8 @@
 #include <bit>
 #include <tuple>
 
+#include "core/box_tree.h"
+
 namespace steradian::shadow {
 namespace {
 
@@ -37,48 +39,22 @@ Plane plane_of(const std::vector<Vec3d>& vertices, std::array<std::uint32_t, 3> 
   return {normal, dot(normal, a)};
 }
 
-// Recursive halving of a range of edges by their midpoints.
-struct Middle {
-  double at[3];
-  std::uint32_t edge;
-};
-void split(Middle* all, std::uint32_t begin, std::uint32_t end) {
-  if (end - begin <= kLeafEdges) {
-    std::sort(all + begin, all + end, [](const Middle& a, const Middle& b) { return a.edge < b.edge; });
-    return;
-  }
-  double size[3];
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto [low, high] =
-        std::minmax_element(all + begin, all + end, [c](const Middle& a, const Middle& b) { return a.at[c] < b.at[c]; });
-    size[c] = high->at[c] - low->at[c];
-  }
-  const std::size_t axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-  const std::uint32_t half = middle_of(begin, end);
-  std::nth_element(all + begin, all + half, all + end, [axis](const Middle& a, const Middle& b) {
-    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.edge < b.edge;
-  });
-  split(all, begin, half);
-  split(all, half, end);
-}
-
-// Reorders sorted edges by leaves. The numbers of edges settle ties, so that the order is unique.
+// Reorders sorted edges by leaves.
 void sort_into_leaves(EdgeMesh& mesh) {
-  std::vector<Middle> order(mesh.edges.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    const Vec3d twice = mesh.vertices[mesh.edges[i].v0] + mesh.vertices[mesh.edges[i].v1];
-    order[i] = {{twice.x, twice.y, twice.z}, i};
-  }
-  if (!order.empty()) split(order.data(), 0, static_cast<std::uint32_t>(order.size()));
+  const auto twice_the_middle = [&](std::uint32_t edge) {
+    const Vec3d sum = mesh.vertices[mesh.edges[edge].v0] + mesh.vertices[mesh.edges[edge].v1];
+    return Box3d{sum, sum};
+  };
+  const BoxTree<Box3d> tree(mesh.edges.size(), twice_the_middle, Halving{kLeafEdges});
   std::vector<Edge> edges;
   std::vector<EdgeTriangle> triangles;
   edges.reserve(mesh.edges.size());
   triangles.reserve(mesh.edge_triangles.size());
-  std::vector<std::uint32_t> place(order.size());
-  for (const Middle& m : order) {
-    Edge e = mesh.edges[m.edge];
+  std::vector<std::uint32_t> place(mesh.edges.size());
+  for (const std::uint32_t number : tree.order()) {
+    Edge e = mesh.edges[number];
     const auto begin = mesh.edge_triangles.begin() + e.first;
-    place[m.edge] = static_cast<std::uint32_t>(edges.size());
+    place[number] = static_cast<std::uint32_t>(edges.size());
     e.first = static_cast<std::uint32_t>(triangles.size());
     triangles.insert(triangles.end(), begin, begin + e.count);
     edges.push_back(e);
@@ -95,6 +71,12 @@ struct TriangleSide {
 };
 
 }  // namespace
+
+Box3d box_of(const EdgeMesh& mesh, std::uint32_t triangle) {
+  Box3d box;
+  for (const std::uint32_t v : mesh.triangles[triangle]) box.add(mesh.vertices[v]);
+  return box;
+}
 
 EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices) {
   EdgeMesh mesh;

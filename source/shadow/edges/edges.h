@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/box.h"
 #include "steradian/scene.h"
 #include "steradian/vector.h"
 
@@ -37,12 +38,11 @@ struct EdgeMesh {
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
 };
 
+// The box around a triangle.
+Box3d box_of(const EdgeMesh& mesh, std::uint32_t triangle);
+
 // Number of edges in a leaf of EdgeTree; the last leaf may have fewer.
 inline constexpr std::uint32_t kLeafEdges = 16;
-// Position at which a range of edges is halved, always between leaves.
-constexpr std::uint32_t middle_of(std::uint32_t begin, std::uint32_t end) {
-  return begin + (end - begin + 2 * kLeafEdges - 1) / (2 * kLeafEdges) * kLeafEdges;
-}
 
 // Surfaces need not be closed, oriented or manifold. Equal positions become one vertex. Triangles with two equal corners or a coordinate
 // that is not finite are dropped.

@@ -5,25 +5,16 @@
 #include <cmath>
 
 namespace steradian::shadow {
-namespace {
-
-Vec3d least(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-Vec3d largest(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-
-}  // namespace
 
 double Shaft::enclose(const std::vector<Vec3d>& points, const Frame& axes) {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
-  for (const Vec3d& p : points) {
-    low = least(low, axes.to_local(p));
-    high = largest(high, axes.to_local(p));
-  }
-  const Vec3d half = (high - low) * 0.5;
-  center_ = axes.to_world((low + high) * 0.5);
+  Box3d box;
+  for (const Vec3d& p : points) box.add(axes.to_local(p));
+  const Vec3d half = box.half();
+  center_ = axes.to_world(box.center());
   half_[0] = axes.x * half.x;
   half_[1] = axes.y * half.y;
   half_[2] = axes.z * half.z;
-  return low.z;
+  return box.low.z;
 }
 
 Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up, Sections sections)
@@ -61,14 +52,14 @@ Shaft::Shaft(const LightFrame& frame, const std::vector<Vec3d>& points, Vec3d up
 
 Shaft::Shaft(Vec3d light, double half_side, const std::vector<Vec3d>& points, Vec3d up) : sections_(Sections::anywhere), origin_(light) {
   const Vec3d half{half_side, half_side, half_side};
-  Vec3d low = light - half, high = light + half;
+  Box3d all{light - half, light + half};
   for (const Vec3d& p : points) {
-    low = least(low, p);
-    high = largest(high, p);
+    all.add(p);
     far_ = std::max(far_, length(p - light));
   }
-  bounds_ = {bound_of({0, 0, -1}, -low.z), bound_of({0, 0, 1}, high.z),  bound_of({1, 0, 0}, high.x), bound_of({-1, 0, 0}, -low.x),
-             bound_of({0, 1, 0}, high.y),  bound_of({0, -1, 0}, -low.y), bound_of({0, 0, 1}, high.z)};
+  bounds_ = {bound_of({0, 0, -1}, -all.low.z), bound_of({0, 0, 1}, all.high.z), bound_of({1, 0, 0}, all.high.x),
+             bound_of({-1, 0, 0}, -all.low.x), bound_of({0, 1, 0}, all.high.y), bound_of({0, -1, 0}, -all.low.y),
+             bound_of({0, 0, 1}, all.high.z)};
   const Frame around = dot(up, up) > 0 ? Frame::from_normal(normalized(up)) : Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double lowest = enclose(points, around), of_light = dot(around.z, light) - std::sqrt(3.0) * half_side;
   bounds_[6] = bound_of(-around.z, -std::min(lowest, of_light));
@@ -79,8 +70,8 @@ double Shaft::rounding(Vec3d p) const {
   return 2e-6 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z) + far_) + 1e-12 * length(origin_);
 }
 
-bool Shaft::may_meet_box(Vec3d low, Vec3d high) const {
-  const Vec3d c = (low + high) * 0.5, h = (high - low) * 0.5;
+bool Shaft::may_meet(const Box3d& box) const {
+  const Vec3d c = box.center(), h = box.half();
   const double margin = rounding(c) + 2e-6 * (h.x + h.y + h.z);
   return std::none_of(bounds_.begin(), bounds_.end(), [&](const Bound& b) {
     return dot(b.normal, c) - (std::fabs(b.normal.x) * h.x + std::fabs(b.normal.y) * h.y + std::fabs(b.normal.z) * h.z) >
@@ -144,18 +135,20 @@ ShaftView Shaft::view_from(const LightFrame& frame) const {
 EdgeTree::EdgeTree(const EdgeMesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.edges.size());
   if (count == 0) return;
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high = -low;
+  Box3d all;
   for (const Edge& e : mesh.edges)
-    for (const std::uint32_t v : {e.v0, e.v1}) {
-      low = least(low, mesh.vertices[v]);
-      high = largest(high, mesh.vertices[v]);
-    }
-  middle_ = (low + high) * 0.5;
+    for (const std::uint32_t v : {e.v0, e.v1}) all.add(mesh.vertices[v]);
+  middle_ = all.center();
   for (std::uint32_t begin = 0; begin < count; begin += kLeafEdges)
     leaves_.push_back(leaf_of(mesh, begin, std::min(begin + kLeafEdges, count)));
-  nodes_.reserve(2 * leaves_.size());
-  nodes_.emplace_back();
-  build(0, 0, count);
+  const auto box_of = [&](std::uint32_t leaf) {
+    Box3f box;
+    for (int i = 0; i < std::popcount(leaves_[leaf].valid); ++i)
+      for (const auto& end : {leaves_[leaf].a, leaves_[leaf].b}) box.add(Vec3f{end[0][i], end[1][i], end[2][i]});
+    return box;
+  };
+  // The leaves stay in their order.
+  tree_ = BoxTree<Box3f>(leaves_.size(), box_of, [](auto leaves) { return leaves.size() > 1 ? (leaves.size() + 1) / 2 : 0; });
 }
 
 EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint32_t end) const {
@@ -186,40 +179,15 @@ EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint3
   return leaf;
 }
 
-void EdgeTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  if (end - begin <= kLeafEdges) {
-    const EdgeLeaf& leaf = leaves_[begin / kLeafEdges];
-    const auto low = [&](std::size_t c) {
-      return std::min(*std::min_element(leaf.a[c], leaf.a[c] + (end - begin)), *std::min_element(leaf.b[c], leaf.b[c] + (end - begin)));
-    };
-    const auto high = [&](std::size_t c) {
-      return std::max(*std::max_element(leaf.a[c], leaf.a[c] + (end - begin)), *std::max_element(leaf.b[c], leaf.b[c] + (end - begin)));
-    };
-    nodes_[node] = {{low(0), low(1), low(2)}, {high(0), high(1), high(2)}, begin / kLeafEdges, 0};
-    return;
-  }
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
-  const std::uint32_t half = middle_of(begin, end);
-  build(children, begin, half);
-  build(children + 1, half, end);
-  const Node &a = nodes_[children], &b = nodes_[children + 1];
-  nodes_[node] = {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
-                  {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)},
-                  0,
-                  children};
-}
-
 void EdgeTree::gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const {
   edges.clear();
-  if (nodes_.empty()) return;
   LightFrame here;
   here.origin = middle_;
   here.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const ShaftView view = shaft.view_from(here);
   // The margins are those of edges, for the whole box.
-  const auto meets = [&view](const Vec3f& low, const Vec3f& high) {
-    const Vec3f c = (low + high) * 0.5f, h = (high - low) * 0.5f;
+  const auto meets = [&view](const BoxTree<Box3f>::Node& node) {
+    const Vec3f c = node.volume.center(), h = node.volume.half();
     const float margin = 4e-6f * (std::fabs(c.x) + std::fabs(c.y) + std::fabs(c.z) + h.x + h.y + h.z + view.reach);
     for (std::size_t s = 0; s < kShaftSides; ++s) {
       const float* n = view.normal[s];
@@ -228,20 +196,11 @@ void EdgeTree::gather(const ShadowTable& packs, const Shaft& shaft, std::vector<
     }
     return true;
   };
-  std::uint32_t stack[64];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (!meets(node.low, node.high)) continue;
-    if (node.children != 0) {
-      stack[depth++] = node.children + 1;
-      stack[depth++] = node.children;
-      continue;
-    }
-    for (std::uint32_t bits = packs.needed(leaves_[node.leaf], view); bits != 0; bits &= bits - 1)
-      edges.push_back(node.leaf * kLeafEdges + static_cast<std::uint32_t>(std::countr_zero(bits)));
-  }
+  tree_.any_leaf(meets, [&](std::uint32_t leaf, std::uint32_t) {
+    for (std::uint32_t bits = packs.needed(leaves_[leaf], view); bits != 0; bits &= bits - 1)
+      edges.push_back(leaf * kLeafEdges + static_cast<std::uint32_t>(std::countr_zero(bits)));
+    return false;
+  });
 }
 
 }  // namespace steradian::shadow

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/box_tree.h"
 #include "shadow/edges/edges.h"
 #include "shadow/edges/segments.h"
 #include "shadow/lanes/packs.h"
@@ -75,7 +76,7 @@ class Shaft {
   // An axis-aligned box around points and a light that lies in a cube about `light`, however near they are.
   Shaft(Vec3d light, double half_side, const std::vector<Vec3d>& points, Vec3d up = {});
 
-  bool may_meet_box(Vec3d low, Vec3d high) const;
+  bool may_meet(const Box3d& box) const;
   bool may_meet(const Vec3d* corners, int count) const;  // tests their hull
   bool may_meet_segment(Vec3d a, Vec3d b) const;
 
@@ -113,16 +114,11 @@ class EdgeTree {
   void gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const;
 
  private:
-  struct Node {
-    Vec3f low, high;
-    std::uint32_t leaf = 0, children = 0;  // children 0: a leaf; else index of two adjacent children
-  };
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   EdgeLeaf leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint32_t end) const;
 
   Vec3d middle_;  // middle of all edges, origin of the coordinates
-  std::vector<Node> nodes_;
   std::vector<EdgeLeaf> leaves_;
+  BoxTree<Box3f> tree_;  // of the leaves
 };
 
 }  // namespace steradian::shadow

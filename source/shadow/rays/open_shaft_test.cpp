@@ -9,7 +9,7 @@ namespace {
 
 using Random = std::mt19937;
 double uniform(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-Vec3d in(Random& random, const Box& b) {
+Vec3d in(Random& random, const Box3d& b) {
   return {uniform(random, b.low.x, b.high.x), uniform(random, b.low.y, b.high.y), uniform(random, b.low.z, b.high.z)};
 }
 
@@ -24,7 +24,7 @@ bool cuts(const EdgeMesh& mesh, std::size_t triangle, Vec3d from, Vec3d to) {
 
 struct Group {
   std::vector<Vec3d> points;
-  Box light;
+  Box3d light;
 };
 
 // Points in the plane y = 0, on top of a triangle, or anywhere in a box, with a light above.
@@ -42,7 +42,7 @@ Group group(Random& random) {
 
 EdgeMesh floor_and(int triangles, double size, Random& random) {
   std::vector<Vec3d> positions = {{-20, 0, -20}, {-20, 0, 20}, {20, 0, 20}, {-20, 0, -20}, {20, 0, 20}, {20, 0, -20}};
-  const Box room{{-4, 0.2, -4}, {4, 4, 4}};
+  const Box3d room{{-4, 0.2, -4}, {4, 4, 4}};
   for (int i = 0; i < triangles; ++i) {
     const Vec3d at = in(random, room), reach{size, size, size};
     for (int k = 0; k < 3; ++k) positions.push_back(in(random, {at - reach, at + reach}));

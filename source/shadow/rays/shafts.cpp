@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "shadow/rays/shafts.h"
 
@@ -8,13 +7,13 @@ namespace steradian::shadow {
 
 // The hull's projection along an axis is the hull of two rectangles. In each of its four quadrants it has a slanted side if one rectangle
 // reaches further in one coordinate and the other in the second.
-HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
+HullOfBoxes::HullOfBoxes(const Box3d& a, const Box3d& b) : all_(a) {
   all_.add(b);
   for (int axis = 0; axis < 3; ++axis) {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
     for (const int sx : {-1, 1})
       for (const int sy : {-1, 1}) {
-        const auto corner = [&](const Box& box, int c, int sign) { return coordinate(sign < 0 ? box.low : box.high, c); };
+        const auto corner = [&](const Box3d& box, int c, int sign) { return coordinate(sign < 0 ? box.low : box.high, c); };
         const double ax = corner(a, x, sx), ay = corner(a, y, sy), bx = corner(b, x, sx), by = corner(b, y, sy);
         const double dx = sx * (ax - bx), dy = sy * (ay - by);
         if (!(dx * dy < 0)) continue;
@@ -24,12 +23,10 @@ HullOfBoxes::HullOfBoxes(const Box& a, const Box& b) : all_(a) {
   }
 }
 
-bool HullOfBoxes::may_meet(const Box& b) const {
-  for (int c = 0; c < 3; ++c)
-    if (coordinate(b.low, c) > coordinate(all_.high, c) || coordinate(b.high, c) < coordinate(all_.low, c)) return false;
-  return std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
-    return s.u * coordinate(s.u > 0 ? b.low : b.high, s.x) + s.v * coordinate(s.v > 0 ? b.low : b.high, s.y) > s.offset;
-  });
+bool HullOfBoxes::may_meet(const Box3d& b) const {
+  return all_.meets(b) && std::none_of(slants_, slants_ + count_, [&](const Slant& s) {
+           return s.u * coordinate(s.u > 0 ? b.low : b.high, s.x) + s.v * coordinate(s.v > 0 ? b.low : b.high, s.y) > s.offset;
+         });
 }
 
 bool HullOfBoxes::may_meet(const Vec3d (&corners)[3]) const {
@@ -57,86 +54,44 @@ void TriangleTree::Viewers::take(const std::vector<Vec3d>& points) {
   }
 }
 
-TriangleTree::Viewers::Range TriangleTree::Viewers::over(const Plane& plane, std::uint32_t triangle) {
-  Range& range = ranges_[triangle];
+Interval<double> TriangleTree::Viewers::over(const Plane& plane, std::uint32_t triangle) {
+  Interval<double>& range = ranges_[triangle];
   if (stamps_[triangle] == stamp_) return range;
   stamps_[triangle] = stamp_;
-  range = {INFINITY, -INFINITY};
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    const double h = plane.normal.x * x_[i] + plane.normal.y * y_[i] + plane.normal.z * z_[i] - plane.offset;
-    range.low = std::min(range.low, h);
-    range.high = std::max(range.high, h);
-  }
+  range = {};
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    range.add(plane.normal.x * x_[i] + plane.normal.y * y_[i] + plane.normal.z * z_[i] - plane.offset);
   return range;
 }
 
-TriangleTree::TriangleTree(const EdgeMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
-  std::iota(order_.begin(), order_.end(), 0u);
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(order_.size()));
-}
-
-void TriangleTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Box box, middles;
-  const auto middle = [&](std::uint32_t t) {
-    const auto& c = mesh_.triangles[t];
-    return (mesh_.vertices[c[0]] + mesh_.vertices[c[1]] + mesh_.vertices[c[2]]) / 3;
-  };
-  for (std::uint32_t i = begin; i < end; ++i) {
-    for (const std::uint32_t v : mesh_.triangles[order_[i]]) box.add(mesh_.vertices[v]);
-    middles.add(middle(order_[i]));
-  }
-  constexpr std::uint32_t kLeaf = 4;
-  if (end - begin <= kLeaf) {
-    nodes_[node] = {box, begin, end - begin};
-    return;
-  }
-  const int axis = longest_side(middles);
-  const std::uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-    const double x = coordinate(middle(a), axis), y = coordinate(middle(b), axis);
-    return x != y ? x < y : a < b;
-  });
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
-  nodes_[node] = {box, children, 0};
-  build(children, begin, half);
-  build(children + 1, half, end);
-}
+TriangleTree::TriangleTree(const EdgeMesh& mesh)
+    : mesh_(mesh),
+      tree_(
+          mesh.triangles.size(), [&](std::uint32_t t) { return box_of(mesh, t); }, Halving{4}) {}
 
 // Returns true if all points and the whole light lie on one side of the triangle's plane.
-bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box& light, double margin) const {
+bool TriangleTree::separates(std::uint32_t triangle, Viewers& viewers, const Box3d& light, double margin) const {
   const Plane& plane = mesh_.planes[triangle];
-  const Vec3d c = (light.low + light.high) * 0.5, h = (light.high - light.low) * 0.5, n = plane.normal;
+  const Vec3d c = light.center(), h = light.half(), n = plane.normal;
   const double at = dot(n, c) - plane.offset, reach = std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z,
                slack = margin * length(n);
-  const Viewers::Range points = viewers.over(plane, triangle);
+  const Interval<double> points = viewers.over(plane, triangle);
   return (at - reach >= -slack && points.low >= 0) || (at + reach <= slack && points.high <= 0);
 }
 
-bool TriangleTree::is_open(Viewers& viewers, const Box& light, double margin) const {
-  if (order_.empty()) return true;
-  viewers.ranges_.resize(order_.size());
-  viewers.stamps_.resize(order_.size());
+bool TriangleTree::is_open(Viewers& viewers, const Box3d& light, double margin) const {
+  viewers.ranges_.resize(mesh_.triangles.size());
+  viewers.stamps_.resize(mesh_.triangles.size());
   const HullOfBoxes hull(viewers.box_, light);
-  std::uint32_t stack[64];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (!hull.may_meet(node.box)) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.first + 1;
-      stack[depth++] = node.first;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const auto& t = mesh_.triangles[order_[i]];
-      const Vec3d corners[3] = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
-      if (hull.may_meet(corners) && !separates(order_[i], viewers, light, margin)) return false;
-    }
-  }
-  return true;
+  const auto blocks = [&](std::uint32_t triangle) {
+    const auto& t = mesh_.triangles[triangle];
+    const Vec3d corners[3] = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+    return hull.may_meet(corners) && !separates(triangle, viewers, light, margin);
+  };
+  return !tree_.any_leaf([&](const auto& node) { return hull.may_meet(node.volume); },
+                         [&](std::uint32_t first, std::uint32_t last) {
+                           return std::any_of(tree_.order().begin() + first, tree_.order().begin() + last, blocks);
+                         });
 }
 
 Ball ball_around(const AreaLight& area) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/box_tree.h"
 #include "shadow/edges/edges.h"
 #include "shadow/region/light_frame.h"
 #include "steradian/area_light.h"
@@ -19,8 +20,8 @@ namespace steradian::shadow {
 // Half spaces that contain the hull of two boxes: its sides, or fewer.
 class HullOfBoxes {
  public:
-  HullOfBoxes(const Box& a, const Box& b);
-  bool may_meet(const Box& box) const;
+  HullOfBoxes(const Box3d& a, const Box3d& b);
+  bool may_meet(const Box3d& box) const;
   bool may_meet(const Vec3d (&corners)[3]) const;
 
  private:
@@ -29,7 +30,7 @@ class HullOfBoxes {
     double u, v, offset;
     int x, y;
   };
-  Box all_;
+  Box3d all_;
   Slant slants_[12];
   int count_ = 0;
 };
@@ -43,37 +44,28 @@ class TriangleTree {
   class Viewers {
    public:
     void take(const std::vector<Vec3d>& points);
-    const Box& box() const { return box_; }
+    const Box3d& box() const { return box_; }
 
    private:
     friend class TriangleTree;
-    // Least and largest distance of the points in front of a plane.
-    struct Range {
-      double low, high;
-    };
-    Range over(const Plane& plane, std::uint32_t triangle);
-    Box box_;
+    // Distances of the points in front of a plane.
+    Interval<double> over(const Plane& plane, std::uint32_t triangle);
+    Box3d box_;
     std::vector<double> x_, y_, z_;
-    std::vector<Range> ranges_;          // by triangle
-    std::vector<std::uint32_t> stamps_;  // group for which the range is valid
+    std::vector<Interval<double>> ranges_;  // by triangle
+    std::vector<std::uint32_t> stamps_;     // group for which the range is valid
     std::uint32_t stamp_ = 0;
   };
 
   // Returns false if some triangle may lie between a point and the light's box. True is certain, except for occluders less than `margin`
   // out of the light's box.
-  bool is_open(Viewers& viewers, const Box& light, double margin) const;
+  bool is_open(Viewers& viewers, const Box3d& light, double margin) const;
 
  private:
-  struct Node {
-    Box box;
-    std::uint32_t first = 0, count = 0;  // range of a leaf's triangles; count 0: its children are at first and first + 1
-  };
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
-  bool separates(std::uint32_t triangle, Viewers& viewers, const Box& light, double margin) const;
+  bool separates(std::uint32_t triangle, Viewers& viewers, const Box3d& light, double margin) const;
 
   const EdgeMesh& mesh_;
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
+  BoxTree<Box3d> tree_;
 };
 
 // Round lights and groups of points: occluders that may lie between, found before each point uses its own polygon (round_light.h).

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadow/region/light_frame.h"
-
 namespace steradian::shadow {
 namespace {
 
@@ -24,79 +22,63 @@ bool meets(const Triangle& t, Vec3d from, Vec3d d) {
   return at >= 0 && at <= 1;
 }
 
-bool meets_box(Vec3d low, Vec3d high, Vec3d from, Vec3d inverse) {
+bool meets_box(const Box3d& box, Vec3d from, Vec3d inverse) {
   double near = 0, far = 1;
   const auto slab = [&](double l, double h, double o, double i) {
     const double a = (l - o) * i, b = (h - o) * i;
     near = std::fmax(near, std::fmin(a, b));  // fmin and fmax ignore 0 times infinity
     far = std::fmin(far, std::fmax(a, b));
   };
-  slab(low.x, high.x, from.x, inverse.x);
-  slab(low.y, high.y, from.y, inverse.y);
-  slab(low.z, high.z, from.z, inverse.z);
+  slab(box.low.x, box.high.x, from.x, inverse.x);
+  slab(box.low.y, box.high.y, from.y, inverse.y);
+  slab(box.low.z, box.high.z, from.z, inverse.z);
   return near <= far * (1 + 1e-12);
 }
 
 }  // namespace
 
+// The boxes decide about rays that lie in the plane of a triangle but for roundings. So the halves are not those of Halving.
 TriangleRays::TriangleRays(const EdgeMesh& mesh) {
+  std::vector<Triangle> triangles;
   for (const auto& t : mesh.triangles) {
     const Vec3d a = mesh.vertices[t[0]];
-    triangles_.push_back({a, mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a});
+    triangles.push_back({a, mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a});
   }
-  if (triangles_.empty()) return;
-  nodes_.reserve(2 * triangles_.size());
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(triangles_.size()));
-}
-
-void TriangleRays::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Box box, centers;
-  const auto center = [](const Triangle& t) { return t.a + (t.ab + t.ac) / 3.0; };
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const Triangle& t = triangles_[i];
-    for (const Vec3d v : {t.a, t.a + t.ab, t.a + t.ac}) box.add(v);
-    centers.add(center(t));
-  }
+  const auto box = [&](std::uint32_t i) {
+    const Triangle& t = triangles[i];
+    Box3d result;
+    for (const Vec3d v : {t.a, t.a + t.ab, t.a + t.ac}) result.add(v);
+    return result;
+  };
+  const auto center = [&](const BoxTree<Box3d>::Item& i) {
+    return triangles[i.number].a + (triangles[i.number].ab + triangles[i.number].ac) / 3.0;
+  };
+  const auto halve = [&](std::span<BoxTree<Box3d>::Item> items) -> std::size_t {
+    Box3d centers;
+    for (const auto& i : items) centers.add(center(i));
+    const int axis = centers.longest_side();
+    if (items.size() <= 4 || !(coordinate(centers.size(), axis) > 0)) return 0;
+    const auto half = items.begin() + static_cast<std::ptrdiff_t>(items.size() / 2);
+    std::nth_element(items.begin(), half, items.end(),
+                     [&](const auto& a, const auto& b) { return coordinate(center(a), axis) < coordinate(center(b), axis); });
+    return items.size() / 2;
+  };
+  tree_ = BoxTree<Box3d>(triangles.size(), box, halve);
   // Corners are summed again here: a rounding must not put a part of a triangle outside the box.
-  const double margin = 1e-12 * (std::fabs(box.low.x) + std::fabs(box.low.y) + std::fabs(box.low.z) + length(box.high - box.low));
-  const Vec3d grow{margin, margin, margin};
-  nodes_[node].low = box.low - grow;
-  nodes_[node].high = box.high + grow;
-  const int axis = longest_side(centers);
-  if (end - begin <= 4 || !(coordinate(centers.high - centers.low, axis) > 0)) {
-    nodes_[node].first = begin;
-    nodes_[node].count = end - begin;
-    return;
-  }
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle, triangles_.begin() + end,
-                   [&](const Triangle& a, const Triangle& b) { return coordinate(center(a), axis) < coordinate(center(b), axis); });
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = children;
-  nodes_.resize(nodes_.size() + 2);
-  build(children, begin, middle);
-  build(children + 1, middle, end);
+  tree_.change([](const Box3d& b) {
+    const double margin = 1e-12 * (std::fabs(b.low.x) + std::fabs(b.low.y) + std::fabs(b.low.z) + length(b.size()));
+    return Box3d{b.low - Box3d::all(margin), b.high + Box3d::all(margin)};
+  });
+  for (const std::uint32_t i : tree_.order()) triangles_.push_back(triangles[i]);
 }
 
 bool TriangleRays::between(Vec3d from, Vec3d to) const {
-  if (nodes_.empty()) return false;
   const Vec3d d = to - from, inverse{1 / d.x, 1 / d.y, 1 / d.z};
-  std::uint32_t stack[64];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    if (!meets_box(node.low, node.high, from, inverse)) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-      if (meets(triangles_[i], from, d)) return true;
-  }
-  return false;
+  return tree_.any_leaf([&](const auto& node) { return meets_box(node.volume, from, inverse); },
+                        [&](std::uint32_t first, std::uint32_t last) {
+                          return std::any_of(triangles_.begin() + first, triangles_.begin() + last,
+                                             [&](const Triangle& t) { return meets(t, from, d); });
+                        });
 }
 
 }  // namespace steradian::shadow

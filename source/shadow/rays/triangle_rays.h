@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/box_tree.h"
 #include "shadow/edges/edges.h"
 #include "shadow/region/visible.h"
 
@@ -18,17 +19,12 @@ class TriangleRays : public Blockers {
   bool between(Vec3d from, Vec3d to) const override;
 
  private:
-  struct Node {
-    Vec3d low, high;
-    std::uint32_t first = 0, count = 0;  // triangles of a leaf; count 0: children at first and first + 1
-  };
   struct Triangle {
     Vec3d a, ab, ac;
   };
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
 
-  std::vector<Node> nodes_;
-  std::vector<Triangle> triangles_;
+  BoxTree<Box3d> tree_;
+  std::vector<Triangle> triangles_;  // in the tree's order
 };
 
 }  // namespace steradian::shadow

@@ -34,14 +34,13 @@ class Finding {
   void find(std::size_t i) {
     frame_.interior[i] = {};
     if (!body(i).light || world_.first_curve[i] == world_.first_curve[i + 1]) return;
-    const Box& mine = world_.boxes[i];
+    const Box2d& mine = world_.boxes[i];
     std::vector<std::size_t> others{i};
-    const Vec2d middle = (mine.low + mine.high) * 0.5;
-    bins_.for_each_within(frame_.blockers, middle, 0.5 * length(mine.high - mine.low), [&](int k) {
+    const Vec2d middle = mine.center();
+    bins_.for_each_within(frame_.blockers, middle, mine.radius(), [&](int k) {
       spend_(20);
       const std::size_t o = static_cast<std::size_t>(frame_.blockers[static_cast<std::size_t>(k)].body);
-      const Box& box = world_.boxes[o];
-      if (box.low.x > mine.high.x || box.high.x < mine.low.x || box.low.y > mine.high.y || box.high.y < mine.low.y) return;
+      if (!world_.boxes[o].meets(mine)) return;
       if (!may_be_inside(i, frame_.blockers[static_cast<std::size_t>(k)])) return;
       others.push_back(o);
     });

@@ -95,10 +95,10 @@ void append_outline(const std::vector<Emitter>& edges, std::vector<Emitter>& to)
   const std::size_t at = to.size();
   Emitter run = edges.front();
   run.shape = convex ? RunShape::closed : RunShape::hole;
-  Box box;
+  Box2d box;
   for (const Emitter& e : edges) box.add(e.a), run.hull.push_back(e.a);
   if (!convex) run.hull = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
-  run.a = run.b = run.center = (box.low + box.high) * 0.5;
+  run.a = run.b = run.center = box.center();
   run.normal = {};
   run.bound = 0;
   for (Vec2d v : run.hull) run.bound = std::max(run.bound, length(v - run.center));

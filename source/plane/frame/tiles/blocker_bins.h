@@ -13,7 +13,7 @@ namespace steradian::plane {
 class BlockerBins {
  public:
   BlockerBins() = default;
-  BlockerBins(const std::vector<Blocker>& blockers, const Box& window) {
+  BlockerBins(const std::vector<Blocker>& blockers, const Box2d& window) {
     for (const Blocker& b : blockers)
       if (!b.in_chain) largest_ = std::max(largest_, b.bound);
     low_ = window.low;

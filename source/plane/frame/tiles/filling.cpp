@@ -22,7 +22,7 @@ void Filling::find(const std::vector<int>& bodies, int x0, int y0, const TileAre
   for (int index : bodies) {
     if (dark == columns_ * rows_) return;
     const PlaneBody& body = world_.scene.bodies[static_cast<std::size_t>(index)];
-    const Box& box = world_.boxes[static_cast<std::size_t>(index)];
+    const Box2d& box = world_.boxes[static_cast<std::size_t>(index)];
     const Vec2d first = grid_.at(x0, y0);
     const auto low = [](double at, double origin, double step) {
       return static_cast<int>(std::ceil(std::clamp((at - origin) / step - 1e-9, 0.0, 1.0 * kTileSide)));

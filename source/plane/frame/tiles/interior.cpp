@@ -165,10 +165,7 @@ const Curve& curve_of(const Curve* c) { return *c; }
 
 template <class Curves>
 double share_between(const Curves& chords, Vec2d p) {
-  struct Interval {
-    double begin, end;
-  };
-  thread_local std::vector<Interval> taken;
+  thread_local std::vector<Interval<double>> taken;
   taken.clear();
   for (const auto& of : chords) {
     const Curve& chord = curve_of(of);
@@ -180,11 +177,11 @@ double share_between(const Curves& chords, Vec2d p) {
     taken.push_back({begin, std::min(end, std::numbers::pi)});
     if (end > std::numbers::pi) taken.push_back({-std::numbers::pi, end - 2 * std::numbers::pi});
   }
-  std::sort(taken.begin(), taken.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+  std::sort(taken.begin(), taken.end(), [](const Interval<double>& a, const Interval<double>& b) { return a.low < b.low; });
   double sum = 0, reached = -std::numbers::pi;
-  for (const Interval& i : taken) {
-    sum += std::max(i.end - std::max(i.begin, reached), 0.0);
-    reached = std::max(reached, i.end);
+  for (const Interval<double>& i : taken) {
+    sum += std::max(i.high - std::max(i.low, reached), 0.0);
+    reached = std::max(reached, i.high);
   }
   return 1 - sum / (2 * std::numbers::pi);
 }

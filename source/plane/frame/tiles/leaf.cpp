@@ -132,10 +132,10 @@ bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
   }
   const Vec2d n = seen_.normal;
   const double slack = 1e-8;
-  double low = 1e300, high = -1e300;
-  for (int k = 0; k < count; ++k) low = std::min(low, dot(n, s.at(k) - light_.a)), high = std::max(high, dot(n, s.at(k) - light_.a));
-  if (high <= slack) return false;
-  if (low >= -slack) return through(n, light_.a);
+  Interval<double> heights;
+  for (int k = 0; k < count; ++k) heights.add(dot(n, s.at(k) - light_.a));
+  if (heights.high <= slack) return false;
+  if (heights.low >= -slack) return through(n, light_.a);
   double widest = -1e300;
   for (int k = 0; k < count; ++k) {
     const Vec2d p = s.at(k), q = next(k);

@@ -72,14 +72,10 @@ Preparation::ChainView Preparation::view_of_chain(const Emitter& e, const Blocke
     for (int k = 0; k < chain.edges && behind; ++k) behind = is_behind_outline(e, chain.first_edge + k);
     if (behind) return ChainView::behind;
   } else if (e.kind == Emitter::Kind::edge) {
-    double low = 1e300, high = -1e300;
-    for (std::size_t k = 0; k < chain.count; ++k) {
-      const double h = dot(v[k] - e.a, e.normal);
-      low = std::min(low, h);
-      high = std::max(high, h);
-    }
-    if (high <= kTouching) return ChainView::behind;
-    if (chain.body == e.body && low < 0) return ChainView::edge_by_edge;
+    Interval<double> heights;
+    for (std::size_t k = 0; k < chain.count; ++k) heights.add(dot(v[k] - e.a, e.normal));
+    if (heights.high <= kTouching) return ChainView::behind;
+    if (chain.body == e.body && heights.low < 0) return ChainView::edge_by_edge;
   }
   const bool near = length(e.center - chain.center) < e.bound + chain.bound + kApart;
   return near && comes_within(kApart, e, v, chain.count) ? ChainView::edge_by_edge : ChainView::whole;

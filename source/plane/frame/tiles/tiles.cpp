@@ -90,12 +90,9 @@ class Worker {
     return {grid_.at(x, y) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side), 0.5 * side * length(grid_.step)};
   }
 
-  bool touches(const Box& box, const TileArea& t) const {
-    return box.low.x <= t.center.x + t.half.x && box.high.x >= t.center.x - t.half.x && box.low.y <= t.center.y + t.half.y &&
-           box.high.y >= t.center.y - t.half.y;
-  }
+  bool touches(const Box2d& box, const TileArea& t) const { return box.meets({t.center - t.half, t.center + t.half}); }
   bool in_range(std::size_t body, const TileArea& t) const {
-    const Box& b = world_.boxes[body];
+    const Box2d& b = world_.boxes[body];
     const Vec2d gap{std::max({b.low.x - t.center.x - t.half.x, 0.0, t.center.x - t.half.x - b.high.x}),
                     std::max({b.low.y - t.center.y - t.half.y, 0.0, t.center.y - t.half.y - b.high.y})};
     return length(gap) < world_.scene.bodies[body].light->range;
@@ -172,7 +169,7 @@ class Worker {
     const int x1 = std::min(x0 + side, grid_.width) - 1, y1 = std::min(y0 + side, grid_.height) - 1;
     for (int i : level.bodies) {
       const std::size_t k = static_cast<std::size_t>(i);
-      const auto holds = [&](int x, int y) { return world_.boxes[k].holds(grid_.at(x, y)) && world_.contains(k, grid_.at(x, y)); };
+      const auto holds = [&](int x, int y) { return world_.boxes[k].contains(grid_.at(x, y)) && world_.contains(k, grid_.at(x, y)); };
       if (world_.scene.bodies[k].light || frame_.convex[k] == 0 || !holds(x0, y0) || !holds(x1, y1) || !holds(x0, y1) || !holds(x1, y0))
         continue;
       for (int y = y0; y <= y1; ++y) std::fill(&picture_.at(x0, y), &picture_.at(x1, y) + 1, Vec3f{});
@@ -258,15 +255,13 @@ class Worker {
   }
 
   void collect_general_curves(std::size_t light, const TileArea& tile) {
-    const auto middle = [](const Box& b) { return (b.low + b.high) * 0.5; };
-    const auto radius = [](const Box& b) { return 0.5 * length(b.high - b.low); };
-    const Vec2d to = middle(world_.boxes[light]) - tile.center;
-    const double size = radius(world_.boxes[light]), wide = std::max(size, tile.radius), l2 = dot(to, to);
+    const Vec2d to = world_.boxes[light].center() - tile.center;
+    const double size = world_.boxes[light].radius(), wide = std::max(size, tile.radius), l2 = dot(to, to);
     general_curves_.clear();
     for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
       // A body counts within the wider of the two radii of the line between the two.
-      const Vec2d at = middle(world_.boxes[i]) - tile.center;
-      const double t = l2 > 0 ? std::clamp(dot(at, to) / l2, 0.0, 1.0) : 0, limit = wide + radius(world_.boxes[i]);
+      const Vec2d at = world_.boxes[i].center() - tile.center;
+      const double t = l2 > 0 ? std::clamp(dot(at, to) / l2, 0.0, 1.0) : 0, limit = wide + world_.boxes[i].radius();
       const Vec2d away = at - to * t;
       if (i != light && dot(away, away) > limit * limit) continue;
       for (std::size_t c = world_.first_curve[i]; c < world_.first_curve[i + 1]; ++c) general_curves_.push_back(&world_.curves[c]);

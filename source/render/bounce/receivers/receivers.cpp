@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/box.h"
+
 namespace steradian::indirect {
 namespace {
 
@@ -70,25 +72,20 @@ Light deinterleave(const Light& light, const Layout& layout) {
   return result;
 }
 
-Box box_of(const Receivers& r, std::size_t first, std::size_t count) {
-  const Vec3f most{INFINITY, INFINITY, INFINITY};
-  Vec3f low = most, high = -most, normal_low = most, normal_high = -most;
-  const auto extend = [](Vec3f& l, Vec3f& h, Vec3f v) {
-    l = {std::min(l.x, v.x), std::min(l.y, v.y), std::min(l.z, v.z)};
-    h = {std::max(h.x, v.x), std::max(h.y, v.y), std::max(h.z, v.z)};
-  };
+ReceiverBounds bounds_of(const Receivers& r, std::size_t first, std::size_t count) {
+  Box3f positions, normals;
   for (std::size_t i = first; i < first + count; ++i) {
     const Vec3f n = r.normal[i];
     if (n.x == 0 && n.y == 0 && n.z == 0) continue;
-    extend(low, high, r.position[i]);
-    extend(normal_low, normal_high, n);
+    positions.add(r.position[i]);
+    normals.add(n);
   }
-  if (!(low.x <= high.x)) return {};
+  if (positions.is_empty()) return {};
   // The bounds are slightly wider than the points, because they are computed in float.
-  const Vec3f half = (high - low) * 0.5f, center = (high + low) * 0.5f;
+  const Vec3f center = positions.center();
   const float slack = 1e-6f * (std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z));
   const Vec3f wide{slack, slack, slack}, turn{1e-6f, 1e-6f, 1e-6f};
-  return {center, half + wide, (normal_high + normal_low) * 0.5f, (normal_high - normal_low) * 0.5f + turn, false};
+  return {center, positions.half() + wide, normals.center(), normals.half() + turn, false};
 }
 
 }  // namespace steradian::indirect

@@ -77,11 +77,11 @@ Receivers interleave(const FrameSurfaces& surfaces, const Layout& layout, Indire
 Light deinterleave(const Light& light, const Layout& layout);
 
 // Bounds of the surfaces among `count` receivers, and of their normals; empty if there are none.
-struct Box {
+struct ReceiverBounds {
   Vec3f center, half;
   Vec3f normal, normal_half;
   bool empty = true;
 };
-Box box_of(const Receivers& receivers, std::size_t first, std::size_t count);
+ReceiverBounds bounds_of(const Receivers& receivers, std::size_t first, std::size_t count);
 
 }  // namespace steradian::indirect
