@@ -117,7 +117,7 @@ std::size_t words_of(std::size_t lights) { return (lights + kLightsOfWord - 1) /
 
 Bounce::Bounce(const Device& device)
     : device_((check_buffers(device.info()), device)),
-      tables_(ltc_compact_pack_tables()),
+      tables_(ltc_pack_tables(Method::ltc_compact)),
       lobe_program_(device, {bounce_lobes_shader()}, 3),
       program_(device, bounce_shaders(), kBuffers),
       texels_(device),

@@ -4,9 +4,8 @@
 #include <cstring>
 
 #include "device/vulkan/shaders.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 #include "render/lights/light_bounds.h"
-#include "scene/table_file.h"
 #include "shapes/small_light.h"
 #include "steradian/error.h"
 
@@ -68,13 +67,6 @@ Shader shader_of(const OwnLobes::Lobe& lobe) {
   DirectMethod by;
   by.ggx = lobe.method == Method::exact ? Method::closed_form : lobe.method;
   return shader_of(by);
-}
-
-LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
-  if (!table.empty()) return ltc_pack_tables(scene::read_classic_table(table));
-  if (method.ggx == Method::ltc_clipless) return ltc_classic_pack_tables();
-  if (method.ggx == Method::ltc) return method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables();
-  return method.ggx == Method::ltc_compact ? ltc_compact_pack_tables() : LtcPackTables{};
 }
 
 void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TilePlane& beside) {
@@ -200,7 +192,7 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
   for (const PackTable* t : {&tables.matrix, &tables.magnitude, &tables.fresnel_matrix, &tables.fresnel_magnitude})
     nodes.insert(nodes.end(), t->nodes.begin(), t->nodes.end());
   if (std::any_of(lights.begin(), lights.end(), [](const PackLight& light) { return light.textured != nullptr; })) {
-    const LtcPackTables compact = ltc_compact_pack_tables();
+    const LtcPackTables compact = ltc_pack_tables(Method::ltc_compact);
     compact_first_ = static_cast<int>(nodes.size() / 4);
     compact_size_ = compact.matrix.size;
     nodes.insert(nodes.end(), compact.matrix.nodes.begin(), compact.matrix.nodes.end());

@@ -5,13 +5,13 @@
 #include <cstdint>
 
 #include "core/simd.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 #include "render/many/far_lights.h"
 #include "render/tile/tile.h"
 
 namespace steradian::lights {
 
-// Sums over lights of their radiance times the lobe's response to radiance 1 (as for LtcSums), and bounds of the sums' errors.
+// Sums over lights of their radiance times the lobe's response to radiance 1 (as for LobeRadiance), and bounds of the sums' errors.
 struct LobeSums {
   TileVector specular, grazing, specular_error, grazing_error;
 };
