@@ -104,11 +104,10 @@ class DirectLight {
                                     const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
   Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form = BufferForm::texels) const;
-  bool is_ltc() const;
 
   Kept& kept_;
   const DirectMethod method_;
-  std::size_t specular_shader_;
+  const methods::Procedure specular_;
   const LightDetails light_details_;
   const OwnLobes own_lobes_;
   LightRecords records_;
