@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "device/vulkan/shaders.h"
 #include "render/direct/ltc_tables.h"
@@ -175,6 +176,7 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
   kept.details.hold(details);
   matrix_size_ = std::max(tables.matrix.size, 2);
   magnitude_size_ = std::max(tables.magnitude.size, 2);
+  compact_table_ = tables.compact;
   fresnel_table_ = tables.fresnel_matrix.size > 0;
   kept.tables.hold(nodes);
 }
@@ -267,7 +269,7 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   const bool specular = pass.over_lobe();
   return {light.kind,
           pass.with_diffuse ? 1 : 0,
-          specular && method_.ggx == Method::ltc_compact ? 1 : 0,
+          specular && compact_table_ ? 1 : 0,
           specular ? static_cast<int>(method_.quality) : 1,
           pass.own != nullptr ? 2
           : pass.coat         ? 1
@@ -331,7 +333,7 @@ bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
 }
 
 void DirectLight::list_lights(Tile& tile) const {
-  const bool leaks = method_.ggx == Method::ltc_clipless;  // lights that reach the tile, also from below the horizon
+  const bool leaks = specular_ == Procedure::ltc_clipless;  // lights that reach the tile, also from below the horizon
   for (Square& square : tile.squares) {
     if (!any_surface(square.bounds)) continue;
     for (const PackLight* light : tile.lights.lights) {

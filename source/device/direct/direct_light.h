@@ -114,7 +114,7 @@ class DirectLight {
   std::size_t scene_lights_ = 0, scene_vertices_ = 0;
   int most_edges_ = 0;  // most edges of the scene's polygons, as far as there is space for them
   int matrix_size_ = 2, magnitude_size_ = 2, compact_first_ = 0, compact_size_ = 2;  // compact: for means of textured lights
-  bool fresnel_table_ = false;
+  bool compact_table_ = false, fresnel_table_ = false;
   std::map<std::string, double> times_;
 };
 

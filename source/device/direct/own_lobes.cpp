@@ -71,9 +71,10 @@ bool OwnLobes::has(const Material& m) const {
   const Method by = method_.row_for(m).method;
   if (m.brdf == Brdf::phong) return by == Method::series || by == Method::exact;
   if (m.brdf != Brdf::ggx) return m.brdf == Brdf::charlie;
-  const bool has_table = by == method_.ggx, needs_none = by == Method::exact || by == Method::closed_form || by == Method::half_vector ||
-                                                         by == Method::representative_point;
-  return !m.multiple_scattering && (has_table || needs_none);
+  const methods::Procedure procedure = methods::procedure_of(by, m.brdf);
+  const bool has_table = by == method_.ggx,
+             needs_one = procedure == methods::Procedure::ltc || procedure == methods::Procedure::ltc_clipless;
+  return !m.multiple_scattering && (has_table || !needs_one);
 }
 
 std::size_t OwnLobes::number_of(const SurfaceMaterial* material) const {

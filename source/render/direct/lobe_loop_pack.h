@@ -11,10 +11,10 @@ STERADIAN_BEGIN_ISA
 STERADIAN_PROCEDURES(STERADIAN_DECLARE_LOBE)
 #undef STERADIAN_DECLARE_LOBE
 
-// radiance_at(i, p, seen): plain and fresnel of the points from i on, whose positions are p.
+// radiance_at(i, p, seen): plain and fresnel of the points from i on, whose positions are p. A caller asks the compiler to flatten it, so
+// that the loop and the integral stand in one function.
 template <class RadianceAt>
-__attribute__((flatten, noinline)) void for_each_pack(const PackLight& light, const Points& points, const LobeRadiance& result,
-                                                      const RadianceAt& radiance_at) {
+void for_each_pack(const PackLight& light, const Points& points, const LobeRadiance& result, const RadianceAt& radiance_at) {
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i);
     const SeenLight seen(light, p, i);

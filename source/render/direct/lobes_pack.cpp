@@ -13,7 +13,7 @@
 
 STERADIAN_BEGIN_ISA
 
-void diffuse_on_packs(const PackLight& light, const Points& points, const PackLobe&, const LobeRadiance& result) {
+__attribute__((flatten)) void diffuse_on_packs(const PackLight& light, const Points& points, const PackLobe&, const LobeRadiance& result) {
   for_each_pack(light, points, result, [&](std::size_t i, const PackVec3& p, const SeenLight& seen) {
     integrals::Part<Pack> r{PackReal(0.0), PackReal(0.0)};
     if (!any_lane(seen.lit)) return r;
@@ -28,7 +28,8 @@ void diffuse_on_packs(const PackLight& light, const Points& points, const PackLo
   });
 }
 
-void closed_form_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result) {
+__attribute__((flatten)) void closed_form_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe,
+                                                   const LobeRadiance& result) {
   const Quality quality = lobe.options.quality;
   integrals::Ggx<Pack> integral;  // one for all points: it keeps its memory
   integral.quality = quality;
@@ -45,7 +46,7 @@ void closed_form_on_packs(const PackLight& light, const Points& points, const Pa
   });
 }
 
-void sheen_on_packs(const PackLight& light, const Points& points, const PackLobe&, const LobeRadiance& result) {
+__attribute__((flatten)) void sheen_on_packs(const PackLight& light, const Points& points, const PackLobe&, const LobeRadiance& result) {
   integrals::Charlie<Pack> integral;  // as above
   integrate_lobe(light, points, result, [&](std::size_t i, const PackVec3& n, const PackVec3& v) {
     const auto frame = PackKernels().frame_from_normal(n);
@@ -72,7 +73,8 @@ void compare(const PackLight& light, const Points& points, const LobeRadiance& r
 
 }  // namespace
 
-void ltc_clipless_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result) {
+__attribute__((flatten)) void ltc_clipless_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe,
+                                                    const LobeRadiance& result) {
   compare(light, points, result, [&](std::size_t i, const PackVec3& view) {
     PackKernels k;
     const auto at = k.ltc_coordinates(sqrt(load(points.alpha_x + i)), view.z);
@@ -82,26 +84,47 @@ void ltc_clipless_on_packs(const PackLight& light, const Points& points, const P
   });
 }
 
-void representative_point_on_packs(const PackLight& light, const Points& points, const PackLobe&, const LobeRadiance& result) {
+__attribute__((flatten)) void representative_point_on_packs(const PackLight& light, const Points& points, const PackLobe&,
+                                                            const LobeRadiance& result) {
   compare(light, points, result,
           [&](std::size_t i, const PackVec3&) { return integrals::RepresentativePoint<Pack>(load(points.alpha_x + i)); });
 }
+
+namespace {
+
+// Arcs in half-vector space, the width about which a round light's corners gather, and the lobe's tangent.
+template <class Arcs>
+struct ArcsHere {
+  Arcs arcs;
+  PackReal width;
+  PackVec3 tangent;
+};
+
+// A function for each kind of arcs. arcs_at(i): the arcs of the points from i on.
+template <class ArcsAt>
+__attribute__((flatten, noinline)) void walk_half_vectors(const PackLight& light, const Points& points, const HalfVectorOptions& options,
+                                                          const LobeRadiance& result, const ArcsAt& arcs_at) {
+  integrate_lobe(light, points, result, [&](std::size_t i, const PackVec3& n, const PackVec3& v) {
+    PackKernels k;
+    const auto lobe = arcs_at(i);
+    const auto frame = k.frame_from_normal_and_view(n, lobe.tangent);
+    const PackVec3 view = transform_transposed(frame, v);
+    const AboutLobe about = {k.phong_mirror(view), lobe.width, options.arcs > 4 ? 16 : 12};
+    using Integral = integrals::HalfVector<Pack, std::decay_t<decltype(lobe.arcs)>>;
+    return LobeHere<Integral>{frame, view, about, Integral(lobe.arcs, options)};
+  });
+}
+
+}  // namespace
 
 // GGX, Beckmann's or Blinn and Phong's lobe.
 void half_vector_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result) {
   const Material& m = lobe.lobe;
   const HalfVectorOptions options = methods::half_vector_options(lobe.options.quality);
-  const auto at = [&](const auto& arcs, const PackReal& width, const PackVec3& tangent, const PackVec3& n, const PackVec3& v) {
-    PackKernels k;
-    const auto frame = k.frame_from_normal_and_view(n, tangent);
-    const PackVec3 view = transform_transposed(frame, v);
-    using Arcs = std::decay_t<decltype(arcs)>;
-    return LobeHere<integrals::HalfVector<Pack, Arcs>>{
-        frame, view, {k.phong_mirror(view), width, options.arcs > 4 ? 16 : 12}, integrals::HalfVector<Pack, Arcs>(arcs, options)};
-  };
   const auto one_for_all = [&](const auto& arcs, double width) {
-    integrate_lobe(light, points, result, [&](std::size_t i, const PackVec3& n, const PackVec3& v) {
-      return at(arcs, PackReal(width), m.tangent == Vec3d{} ? load(points.tangent, i) : broadcast(static_cast<Vec3f>(m.tangent)), n, v);
+    walk_half_vectors(light, points, options, result, [&](std::size_t i) {
+      return ArcsHere<std::decay_t<decltype(arcs)>>{
+          arcs, PackReal(width), m.tangent == Vec3d{} ? load(points.tangent, i) : broadcast(static_cast<Vec3f>(m.tangent))};
     });
   };
   if (m.brdf == Brdf::beckmann)
@@ -109,9 +132,9 @@ void half_vector_on_packs(const PackLight& light, const Points& points, const Pa
   else if (m.brdf == Brdf::blinn_phong)
     one_for_all(integrals::BlinnPhongArcs<Pack>(m.exponent), 2 / std::sqrt(m.exponent + 1));
   else
-    integrate_lobe(light, points, result, [&](std::size_t i, const PackVec3& n, const PackVec3& v) {
+    walk_half_vectors(light, points, options, result, [&](std::size_t i) {
       const PackReal ax = load(points.alpha_x + i), ay = load(points.alpha_y + i);
-      return at(integrals::GgxHalfVectorArcs<Pack>{ax, ay, PackReal(1.0)}, PackReal(2.0) * max(ax, ay), load(points.tangent, i), n, v);
+      return ArcsHere<integrals::GgxHalfVectorArcs<Pack>>{{ax, ay, PackReal(1.0)}, PackReal(2.0) * max(ax, ay), load(points.tangent, i)};
     });
 }
 

@@ -44,7 +44,8 @@ __attribute__((flatten, noinline)) Both integrate_pieces(const SeenLight& seen, 
 }
 
 template <bool with_diffuse, class Decode>
-void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LobeRadiance& result, const Decode& decode) {
+__attribute__((flatten, noinline)) void run(const PackLight& light, const Points& points, const LtcPackTables& tables,
+                                            const LobeRadiance& result, const Decode& decode) {
   for_each_pack(light, points, result, [&](std::size_t i, const PackVec3& p, const SeenLight& seen) {
     PackKernels k;
     const PackVec3 n = load(points.normal, i), v = load(points.view, i);

@@ -16,8 +16,8 @@ namespace lights {
 struct FarLights;
 }
 
-// Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong lobes under flat lights. Other lobes, and methods that
-// exist for comparison only, run point by point in float.
+// Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong, Beckmann and Blinn-Phong lobes. Other lobes run point
+// by point in float.
 class SpecularPass {
  public:
   // table: as RenderOptions::table.
