@@ -134,6 +134,7 @@ SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
     : method_(method),
       procedure_(methods::procedure_of(method.ggx, Brdf::ggx)),
       packs_(lobe_packs_for(active_simd())),
+      elements_(elements_of(procedure_, active_simd())),
       tables_(tables_of(method, table)),
       compact_tables_(ltc_pack_tables(Method::ltc_compact)) {}
 
@@ -208,14 +209,9 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
     }
   }
   const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
-  const lights::LobeElementTable& elements = lobe_element_table_for(active_simd());
   lights::LobeSums sums = {};
   std::vector<std::uint64_t> left(numbers.size(), 0);
-  if (procedure_ == methods::Procedure::closed_form)
-    ggx_element_table_for(active_simd()).ggx(far.lights, numbers.data(), numbers.size(), points, far.error, sums, left.data());
-  else
-    (tables_.compact ? elements.compact : elements.classic)(far.lights, numbers.data(), numbers.size(), points, tables_, far.error, sums,
-                                                            left.data());
+  elements_->add(far.lights, numbers.data(), numbers.size(), points, tables_, far.error, sums, left.data());
   const auto reflected = [&](std::size_t i, Vec3f plain, Vec3f fresnel) {
     return get(lobe.f0, i) * (plain - fresnel) + get(lobe.f90, i) * fresnel;
   };
@@ -348,8 +344,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
 
 void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Walk walk, const Far* far) const {
   // At quality high, the lobe times (1 - v.h)^5 has a table of its own, and no elements.
-  const bool elements = far != nullptr && tables_.fresnel_matrix.size == 0 &&
-                        (procedure_ == methods::Procedure::ltc || procedure_ == methods::Procedure::closed_form);
+  const bool elements = far != nullptr && elements_ != nullptr && tables_.fresnel_matrix.size == 0;
   const auto add_lobe = [&](const Lobe& lobe) {
     if (elements)
       add_far_ggx(tile, lobe, lights, *far);

@@ -14,7 +14,8 @@ namespace steradian {
 
 namespace lights {
 struct FarLights;
-}
+struct LobeElements;
+}  // namespace lights
 
 // Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong, Beckmann and Blinn-Phong lobes. Other lobes run point
 // by point in float.
@@ -50,6 +51,7 @@ class SpecularPass {
   const DirectMethod method_;
   const methods::Procedure procedure_;  // of layered GGX
   const LobePacks& packs_;
+  const lights::LobeElements* const elements_;
   const LtcPackTables tables_;
   const LtcPackTables compact_tables_;  // these also give the width of a lobe
 };
