@@ -1,14 +1,13 @@
 // kernel/closed-form/quad and its draft and high qualities, and the other methods for GGX, Beckmann and Blinn-Phong lobes: one quad on
 // 16,384 pixels of a floor viewed at a slant.
 #include <cmath>
-#include <functional>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "benches.h"
-#include "render/direct/closed_form.h"
-#include "render/direct/comparison.h"
-#include "render/direct/half_vector.h"
+#include "integrals/methods.h"
+#include "render/direct/lobe_packs.h"
 
 namespace steradian::bench {
 namespace {
@@ -60,40 +59,20 @@ std::shared_ptr<GgxFloor> ggx_make_floor() {
   return floor;
 }
 
-using GgxRun = std::function<void(GgxFloor&, Simd)>;
-
-Bench ggx_packs(const std::string& name, const GgxRun& run, Simd simd) {
+Bench ggx_packs(const std::string& name, Method method, Quality quality, const Material& lobe, Simd simd) {
   auto floor = ggx_make_floor();
-  return {name, floor->x.size(), name_of(simd), [floor, run, simd] {
-            run(*floor, simd);
+  const auto run = lobe_packs_for(simd)[methods::procedure_of(method, lobe.brdf)];
+  const auto tables = std::make_shared<LtcPackTables>(ltc_pack_tables(method, quality));
+  return {name, floor->x.size(), name_of(simd), [=] {
+            run(floor->light, floor->points(), {lobe, {method, quality}, tables.get()}, {floor->plain.data(), floor->fresnel.data()});
             keep(floor->plain.front());
           }};
 }
 
-GgxRun closed_form(Quality quality) {
-  return [quality](GgxFloor& f, Simd simd) {
-    closed_form_table_for(simd).ggx(f.light, f.points(), quality, f.plain.data(), f.fresnel.data());
-  };
-}
-
-GgxRun half_vector_ggx() {
-  return [](GgxFloor& f, Simd simd) { half_vector_table_for(simd).ggx(f.light, f.points(), {}, f.plain.data(), f.fresnel.data()); };
-}
-
-GgxRun half_vector(const Material& lobe) {
-  return [lobe](GgxFloor& f, Simd simd) { half_vector_table_for(simd).lobe(f.light, f.points(), lobe, {}, f.plain.data()); };
-}
-
-GgxRun clipless() {
-  return [tables = ltc_classic_pack_tables()](GgxFloor& f, Simd simd) {
-    comparison_table_for(simd).clipless(f.light, f.points(), tables, f.plain.data(), f.fresnel.data());
-  };
-}
-
-GgxRun representative_point() {
-  return [](GgxFloor& f, Simd simd) {
-    comparison_table_for(simd).representative_point(f.light, f.points(), f.plain.data(), f.fresnel.data());
-  };
+Material ggx() {
+  Material m;
+  m.brdf = Brdf::ggx;
+  return m;
 }
 
 Material beckmann() {
@@ -113,22 +92,22 @@ Material blinn_phong() {
 }  // namespace
 
 void add_ggx(BenchList& list) {
-  const std::pair<const char*, GgxRun> named[] = {
-      {"kernel/closed-form/quad", closed_form(Quality::normal)},
-      {"kernel/closed-form-draft/quad", closed_form(Quality::draft)},
-      {"kernel/closed-form-high/quad", closed_form(Quality::high)},
-      {"kernel/half-vector/ggx/quad", half_vector_ggx()},
-      {"kernel/half-vector/beckmann/quad", half_vector(beckmann())},
-      {"kernel/half-vector/blinn-phong/quad", half_vector(blinn_phong())},
-      {"kernel/ltc-clipless/quad", clipless()},
-      {"kernel/representative-point/quad", representative_point()},
+  const std::tuple<const char*, Method, Quality, Material> named[] = {
+      {"kernel/closed-form/quad", Method::closed_form, Quality::normal, ggx()},
+      {"kernel/closed-form-draft/quad", Method::closed_form, Quality::draft, ggx()},
+      {"kernel/closed-form-high/quad", Method::closed_form, Quality::high, ggx()},
+      {"kernel/half-vector/ggx/quad", Method::half_vector, Quality::normal, ggx()},
+      {"kernel/half-vector/beckmann/quad", Method::half_vector, Quality::normal, beckmann()},
+      {"kernel/half-vector/blinn-phong/quad", Method::half_vector, Quality::normal, blinn_phong()},
+      {"kernel/ltc-clipless/quad", Method::ltc_clipless, Quality::normal, ggx()},
+      {"kernel/representative-point/quad", Method::representative_point, Quality::normal, ggx()},
   };
-  for (const auto& [title, run] : named) {
+  for (const auto& [title, method, quality, lobe] : named) {
     const std::string name = title;
-    list.add(name, [name, run](const BenchOptions& options) { return ggx_packs(name, run, options.simd); });
+    list.add(name, [=](const BenchOptions& options) { return ggx_packs(name, method, quality, lobe, options.simd); });
     for (const Simd simd : available_simd()) {
       const std::string one = name + "/" + name_of(simd);
-      list.add(one, [one, run, simd](const BenchOptions&) { return ggx_packs(one, run, simd); });
+      list.add(one, [=](const BenchOptions&) { return ggx_packs(one, method, quality, lobe, simd); });
     }
   }
 }

@@ -25,7 +25,7 @@ struct Pairs {
   Receivers receivers;
   std::vector<PairLight> lights;
   std::vector<GgxPairLight> ggx_lights;
-  LtcPackTables tables = ltc_compact_pack_tables();
+  LtcPackTables tables = ltc_pack_tables(Method::ltc_compact);
   Light light;
 
   Pairs() {

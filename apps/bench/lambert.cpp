@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benches.h"
-#include "render/direct/irradiance.h"
+#include "render/direct/lobe_packs.h"
 
 namespace steradian::bench {
 namespace {
@@ -62,9 +62,9 @@ PackLight pack_light(const Shape& shape) {
 Bench lambert_packs(const std::string& name, Simd simd, std::optional<Shape> shape = {}) {
   auto floor = lambert_make_floor();
   if (shape) floor->pack_light = pack_light(*shape);
-  const auto irradiance = irradiance_table_for(simd).irradiance;
+  const auto irradiance = lobe_packs_for(simd)[methods::Procedure::diffuse];
   return {name, floor->x.size(), name_of(simd), [floor, irradiance] {
-            irradiance(floor->pack_light, floor->points(), floor->result.data());
+            irradiance(floor->pack_light, floor->points(), {}, {floor->result.data()});
             keep(floor->result.front());
           }};
 }

@@ -7,7 +7,7 @@
 
 #include "benches.h"
 #include "fit/fit.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/lobe_packs.h"
 
 namespace steradian::bench {
 namespace {
@@ -50,23 +50,21 @@ std::shared_ptr<GlossyFloor> ltc_make_floor(const LtcPackTables& tables) {
   return floor;
 }
 
-using LtcRun = decltype(LtcPackTable::classic);
-
-Bench make(const std::string& name, Simd simd, LtcRun LtcPackTable::*run, const LtcPackTables& tables) {
-  auto floor = ltc_make_floor(tables);
-  const LtcRun work = ltc_pack_table_for(simd).*run;
-  return {name, floor->x.size(), name_of(simd), [floor, work] {
+Bench make(const std::string& name, Simd simd, Method method, Quality quality) {
+  auto floor = ltc_make_floor(ltc_pack_tables(method, quality));
+  const auto ltc = lobe_packs_for(simd)[methods::Procedure::ltc];
+  return {name, floor->x.size(), name_of(simd), [=] {
             GlossyFloor& f = *floor;
-            work(f.light, f.points(), f.tables, {f.irradiance.data(), f.specular.data(), f.grazing.data()});
+            ltc(f.light, f.points(), {{}, {method, quality}, &f.tables}, {f.specular.data(), f.grazing.data(), f.irradiance.data()});
             keep(f.specular.front());
           }};
 }
 
-void ltc_add(BenchList& list, const std::string& name, LtcRun LtcPackTable::*run, LtcPackTables (*tables)()) {
-  list.add(name, [=](const BenchOptions& options) { return make(name, options.simd, run, tables()); });
+void ltc_add(BenchList& list, const std::string& name, Method method, Quality quality) {
+  list.add(name, [=](const BenchOptions& options) { return make(name, options.simd, method, quality); });
   for (const Simd simd : available_simd()) {
     const std::string one = name + "/" + name_of(simd);
-    list.add(one, [=](const BenchOptions&) { return make(one, simd, run, tables()); });
+    list.add(one, [=](const BenchOptions&) { return make(one, simd, method, quality); });
   }
 }
 
@@ -86,9 +84,9 @@ Bench make_fit(int threads) {
 }  // namespace
 
 void add_ltc(BenchList& list) {
-  ltc_add(list, "kernel/ltc/quad", &LtcPackTable::classic, ltc_classic_pack_tables);
-  ltc_add(list, "kernel/ltc-high/quad", &LtcPackTable::classic, ltc_fresnel_pack_tables);
-  ltc_add(list, "kernel/ltc-compact/quad", &LtcPackTable::compact, ltc_compact_pack_tables);
+  ltc_add(list, "kernel/ltc/quad", Method::ltc, Quality::normal);
+  ltc_add(list, "kernel/ltc-high/quad", Method::ltc, Quality::high);
+  ltc_add(list, "kernel/ltc-compact/quad", Method::ltc_compact, Quality::normal);
   list.add("fit/ggx/64", [](const BenchOptions&) { return make_fit(1); });
   list.add("fit/ggx/64/threads=all", [](const BenchOptions&) { return make_fit(0); });
 }

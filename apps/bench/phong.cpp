@@ -20,10 +20,11 @@ struct PhongScene {
 Bench phong_packs(const std::string& name, PhongOptions options, double n, Simd simd) {
   auto scene = std::make_shared<PhongScene>();
   scene->result.resize(scene->plane.x.size());
-  const auto radiance = phong_table_for(simd).radiance;
+  const auto radiance = lobe_packs_for(simd)[methods::Procedure::phong_lobe];
+  const PackLobe lobe = {moment::phong(n), options};
   return {name, scene->result.size(), name_of(simd), [=] {
             const FlushDenormals flush;
-            radiance(scene->pack_light, scene->plane.points(), n, options, scene->result.data());
+            radiance(scene->pack_light, scene->plane.points(), lobe, {scene->result.data()});
             keep(scene->result.front());
           }};
 }
@@ -31,9 +32,7 @@ Bench phong_packs(const std::string& name, PhongOptions options, double n, Simd 
 // The library's float function, one point after the other.
 Bench phong_scalar(const std::string& name, PhongOptions options, double n) {
   auto scene = std::make_shared<PhongScene>();
-  Material material;
-  material.brdf = Brdf::phong;
-  material.exponent = n;
+  const Material material = moment::phong(n);
   const std::size_t count = scene->plane.count / 16;  // scalar is slow
   return {name, count, "scalar", [=] {
             const FlushDenormals flush;

@@ -27,7 +27,8 @@ TEST(VulkanPhong, HasEveryMethodOfTheComparison) {
         std::vector<float> packs(plane.x.size());
         {
           const FlushDenormals flush;
-          phong_table_for(active_simd()).radiance(prepare_light(light.light), plane.points(), n, method.options, packs.data());
+          lobe_packs_for(active_simd())[methods::Procedure::phong_lobe](prepare_light(light.light), plane.points(),
+                                                                        {moment::phong(n), method.options}, {packs.data()});
         }
         double largest = 0, brightest = 0;
         for (std::size_t i = 0; i < plane.count; ++i) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/direct/phong.h"
+#include "render/direct/lobe_packs.h"
 
 namespace steradian::moment {
 
@@ -31,5 +31,7 @@ struct PhongPlane {
 };
 
 PhongPlane make_phong_plane(int width, int height);
+
+inline Material phong(double exponent) { return {.brdf = Brdf::phong, .exponent = exponent}; }
 
 }  // namespace steradian::moment

@@ -33,9 +33,9 @@ bool exact_lobes(const Material& m) {
 bool phong_of_integer_exponent(const Material& m) {
   return m.brdf == Brdf::phong && m.exponent == std::floor(m.exponent) && m.exponent < 1e9;
 }
-template <LtcMethod method>
+template <Method method>
 bool ltc_lobes(const Material& m) {
-  return steradian::serves(method, m);
+  return steradian::serves(*ltc_method(method, Quality::normal), m);
 }
 
 RadianceResult answer(Method method, Vec3d radiance) { return {radiance, std::nullopt, std::nullopt, method}; }
@@ -72,19 +72,14 @@ RadianceResult half_vector(const PreparedPolygon& light, const ShadingPoint& at,
   return answer(Method::half_vector, evaluate(light, at, m, half_vector_options(options.quality)));
 }
 
-// In high quality, the classic tables have Fresnel's beside them.
-constexpr LtcMethod with_quality(LtcMethod method, Quality quality) {
-  return method == LtcMethod::classic && quality == Quality::high ? LtcMethod::fresnel : method;
-}
-
-template <LtcMethod ltc_method, Method method>
+template <Method method>
 RadianceResult ltc(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
-  if (ltc_method == LtcMethod::classic && options.table != nullptr) {
+  if (method == Method::ltc && options.table != nullptr) {
     const auto by = options.precision == Precision::float_ ? ltc_radiance_by_float : ltc_radiance_by;
     return answer(method, by(*options.table, light, at, m));
   }
   const auto evaluate = options.precision == Precision::float_ ? ltc_radiance_float : ltc_radiance;
-  return answer(method, evaluate(with_quality(ltc_method, options.quality), light, at, m));
+  return answer(method, evaluate(*ltc_method(method, options.quality), light, at, m));
 }
 
 template <class S>
@@ -144,14 +139,14 @@ LobeDensity exact_density(const ShadingPoint& at, const Material& m, Quality) {
   return lobe_density(at, m);
 }
 
-template <LtcMethod method>
+template <Method method>
 RadianceDerivatives ltc_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality quality) {
-  return ltc_radiance_derivatives(with_quality(method, quality), light, at, m);
+  return ltc_radiance_derivatives(*ltc_method(method, quality), light, at, m);
 }
 
-template <LtcMethod method>
+template <Method method>
 LobeDensity ltc_density(const ShadingPoint& at, const Material& m, Quality quality) {
-  return ltc_lobe_density(with_quality(method, quality), at, m);
+  return ltc_lobe_density(*ltc_method(method, quality), at, m);
 }
 
 constexpr const char* kNoQualities = "";
@@ -159,35 +154,37 @@ constexpr const char* kNoQualities = "";
 // A new method is a row here and a name in include/steradian/method.h.
 constexpr Row kMethods[] = {
     {Method::series, "series", "phong", phong_lobes, true, "normal, high", "1.3e-3; high: 4.5e-4", "constant an edge",
-     phong<Method::series>, radiance_derivatives, any_density},
+     Procedure::phong_lobe, phong<Method::series>, radiance_derivatives, any_density},
     {Method::exact, "exact", "lambert; phong; ggx without shadowing and with f0 = f90", exact_lobes, true, kNoQualities,
-     "rounding; phong: 1e-10", "phong: quadrature", exact, exact_derivatives, exact_density},
+     "rounding; phong: 1e-10", "phong: quadrature", Procedure::diffuse, exact, exact_derivatives, exact_density},
     {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities, "rounding",
-     "grows with exponent", phong<Method::arvo>},
+     "grows with exponent", Procedure::phong_lobe, phong<Method::arvo>},
     {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
-     phong<Method::lorentzian>},
+     Procedure::phong_lobe, phong<Method::lorentzian>},
     {Method::pearson, "pearson", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
-     phong<Method::pearson>},
+     Procedure::phong_lobe, phong<Method::pearson>},
     {Method::ellipsoid, "ellipsoid", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
-     phong<Method::ellipsoid>},
-    {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high", "0.1 to 0.2 % rms", "constant an edge", closed_form,
-     radiance_derivatives, any_density},
-    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::classic>, true, "normal, high", "3 % rms; high: 2 %",
-     "constant an edge", ltc<LtcMethod::classic, Method::ltc>, ltc_derivatives<LtcMethod::classic>, ltc_density<LtcMethod::classic>},
-    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::compact>, true, kNoQualities, "3 % rms",
-     "constant an edge", ltc<LtcMethod::compact, Method::ltc_compact>, ltc_derivatives<LtcMethod::compact>,
-     ltc_density<LtcMethod::compact>},
-    {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::clipless>, true, kNoQualities,
-     "above ltc's at the horizon", "constant an edge", ltc<LtcMethod::clipless, Method::ltc_clipless>},
-    {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing", ltc_lobes<LtcMethod::representative_point>,
-     true, kNoQualities, "no bound; for comparison", "constant", ltc<LtcMethod::representative_point, Method::representative_point>},
+     Procedure::phong_lobe, phong<Method::ellipsoid>},
+    {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high", "0.1 to 0.2 % rms", "constant an edge",
+     Procedure::closed_form, closed_form, radiance_derivatives, any_density},
+    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc>, true, "normal, high", "3 % rms; high: 2 %",
+     "constant an edge", Procedure::ltc, ltc<Method::ltc>, ltc_derivatives<Method::ltc>, ltc_density<Method::ltc>},
+    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc_compact>, true, kNoQualities, "3 % rms",
+     "constant an edge", Procedure::ltc, ltc<Method::ltc_compact>, ltc_derivatives<Method::ltc_compact>, ltc_density<Method::ltc_compact>},
+    {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc_clipless>, true, kNoQualities,
+     "above ltc's at the horizon", "constant an edge", Procedure::ltc_clipless, ltc<Method::ltc_clipless>},
+    {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing", ltc_lobes<Method::representative_point>, true,
+     kNoQualities, "no bound; for comparison", "constant", Procedure::representative_point, ltc<Method::representative_point>},
     {Method::half_vector, "half-vector", "blinn-phong; beckmann; ggx", half_vector_lobes, true, "draft, normal, high",
-     "0.02 %; ggx: closed-form's", "3, 4 or 8 arcs", half_vector},
+     "0.02 %; ggx: closed-form's", "3, 4 or 8 arcs", Procedure::half_vector, half_vector},
     {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high", "1 % of most lights", "constant an edge",
-     matched_lobe},
-    {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities, "0.1 %; large lights 0.4 %", "a few nodes", cubature},
-    {Method::reference, "reference", "all", every_lobe, false, kNoQualities, "printed bound", "adaptive quadrature", reference},
-    {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities, "printed standard error", "grows with --spp", sampled},
+     Procedure::none, matched_lobe},
+    {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities, "0.1 %; large lights 0.4 %", "a few nodes", Procedure::sheen,
+     cubature},
+    {Method::reference, "reference", "all", every_lobe, false, kNoQualities, "printed bound", "adaptive quadrature", Procedure::none,
+     reference},
+    {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities, "printed standard error", "grows with --spp", Procedure::none,
+     sampled},
 };
 
 }  // namespace
@@ -200,12 +197,17 @@ const Row& row_of(Method method) {
   throw Error("method", "auto stands for no method of its own");
 }
 
+Procedure procedure_of(Method method, Brdf brdf) {
+  if (method != Method::exact) return row_of(method).procedure;
+  return brdf == Brdf::phong ? Procedure::phong_lobe : brdf == Brdf::ggx ? Procedure::closed_form : row_of(method).procedure;
+}
+
 const Row* find(Method method, const Material& lobe, Quality quality) {
   for (const Row& row : kMethods) {
     if (method != Method::automatic && method != row.method) continue;
     if (!row.serves(lobe)) continue;
     if (method == Method::automatic && row.method == Method::closed_form && quality == Quality::draft &&
-        ltc_lobes<LtcMethod::compact>(lobe))
+        ltc_lobes<Method::ltc_compact>(lobe))
       return &row_of(Method::ltc_compact);
     return &row;
   }

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "integrals/procedures.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"
+#include "steradian/ltc.h"
 #include "steradian/material.h"
 #include "steradian/polygon_derivatives.h"
 #include "steradian/polygon_light.h"
@@ -25,6 +28,7 @@ struct Row {
   const char* qualities;  // the supported ones, in words; empty: none
   const char* error;      // the largest or the rms, for the table
   const char* time;       // its growth with light and lobe, for the table
+  Procedure procedure;    // computes it on packs and on a device
   // Radiance that the lobe sends to the view under a light. Precondition: serves(lobe).
   RadianceResult (*polygon)(const PreparedPolygon&, const ShadingPoint&, const Material&, const RadianceOptions&);
   // Derivatives by the light's vertices and the normal; null: the method has none. Throws Error for lobes without derivatives.
@@ -44,6 +48,25 @@ const Row* find(Method method, const Material& lobe, Quality quality);
 
 // The same. Throws Error, which names the methods that serve the lobe, also if the row does not have the precision.
 const Row& resolve(Method method, const Material& lobe, Precision precision, Quality quality);
+
+// The procedure by which packs and a device compute a lobe by a method; none: they compute it point by point, or not at all.
+Procedure procedure_of(Method method, Brdf brdf);
+
+// True if packs can have such a lobe by a procedure of its own.
+constexpr bool has_packs(const Material& m) {
+  return m.brdf == Brdf::ggx ? m.shadowing && !m.multiple_scattering : m.brdf != Brdf::phong || !m.foreshortening;
+}
+
+// The form of linearly transformed cosines that a method uses; null: none. In high quality, the classic tables have Fresnel's beside them.
+constexpr std::optional<LtcMethod> ltc_method(Method method, Quality quality) {
+  switch (method) {
+    case Method::ltc: return quality == Quality::high ? LtcMethod::fresnel : LtcMethod::classic;
+    case Method::ltc_compact: return LtcMethod::compact;
+    case Method::ltc_clipless: return LtcMethod::clipless;
+    case Method::representative_point: return LtcMethod::representative_point;
+    default: return std::nullopt;
+  }
+}
 
 // The arcs of half vectors at a quality.
 constexpr HalfVectorOptions half_vector_options(Quality quality) {

@@ -3,10 +3,7 @@
 #include <vector>
 
 #include "bench/studies/table2.h"
-#include "render/direct/closed_form.h"
-#include "render/direct/ltc_points.h"
-#include "render/direct/phong.h"
-#include "render/direct/sheen.h"
+#include "render/direct/lobe_packs.h"
 
 namespace steradian {
 namespace {
@@ -14,19 +11,14 @@ namespace {
 }  // namespace
 
 PackLight prepare_light(const PreparedPolygon&) { refuse(); }
-LtcPackTables ltc_classic_pack_tables() { refuse(); }
-LtcPackTables ltc_fresnel_pack_tables() { refuse(); }
-LtcPackTables ltc_compact_pack_tables() { refuse(); }
+LtcPackTables ltc_pack_tables(Method, Quality, const ClassicTable*) { refuse(); }
 
 namespace moment {
 const std::vector<ComparedMethod>& compared_methods() { refuse(); }
 }  // namespace moment
 
 namespace isa_sse2 {
-const ClosedFormTable& closed_form_table() { refuse(); }
-const LtcPackTable& ltc_pack_table() { refuse(); }
-const PhongTable& phong_table() { refuse(); }
-const SheenTable& sheen_table() { refuse(); }
+const LobePacks& lobe_packs() { refuse(); }
 }  // namespace isa_sse2
 
 }  // namespace steradian

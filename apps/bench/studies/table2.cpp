@@ -15,13 +15,6 @@ namespace {
 
 constexpr int kExponents[] = {100, 500, 5000};
 
-Material phong(double n) {
-  Material material;
-  material.brdf = Brdf::phong;
-  material.exponent = n;
-  return material;
-}
-
 // A smaller picture: every k-th pixel of every k-th row, with the same camera.
 PhongPlane thinned(const Table2Options& options) { return make_phong_plane(options.width / options.every, options.height / options.every); }
 
@@ -35,7 +28,7 @@ std::vector<double> exact_picture(const PhongPlane& plane, const PreparedPolygon
 std::vector<float> picture_by(const PhongPlane& plane, const PreparedPolygon& light, int n, const PhongOptions& options, Simd simd) {
   const FlushDenormals flush;
   std::vector<float> picture(plane.x.size());
-  phong_table_for(simd).radiance(prepare_light(light), plane.points(), n, options, picture.data());
+  lobe_packs_for(simd)[methods::Procedure::phong_lobe](prepare_light(light), plane.points(), {phong(n), options}, {picture.data()});
   return picture;
 }
 
@@ -44,11 +37,12 @@ double packs_ns(const PhongPlane& plane, const NamedLight& light, int n, const P
   bench.min_time = options.min_time;
   bench.min_runs = 5;
   std::vector<float> picture(plane.x.size());
-  const auto radiance = phong_table_for(options.simd).radiance;
+  const auto radiance = lobe_packs_for(options.simd)[methods::Procedure::phong_lobe];
+  const PackLobe lobe = {phong(n), method};
   const PackLight pack_light = prepare_light(light.light);
   const Bench body{"packs", picture.size() * light.edges, name_of(options.simd), [&] {
                      const FlushDenormals flush;
-                     radiance(pack_light, plane.points(), n, method, picture.data());
+                     radiance(pack_light, plane.points(), lobe, {picture.data()});
                      keep(picture.front());
                    }};
   return run_bench(body, bench).ns_per_item;

@@ -126,9 +126,7 @@ Picture error_picture(Simd simd, int n, double enlarged) {
   const std::vector<Method> methods = {Method::lorentzian, Method::pearson, Method::ellipsoid, Method::series};
   const std::vector<NamedLight> lights = comparison_lights();
   Picture picture(kWidth * static_cast<int>(methods.size() + 1), kHeight * static_cast<int>(lights.size()));
-  Material material;
-  material.brdf = Brdf::phong;
-  material.exponent = n;
+  const Material material = phong(n);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     std::vector<double> exact(plane.count);
     for (std::size_t i = 0; i < plane.count; ++i) exact[i] = phong_radiance(lights[l].light, plane.at(i), material, {Method::exact}).x;
@@ -142,7 +140,8 @@ Picture error_picture(Simd simd, int n, double enlarged) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const FlushDenormals flush;
       std::vector<float> result(plane.x.size());
-      phong_table_for(simd).radiance(prepare_light(lights[l].light), plane.points(), n, {methods[m]}, result.data());
+      lobe_packs_for(simd)[methods::Procedure::phong_lobe](prepare_light(lights[l].light), plane.points(), {material, {methods[m]}},
+                                                           {result.data()});
       for (std::size_t i = 0; i < plane.count; ++i)
         put(m + 1, i, enlarged * std::fabs(static_cast<double>(result[i]) - exact[i]) / brightest);
     }

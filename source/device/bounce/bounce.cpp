@@ -117,9 +117,12 @@ std::size_t words_of(std::size_t lights) { return (lights + kLightsOfWord - 1) /
 
 Bounce::Bounce(const Device& device)
     : device_((check_buffers(device.info()), device)),
-      tables_(ltc_compact_pack_tables()),
-      lobe_program_(device, {bounce_lobes_shader()}, 3),
-      program_(device, bounce_shaders(), kBuffers),
+      tables_(ltc_pack_tables(Method::ltc_compact)),
+      lobe_program_(device, {shader("bounce_lobes.comp")}, 3),
+      program_(device,
+               {shader("bounce_boxes.comp"), shader("bounce_cull.comp"), shader("bounce_light.comp"), shader("bounce_filter.comp"),
+                shader("bounce_resolve.comp")},
+               kBuffers),
       texels_(device),
       texel_lobes_(device, BufferUse::host_reads),
       table_(device),

@@ -10,7 +10,7 @@
 #include "device/vulkan/buffer.h"
 #include "device/vulkan/compute_program.h"
 #include "render/bounce/passes.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 
 namespace steradian::vulkan {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "device/vulkan/shaders.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 #include "render/lights/light_bounds.h"
-#include "scene/table_file.h"
 #include "shapes/small_light.h"
 #include "steradian/error.h"
 
@@ -31,50 +31,19 @@ constexpr auto bytes_of_planes(int planes) {
 static_assert(static_cast<std::size_t>(kSlots) == kTilePixels && kGroup * kGroupsOfTile == kSlots);
 static_assert(kRadiance == kSlots + kGroupsOfTile * kBounds);
 
-// In the order in which they run: lobes need the means of textured lights; kShares uses the results of all lobes.
-enum Shader : std::size_t {
-  kTextureMeans,
-  kDiffuse,
-  kLtc,
-  kClosedForm,
-  kRepresentativePoint,
-  kCharlie,
-  kLtcClipless,
-  kHalfVector,
-  kPhong,
-  kShares
-};
+using methods::Procedure;
 
-// Shader of the specular lobe; kDiffuse: none.
-Shader shader_of(const DirectMethod& method) {
-  switch (method.ggx) {
-    case Method::closed_form: return kClosedForm;
-    case Method::ltc:
-    case Method::ltc_compact: return kLtc;
-    case Method::ltc_clipless: return kLtcClipless;
-    case Method::representative_point: return kRepresentativePoint;
-    case Method::half_vector: return kHalfVector;
-    default: return kDiffuse;
-  }
-}
+// Shaders in the order in which they run: lobes need the means of textured lights; the shares use the results of all lobes.
+constexpr std::size_t kTextureMeans = 0, kShares = methods::kProcedures + 1;
+constexpr std::size_t shader_of(Procedure procedure) { return 1 + static_cast<std::size_t>(procedure); }
 
-// Shader of a lobe of extras.steradian.
-Shader shader_of(const OwnLobes::Lobe& lobe) {
-  switch (lobe.material.brdf) {
-    case Brdf::phong: return kPhong;
-    case Brdf::charlie: return kCharlie;
-    default: break;
-  }
-  DirectMethod by;
-  by.ggx = lobe.method == Method::exact ? Method::closed_form : lobe.method;
-  return shader_of(by);
-}
-
-LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
-  if (!table.empty()) return ltc_pack_tables(scene::read_classic_table(table));
-  if (method.ggx == Method::ltc_clipless) return ltc_classic_pack_tables();
-  if (method.ggx == Method::ltc) return method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables();
-  return method.ggx == Method::ltc_compact ? ltc_compact_pack_tables() : LtcPackTables{};
+std::vector<std::span<const std::uint32_t>> shaders() {
+  std::vector<std::span<const std::uint32_t>> all = {shader("texture_means.comp")};
+#define STERADIAN_SHADER(name) all.push_back(shader(#name ".comp"));
+  STERADIAN_PROCEDURES(STERADIAN_SHADER)
+#undef STERADIAN_SHADER
+  all.push_back(shader("shadow_shares.comp"));
+  return all;
 }
 
 void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TilePlane& beside) {
@@ -115,20 +84,21 @@ void check_device(const DeviceInfo& device) {
 }
 
 struct DirectLight::Pass {
-  std::size_t shader = kDiffuse;
+  Procedure procedure = Procedure::diffuse;
   bool coat = false;
   const OwnLobes::Lobe* own = nullptr;
   bool with_diffuse = false;  // true: one walk serves both
-  bool over_lobe() const { return shader != kDiffuse; }
+  bool over_lobe() const { return procedure != Procedure::diffuse; }
   // The other lobes use the mean radiance of textured lights.
-  bool asks_for_mean(const LightRecord& light) const { return light.textured && shader != kCharlie && shader != kPhong; }
+  bool asks_for_mean(const LightRecord& light) const {
+    return light.textured && procedure != Procedure::sheen && procedure != Procedure::phong_lobe;
+  }
   const char* name() const {
-    return own != nullptr       ? "lobes"
-           : shader == kDiffuse ? "direct"
-           : shader == kCharlie ? "sheen"
-           : shader == kShares  ? "shares"
-           : coat               ? "coat"
-                                : "specular";
+    return own != nullptr                    ? "lobes"
+           : procedure == Procedure::diffuse ? "direct"
+           : procedure == Procedure::sheen   ? "sheen"
+           : coat                            ? "coat"
+                                             : "specular";
   }
 };
 
@@ -151,10 +121,9 @@ struct DirectLight::Work {
   std::uint32_t means = 0;  // vectors that the means take
 
   // Adds a light of a square: its numbers in the list.
-  void add(const Key& key, const Pass& pass, std::uint32_t square, const std::vector<std::uint32_t>& light) {
+  void add(const Key& key, const char* name, std::uint32_t own, std::uint32_t square, const std::vector<std::uint32_t>& light) {
     Group& group = groups[key];
-    group.name = pass.name();
-    const std::uint32_t own = pass.own != nullptr ? pass.own->first : 0;
+    group.name = name;
     if (group.entries.empty() || group.entries.back().square != square || group.entries.back().own != own)
       group.entries.push_back({square, 0, own, {}});
     ++group.entries.back().count;
@@ -166,10 +135,7 @@ struct DirectLight::Work {
 DirectLight::Kept::Kept(const Device& d)
     : device(d),
       tiles((check_device(d.info()), std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
-      program(d,
-              {texture_means_shader(), diffuse_shader(), ltc_shader(), closed_form_shader(), representative_point_shader(), sheen_shader(),
-               ltc_clipless_shader(), half_vector_shader(), phong_lobe_shader(), shadow_shares_shader()},
-              kBuffers, kTexels),
+      program(d, shaders(), kBuffers, kTexels),
       surfaces(d, BufferUse::host_writes, BufferForm::texels),
       radiance(d, BufferUse::host_reads, BufferForm::texels),
       tables(d, BufferUse::host_writes, BufferForm::texels),
@@ -186,7 +152,7 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
                          const std::vector<PackLight>& lights)
     : kept_(kept),
       method_(method),
-      specular_shader_(shader_of(method)),
+      specular_(methods::procedure_of(method.ggx, Brdf::ggx)),
       light_details_(lights, most_of_buffer(kept.device.info()) / sizeof(Vec4Floats) - OwnLobes::most_vectors(scene)),
       own_lobes_(scene, method, light_details_.values().size()) {
   for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
@@ -200,7 +166,7 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
   for (const PackTable* t : {&tables.matrix, &tables.magnitude, &tables.fresnel_matrix, &tables.fresnel_magnitude})
     nodes.insert(nodes.end(), t->nodes.begin(), t->nodes.end());
   if (std::any_of(lights.begin(), lights.end(), [](const PackLight& light) { return light.textured != nullptr; })) {
-    const LtcPackTables compact = ltc_compact_pack_tables();
+    const LtcPackTables compact = ltc_pack_tables(Method::ltc_compact);
     compact_first_ = static_cast<int>(nodes.size() / 4);
     compact_size_ = compact.matrix.size;
     nodes.insert(nodes.end(), compact.matrix.nodes.begin(), compact.matrix.nodes.end());
@@ -210,13 +176,12 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
   kept.details.hold(details);
   matrix_size_ = std::max(tables.matrix.size, 2);
   magnitude_size_ = std::max(tables.magnitude.size, 2);
+  compact_table_ = tables.compact;
   fresnel_table_ = tables.fresnel_matrix.size > 0;
   kept.tables.hold(nodes);
 }
 
 bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
-
-bool DirectLight::is_ltc() const { return specular_shader_ == kLtc; }
 
 Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form) const {
   const std::size_t most = most_of_buffer(kept_.device.info(), form);
@@ -265,16 +230,16 @@ void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
 
 // Like SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
 bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) const {
-  return is_ltc() && square.any_specular && square.any_diffuse && light.is_polygon() && light.is_even();
+  return specular_ == Procedure::ltc && square.any_specular && square.any_diffuse && light.is_polygon() && light.is_even();
 }
 
 // Least squared distance for a lobe's integral, in the light's mean square deviations.
 double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
-  if (pass.own != nullptr) return pass.own->least_distance2;
-  switch (pass.shader) {
-    case kDiffuse: return light.kind == kPolygon ? integrals::kAlongEdges.least_distance2 : integrals::kAlongArcs.least_distance2;
-    case kClosedForm: return integrals::kAlongArcs.least_distance2;
-    case kHalfVector: return integrals::kHalfVectorsLeastDistance2;
+  switch (pass.procedure) {
+    case Procedure::diffuse: return light.kind == kPolygon ? integrals::kAlongEdges.least_distance2 : integrals::kAlongArcs.least_distance2;
+    case Procedure::closed_form: return integrals::kAlongArcs.least_distance2;
+    case Procedure::phong_lobe: return pass.own->least_distance2;
+    case Procedure::half_vector: return integrals::kHalfVectorsLeastDistance2;
     default: return integrals::kTransformed.least_distance2;
   }
 }
@@ -295,7 +260,7 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
   const int most = std::max(own(most_edges_), 1);
   const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
-  const bool by_arcs = pass.shader == kClosedForm || pass.shader == kHalfVector;
+  const bool by_arcs = pass.procedure == Procedure::closed_form || pass.procedure == Procedure::half_vector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
   const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
@@ -304,7 +269,7 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   const bool specular = pass.over_lobe();
   return {light.kind,
           pass.with_diffuse ? 1 : 0,
-          specular && method_.ggx == Method::ltc_compact ? 1 : 0,
+          specular && compact_table_ ? 1 : 0,
           specular ? static_cast<int>(method_.quality) : 1,
           pass.own != nullptr ? 2
           : pass.coat         ? 1
@@ -368,7 +333,7 @@ bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
 }
 
 void DirectLight::list_lights(Tile& tile) const {
-  const bool leaks = method_.ggx == Method::ltc_clipless;  // lights that reach the tile, also from below the horizon
+  const bool leaks = specular_ == Procedure::ltc_clipless;  // lights that reach the tile, also from below the horizon
   for (Square& square : tile.squares) {
     if (square.bounds.positions.is_empty()) continue;
     for (const PackLight* light : tile.lights.lights) {
@@ -391,21 +356,21 @@ void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const 
 
 void DirectLight::list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square) {
   for (const Tile::Shadowed& shadowed : tile.shadowed)
-    if (shadowed.shares && reaches(*shadowed.light, square.bounds)) work.add({kShares, {}}, Pass{kShares}, place, {0, shadowed.states});
+    if (shadowed.shares && reaches(*shadowed.light, square.bounds)) work.add({kShares, {}}, "shares", 0, place, {0, shadowed.states});
 }
 
 void DirectLight::list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
                        const Tile::Shadowed* shadowed) {
   const bool together = brings_diffuse(square, *listed.light);
-  if (pass.shader == kDiffuse && together) return;
+  if (pass.procedure == Procedure::diffuse && together) return;
   Pass own = pass;
-  own.with_diffuse = together && pass.shader == kLtc && !pass.coat && pass.own == nullptr;
+  own.with_diffuse = together && pass.procedure == Procedure::ltc && !pass.coat && pass.own == nullptr;
   const std::uint32_t number = number_of(*listed.light, listed.cut_for_tile);
   const LightRecord& record = records_.lights[number];
   // The irradiance of tubes and balls has the same formula in both cases.
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
-  const Work::Key key = {own.shader, choices(record, own, careful, whole, shadowed)};
+  const Work::Key key = {shader_of(own.procedure), choices(record, own, careful, whole, shadowed)};
   std::vector<std::uint32_t> numbers = {number};
   if (shadowed != nullptr) numbers.push_back(shadowed->states);
   if (own.asks_for_mean(record)) {
@@ -413,7 +378,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
     numbers.push_back(work.means);
     work.means += static_cast<std::uint32_t>(kSlotsOfSquare);
   }
-  work.add(key, own, place, numbers);
+  work.add(key, own.name(), own.own != nullptr ? own.own->first : 0, place, numbers);
 }
 
 void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
@@ -424,11 +389,11 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
       const Square& square = tiles[i].squares[s];
       const auto place = static_cast<std::uint32_t>(i * tiles[i].squares.size() + s);
       if (square.any_diffuse) list(work, place, tiles[i], square, {});
-      if (square.any_specular) list(work, place, tiles[i], square, {specular_shader_});
-      if (square.any_sheen) list(work, place, tiles[i], square, {kCharlie});
-      if (square.any_coat) list(work, place, tiles[i], square, {specular_shader_, true});
+      if (square.any_specular) list(work, place, tiles[i], square, {specular_});
+      if (square.any_sheen) list(work, place, tiles[i], square, {Procedure::sheen});
+      if (square.any_coat) list(work, place, tiles[i], square, {specular_, true});
       for (const std::size_t number : square.own)
-        for (const OwnLobes::Lobe& lobe : own_lobes_.of(number)) list(work, place, tiles[i], square, {shader_of(lobe), false, &lobe});
+        for (const OwnLobes::Lobe& lobe : own_lobes_.of(number)) list(work, place, tiles[i], square, {lobe.procedure, false, &lobe});
       if (!square.bounds.positions.is_empty()) list_shares(work, place, tiles[i], square);
     }
   }

@@ -104,18 +104,17 @@ class DirectLight {
                                     const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
   Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form = BufferForm::texels) const;
-  bool is_ltc() const;
 
   Kept& kept_;
   const DirectMethod method_;
-  std::size_t specular_shader_;
+  const methods::Procedure specular_;
   const LightDetails light_details_;
   const OwnLobes own_lobes_;
   LightRecords records_;
   std::size_t scene_lights_ = 0, scene_vertices_ = 0;
   int most_edges_ = 0;  // most edges of the scene's polygons, as far as there is space for them
   int matrix_size_ = 2, magnitude_size_ = 2, compact_first_ = 0, compact_size_ = 2;  // compact: for means of textured lights
-  bool fresnel_table_ = false;
+  bool compact_table_ = false, fresnel_table_ = false;
   std::map<std::string, double> times_;
 };
 

@@ -17,23 +17,15 @@ Vec4Floats with(Vec3d v, double w) {
 }
 
 OwnLobes::Lobe lobe_by(const Material& m, Method method, Quality quality, std::size_t first) {
-  OwnLobes::Lobe lobe{m, method, static_cast<std::uint32_t>(first), 0, 0, 0, true, 0};
-  switch (m.brdf) {
-    case Brdf::phong:
-      lobe.phong = phong_method({method, quality});
-      lobe.form = m.foreshortening ? 1 : 0;
-      lobe.low = m.foreshortening ? integrals::cosine_series_range(m.exponent) : m.exponent < 1 ? 2 : 0;
-      lobe.by_points = m.foreshortening;
-      lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
-      break;
-    case Brdf::ggx:
-      lobe.form = method == Method::exact ? 2 : m.shadowing ? 0 : 1;
-      lobe.least_distance2 = method == Method::half_vector                              ? integrals::kHalfVectorsLeastDistance2
-                             : method == Method::closed_form || method == Method::exact ? integrals::kAlongArcs.least_distance2
-                                                                                        : integrals::kTransformed.least_distance2;
-      break;
-    default: lobe.least_distance2 = integrals::kTransformed.least_distance2; break;  // charlie
+  OwnLobes::Lobe lobe{methods::procedure_of(method, m.brdf), static_cast<std::uint32_t>(first), 0, 0, 0, true, 0};
+  if (m.brdf == Brdf::phong) {
+    lobe.phong = phong_method({method, quality});
+    lobe.form = m.foreshortening ? 1 : 0;
+    lobe.low = m.foreshortening ? integrals::cosine_series_range(m.exponent) : m.exponent < 1 ? 2 : 0;
+    lobe.by_points = m.foreshortening;
+    lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
   }
+  if (m.brdf == Brdf::ggx) lobe.form = method == Method::exact ? 2 : m.shadowing ? 0 : 1;
   return lobe;
 }
 
@@ -79,9 +71,10 @@ bool OwnLobes::has(const Material& m) const {
   const Method by = method_.row_for(m).method;
   if (m.brdf == Brdf::phong) return by == Method::series || by == Method::exact;
   if (m.brdf != Brdf::ggx) return m.brdf == Brdf::charlie;
-  const bool has_table = by == method_.ggx, needs_none = by == Method::exact || by == Method::closed_form || by == Method::half_vector ||
-                                                         by == Method::representative_point;
-  return !m.multiple_scattering && (has_table || needs_none);
+  const methods::Procedure procedure = methods::procedure_of(by, m.brdf);
+  const bool has_table = by == method_.ggx,
+             needs_one = procedure == methods::Procedure::ltc || procedure == methods::Procedure::ltc_clipless;
+  return !m.multiple_scattering && (has_table || !needs_one);
 }
 
 std::size_t OwnLobes::number_of(const SurfaceMaterial* material) const {

@@ -20,14 +20,13 @@ class OwnLobes {
  public:
   // A lobe with its method. form, phong, low: the constants LOBE_FORM, METHOD and LOW_EXPONENT of shaders/direct.glsl.
   struct Lobe {
-    Material material;
-    Method method;
+    methods::Procedure procedure;
     std::uint32_t first;  // its first vector
     int form = 0;
     int phong = 0;
     int low = 0;
     bool by_points;          // true: the CPU evaluates it point by point, with as many corners for round lights as `eval`
-    double least_distance2;  // as in DirectLight
+    double least_distance2;  // of Phong lobes: as in DirectLight
   };
 
   // The details of lights contain the lobes from vector `first` on. The scene must outlive this object.

@@ -4,6 +4,8 @@
 #include <bit>
 #include <chrono>
 #include <span>
+#include <string>
+#include <string_view>
 #include <tbb/parallel_for.h>
 #include <utility>
 
@@ -300,25 +302,16 @@ void PlaneDevice::render_into(Picture& picture, const PlaneWorld& world, const P
 namespace steradian::plane {
 namespace {
 
-// Written by glslc: cmake/shaders.cmake.
-constexpr std::uint32_t kDisks[] =
-#include "plane_disks.comp.inc"
-    ;
-constexpr std::uint32_t kCuts[] =
-#include "plane_cuts.comp.inc"
-    ;
-constexpr std::uint32_t kArcs[] =
-#include "plane_arcs.comp.inc"
-    ;
-constexpr std::uint32_t kListed[] =
-#include "plane_listed.comp.inc"
-    ;
-constexpr std::uint32_t kLists[] =
-#include "plane_lists.comp.inc"
-    ;
+std::span<const std::uint32_t> shader(std::string_view name) {
+#include "steradian_plane_vulkan_shaders.inc"
+  throw Error("Vulkan", "this build has no shader " + std::string(name));
+}
 
 }  // namespace
 
-std::vector<std::span<const std::uint32_t>> plane_shaders() { return {kDisks, kCuts, kArcs, kListed, kLists}; }
+std::vector<std::span<const std::uint32_t>> plane_shaders() {
+  return {shader("plane_disks.comp"), shader("plane_cuts.comp"), shader("plane_arcs.comp"), shader("plane_listed.comp"),
+          shader("plane_lists.comp")};
+}
 
 }  // namespace steradian::plane

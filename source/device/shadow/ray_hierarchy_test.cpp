@@ -40,7 +40,7 @@ std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& w
   const auto rays = SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene);
   const Device& device = rays->device();
   const Buffer& hierarchy = rays->hierarchy();
-  ComputeProgram program(device, shadow_shaders(), 4);
+  ComputeProgram program(device, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 4);
   std::vector<Answer> answers(ways.size());
   constexpr std::size_t kHead = 4 * sizeof(float);
   Buffer buffer(device, kHead + answers.size() * sizeof answers[0]);

@@ -62,7 +62,7 @@ static_assert(sizeof(indirect::MapRay) == static_cast<std::size_t>(kMapRay) * 4 
 }  // namespace
 
 FirstHits::FirstHits(std::shared_ptr<const SceneRays> scene)
-    : scene_(std::move(scene)), program_(scene_->device(), {bounce_rays_shader()}, 3) {}
+    : scene_(std::move(scene)), program_(scene_->device(), {shader("bounce_rays.comp")}, 3) {}
 
 std::size_t FirstHits::most() const { return std::size_t{1} << 20; }  // 32 MiB; in one row of work groups
 

@@ -64,7 +64,12 @@ struct Shadows::Batch {
 };
 
 Shadows::Kept::Kept(const Device& d)
-    : device(d), program(d, shadow_shaders(), 4), groups(d), answers(d, BufferUse::host_reads), parts(d), states(d) {}
+    : device(d),
+      program(d, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 4),
+      groups(d),
+      answers(d, BufferUse::host_reads),
+      parts(d),
+      states(d) {}
 
 bool Shadows::has(const DeviceInfo& device) {
   return device.adds && device.subgroup > 0 && device.shared_memory >= kLeastSegments * kSegmentBytes;

@@ -31,7 +31,7 @@ RasterSurfaces::Kept::Kept(const Device& d)
       visibility(d),
       view(d, BufferUse::host_writes, BufferForm::texels),
       taken(d, BufferUse::host_reads),
-      program(d, {resolve_shader()}, kBuffers, kTexels) {
+      program(d, {shader("resolve.comp")}, kBuffers, kTexels) {
   view.fit(kBytesOfView);
 }
 

@@ -91,7 +91,7 @@ vk::raii::RenderPass make_render_pass(const vk::raii::Device& d) {
 
 vk::raii::Pipeline make_pipeline(const vk::raii::Device& d, const vk::raii::PipelineCache& cache, vk::PipelineLayout layout,
                                  vk::RenderPass pass) {
-  const vk::raii::ShaderModule vertex = module_of(d, visibility_vertex_shader()), fragment = module_of(d, visibility_fragment_shader());
+  const vk::raii::ShaderModule vertex = module_of(d, shader("visibility.vert")), fragment = module_of(d, shader("visibility.frag"));
   const vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
                                                       {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main"}};
   const vk::PipelineVertexInputStateCreateInfo input;  // vertices come from buffers of texels

@@ -78,7 +78,7 @@ TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
 TEST(VulkanDevice, TellsProgramsApartByTheirWords) {
   if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
   const Device device;
-  const auto one = diffuse_shader(), other = sheen_shader();
+  const auto one = shader("diffuse.comp"), other = shader("sheen.comp");
   std::vector<std::uint32_t> words(std::max(one.size(), other.size()));
   for (const auto& spirv : {one, other, one}) {
     std::copy(spirv.begin(), spirv.end(), words.begin());

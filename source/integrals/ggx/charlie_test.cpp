@@ -7,7 +7,7 @@
 
 #include "core/simd.h"
 #include "lobes/charlie.h"
-#include "render/direct/sheen.h"
+#include "render/direct/lobe_packs.h"
 #include "steradian/error.h"
 #include "steradian/kernels.h"
 #include "steradian/ltc.h"
@@ -136,7 +136,7 @@ TEST(SheenPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
                          nullptr};
   for (Simd simd : available_simd()) {
     std::vector<float> result(kCount);
-    sheen_table_for(simd).radiance(prepare_light(light), points, result.data());
+    lobe_packs_for(simd)[methods::Procedure::sheen](prepare_light(light), points, {}, {result.data()});
     for (std::size_t i = 0; i < kCount; ++i) {
       Material m = charlie(1);
       m.alpha_x = m.alpha_y = a[9][i];

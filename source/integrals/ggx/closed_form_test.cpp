@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "render/direct/closed_form.h"
+#include "render/direct/lobe_packs.h"
 #include "steradian/error.h"
 #include "support/random_configurations.h"
 #include "support/random_rectangles.h"
@@ -272,7 +272,8 @@ TEST(GgxClosedFormPack, AgreesWithDoubleOnEveryInstructionSet) {
                                plane(12),
                                plane(13)};
         std::vector<float> plain(kCount), fresnel(kCount);
-        closed_form_table_for(simd).ggx(prepare_light(light), points, quality, plain.data(), fresnel.data());
+        lobe_packs_for(simd)[methods::Procedure::closed_form](prepare_light(light), points, {{}, {Method::closed_form, quality}},
+                                                              {plain.data(), fresnel.data()});
         for (std::size_t i = 0; i < kCount; ++i) {
           const double value = closed_form_radiance(light, at[i], materials[i], quality).x;
           // Float's error of the closed form (1e-4 of the lobe) and that of a node count that rounding may change.

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "core/random.h"
 #include "fit/lobe.h"
 #include "integrals/tables/ggx_tables.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/lobe_packs.h"
 #include "steradian/error.h"
 #include "steradian/ltc.h"
 #include "support/random_configurations.h"
@@ -268,14 +269,14 @@ TEST(LtcPacks, AgreeWithTheScalarCallsInEveryInstructionSet) {
   const auto arrays = [&](int first) { return VectorArrays{a[first].data(), a[first + 1].data(), a[first + 2].data()}; };
   const Points points = {kCount, arrays(0), arrays(3), arrays(6), {}, alpha.data()};
   std::vector<float> irradiance(kCount), specular(kCount), grazing(kCount);
-  const LtcSums sums = {irradiance.data(), specular.data(), grazing.data()};
+  const LobeRadiance radiance = {specular.data(), grazing.data(), irradiance.data()};
+  const std::tuple<LtcMethod, Method, Quality> forms[] = {{LtcMethod::classic, Method::ltc, Quality::normal},
+                                                          {LtcMethod::fresnel, Method::ltc, Quality::high},
+                                                          {LtcMethod::compact, Method::ltc_compact, Quality::normal}};
   for (Simd simd : available_simd())
-    for (LtcMethod method : {LtcMethod::classic, LtcMethod::fresnel, LtcMethod::compact}) {
-      const LtcPackTable& table = ltc_pack_table_for(simd);
-      if (method != LtcMethod::compact)
-        table.classic(pack_light, points, method == LtcMethod::classic ? ltc_classic_pack_tables() : ltc_fresnel_pack_tables(), sums);
-      else
-        table.compact(pack_light, points, ltc_compact_pack_tables(), sums);
+    for (const auto& [method, by, quality] : forms) {
+      const LtcPackTables tables = ltc_pack_tables(by, quality);
+      lobe_packs_for(simd)[methods::Procedure::ltc](pack_light, points, {{}, {by, quality}, &tables}, radiance);
       for (std::size_t i = 0; i < kCount; ++i) {
         const Vec3d p = {a[0][i], a[1][i], a[2][i]}, n = {a[3][i], a[4][i], a[5][i]}, v = {a[6][i], a[7][i], a[8][i]};
         Material m = ggx(a[9][i]);

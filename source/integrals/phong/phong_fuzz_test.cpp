@@ -6,7 +6,7 @@
 #include "bench/studies/table2.h"
 #include "core/float_mode.h"
 #include "integrals/phong/phong.h"
-#include "render/direct/phong.h"
+#include "render/direct/lobe_packs.h"
 #include "steradian/phong.h"
 #include "support/adversarial_quads.h"
 
@@ -111,7 +111,7 @@ TEST(PhongPacks, AgreeWithScalarFloatForEveryMethodAndInstructionSet) {
     for (const auto& method : moment::compared_methods()) {
       if (method.options.method == Method::arvo && n != std::floor(n)) continue;
       for (const Simd simd : available_simd()) {
-        phong_table_for(simd).radiance(prepare_light(light), points, n, method.options, result.data());
+        lobe_packs_for(simd)[methods::Procedure::phong_lobe](prepare_light(light), points, {phong(n), method.options}, {result.data()});
         for (std::size_t j = 0; j < 16; ++j) {
           const double scalar = static_cast<double>(phong_radiance_float(light, at[j], phong(n), method.options).x);
           // Both round directions to float, 1.2e-7, under a lobe whose slope is at most sqrt(n): n <= 100 here. The

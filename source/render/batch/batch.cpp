@@ -16,12 +16,7 @@
 #include "integrals/curved_light.h"
 #include "integrals/methods.h"
 #include "render/batch/batch_rows.h"
-#include "render/direct/closed_form.h"
-#include "render/direct/half_vector.h"
-#include "render/direct/irradiance.h"
-#include "render/direct/ltc_points.h"
-#include "render/direct/phong.h"
-#include "render/direct/sheen.h"
+#include "render/direct/lobe_packs.h"
 
 namespace steradian {
 namespace {
@@ -81,68 +76,31 @@ void answer_point(const Question& question, const PointRows<T>& points, std::siz
 
 // A method on packs. A channel is plain times its factor plus fresnel times its own.
 struct PackMethod {
-  std::function<void(const Points&, float* plain, float* fresnel)> run;
-  Vec3f of_plain, of_fresnel;
+  LobePacks::Function run;
+  PackLobe lobe;
+  LtcPackTables tables;
+  Vec3f of_plain, of_fresnel = {};
 };
 
 // Returns nothing if a method has no packs for the lobe and the light.
-std::optional<PackMethod> pack_method(const Question& q, const PackLight& light) {
+std::optional<PackMethod> pack_method(const Question& q) {
+  using methods::Procedure;
   const Material& m = q.lobe;
-  const Simd simd = active_simd();
-  const Vec3d shines = q.light.radiance;
-  const auto by_fresnel = [&](auto run) {
-    return PackMethod{run, static_cast<Vec3f>(shines * m.f0), static_cast<Vec3f>(shines * (m.f90 - m.f0))};
-  };
-  const auto plainly = [&](auto run, Vec3d factor) {
-    return PackMethod{[run](const Points& points, float* plain, float*) { run(points, plain); }, static_cast<Vec3f>(shines * factor), {}};
-  };
-  if (m.brdf == Brdf::lambert && q.row.method == Method::exact) {
-    const auto irradiance = irradiance_table_for(simd).irradiance;
-    return plainly([irradiance, &light](const Points& points, float* plain) { irradiance(light, points, plain); },
-                   m.albedo * std::numbers::inv_pi);
-  }
-  if (!q.is_polygon) return {};  // round lights use fewer corners on packs
-  if (m.brdf == Brdf::ggx && !m.multiple_scattering && m.shadowing) {
-    if (q.row.method == Method::closed_form) {
-      const auto ggx = closed_form_table_for(simd).ggx;
-      return by_fresnel([ggx, &light, quality = q.options.quality](const Points& points, float* plain, float* fresnel) {
-        ggx(light, points, quality, plain, fresnel);
-      });
-    }
-    if (q.row.method == Method::half_vector) {
-      const auto ggx = half_vector_table_for(simd).ggx;
-      return by_fresnel([ggx, &light, arcs = methods::half_vector_options(q.options.quality)](
-                            const Points& points, float* plain, float* fresnel) { ggx(light, points, arcs, plain, fresnel); });
-    }
-    if (q.row.method == Method::ltc || q.row.method == Method::ltc_compact) {
-      const auto tables = std::make_shared<LtcPackTables>(q.row.method == Method::ltc_compact  ? ltc_compact_pack_tables()
-                                                          : q.options.table != nullptr         ? ltc_pack_tables(*q.options.table)
-                                                          : q.options.quality == Quality::high ? ltc_fresnel_pack_tables()
-                                                                                               : ltc_classic_pack_tables());
-      const auto ltc = q.row.method == Method::ltc ? ltc_pack_table_for(simd).classic : ltc_pack_table_for(simd).compact;
-      return by_fresnel([ltc, &light, tables](const Points& points, float* plain, float* fresnel) {
-        ltc(light, points, *tables, {nullptr, plain, fresnel});
-      });
-    }
-  }
-  if (m.brdf == Brdf::phong && !m.foreshortening && q.row.method != Method::reference && q.row.method != Method::sampled) {
-    const auto radiance = phong_table_for(simd).radiance;
-    const PhongOptions options{q.row.method, q.options.quality};
-    return plainly(
-        [radiance, &light, options, n = m.exponent](const Points& points, float* plain) { radiance(light, points, n, options, plain); },
-        m.albedo);
-  }
-  if ((m.brdf == Brdf::beckmann || m.brdf == Brdf::blinn_phong) && q.row.method == Method::half_vector) {
-    const auto lobe = half_vector_table_for(simd).lobe;
-    return plainly([lobe, &light, m, arcs = methods::half_vector_options(q.options.quality)](
-                       const Points& points, float* plain) { lobe(light, points, m, arcs, plain); },
-                   {1, 1, 1});
-  }
-  if (m.brdf == Brdf::charlie && q.row.method == Method::cubature) {
-    const auto sheen = sheen_table_for(simd).radiance;
-    return plainly([sheen, &light](const Points& points, float* plain) { sheen(light, points, plain); }, m.albedo);
-  }
-  return {};
+  const Method by = q.row.method;
+  const Procedure procedure = methods::procedure_of(by, m.brdf);
+  // Round lights use fewer corners on packs. The methods for comparison answer point by point.
+  if (procedure == Procedure::none || procedure == Procedure::ltc_clipless || procedure == Procedure::representative_point ||
+      (procedure != Procedure::diffuse && !q.is_polygon) || !methods::has_packs(m))
+    return {};
+  const auto shines = [&](Vec3d factor) { return static_cast<Vec3f>(q.light.radiance * factor); };
+  PackMethod method = {lobe_packs_for(active_simd())[procedure],
+                       {m, {by, q.options.quality}},
+                       ltc_pack_tables(by, q.options.quality, q.options.table.get()),
+                       shines(m.albedo)};
+  if (m.brdf == Brdf::lambert) method.of_plain = shines(m.albedo * std::numbers::inv_pi);
+  if (m.brdf == Brdf::beckmann || m.brdf == Brdf::blinn_phong) method.of_plain = shines({1, 1, 1});
+  if (m.brdf == Brdf::ggx) method.of_plain = shines(m.f0), method.of_fresnel = shines(m.f90 - m.f0);
+  return method;
 }
 
 // The widths and tangents that all points have in common, in the form that packs read.
@@ -214,7 +172,7 @@ void answer_chunk(const Question& question, const Alone<T>& which, const PointRo
   table.normalize(s.normal, padded);
   if (!along_normal) table.normalize(view, padded);
   const bool has_fresnel = of_fresnel != Vector3<T>{};
-  run(s.position, s.normal, view, padded, s.plain.data(), s.fresnel.data());
+  run(s.position, s.normal, view, padded, s.plain.data(), has_fresnel ? s.fresnel.data() : nullptr);
   table.store(s.plain.data(), of_plain, has_fresnel ? s.fresnel.data() : nullptr, of_fresnel, s.normal, view, count,
               result.radiance + 3 * first);
   if (result.error != nullptr) std::fill_n(result.error + first, count, T(0));
@@ -259,14 +217,15 @@ void radiance(const AreaLight& light, const PointRows<float>& points, const Mate
   const Question question(light, lobe, in_float);
   const std::vector<PackLight> lights = prepare_lights({}, {&light, 1});  // empty if it has no extent or does not shine
   std::optional<PackMethod> method;
-  if (!lights.empty() && !light.emission) method = pack_method(question, lights.front());
+  if (!lights.empty() && !light.emission) method = pack_method(question);
   if (!method) return answer_points(question, points, result, options.threads);
   const Widths widths(lobe);
   const Alone<float> alone = alone_of<float>(question);
+  method->lobe.tables = &method->tables;
   const auto run = [&](const auto& position, const auto& normal, const auto& view, std::size_t count, float* plain, float* fresnel) {
-    method->run(
-        {count, arrays(position), arrays(normal), arrays(view), arrays_of(widths.tangent), widths.alpha_x.data(), widths.alpha_y.data()},
-        plain, fresnel);
+    const Points some = {
+        count, arrays(position), arrays(normal), arrays(view), arrays_of(widths.tangent), widths.alpha_x.data(), widths.alpha_y.data()};
+    method->run(lights.front(), some, method->lobe, {plain, fresnel});
   };
   in_chunks(points.count, options.threads, [&](std::size_t first, std::size_t count) {
     answer_chunk(question, alone, points, first, count, result, method->of_plain, method->of_fresnel, run);

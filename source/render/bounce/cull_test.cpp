@@ -63,7 +63,7 @@ TEST(IndirectCulling, ListsHoldAllThatIsKept) {
   Draw draw;
   const ShadowMap map = random_map(draw, 2048);
   LobeArrays lobes(map.count);
-  virtual_light_table_for(active_simd()).prepare(map, ltc_compact_pack_tables(), lobes);
+  virtual_light_table_for(active_simd()).prepare(map, ltc_pack_tables(Method::ltc_compact), lobes);
   std::size_t kept = 0, lost = 0, listed = 0;
   for (const double threshold : {0.01, 0.3, 10.0}) {
     SetOptions options;

@@ -1,7 +1,7 @@
 // Lobes of a pack of surfaces, from the compact table.
 #pragma once
 
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 #include "render/direct/table_pack.h"
 
 STERADIAN_BEGIN_ISA

@@ -81,7 +81,7 @@ Pipeline::Pipeline(const Scene& scene, const RayScene& rays, const RenderOptions
       options_(options),
       threads_(threads),
       device_(device),
-      tables_(ltc_compact_pack_tables()),
+      tables_(ltc_pack_tables(Method::ltc_compact)),
       surfaces_(Raster{options.width, options.height}),
       whole_(needs_whole_surfaces(options) ? surfaces_.raster.size() : 0) {
   blue_noise();  // a table, not part of the frame's time

@@ -5,7 +5,7 @@
 
 #include "render/bounce/passes.h"
 #include "render/bounce/receivers/receivers.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/render.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/simd.h"
 #include "render/bounce/shadow_map.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 
 namespace steradian::indirect {
 

@@ -1,7 +1,5 @@
-#include "render/direct/phong.h"
-
 #include "integrals/phong/phong.h"
-#include "render/direct/seen_light_pack.h"
+#include "render/direct/lobe_loop_pack.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
@@ -20,65 +18,49 @@ struct CalledShare {
   PackReal (*call)(const void* share, const PackVec3& from, const PackVec3& end, const PackVec3& axis);
 };
 
-// A function for each method, so that it holds one walk in registers.
+// A function for each method, so that it holds one walk in registers. walk(seen, frame, p, shading, integral): the sum.
 template <class Share, class Walk>
-STERADIAN_INLINE void walk_points(const Share& share, double exponent, const PhongOptions& options, const PackLight& light,
-                                  const Points& points, float* result, const Walk& walk) {
-  PackKernels k;
-  integrals::Phong<Pack, Share> integral(share, exponent, options);
-  for (std::size_t i = 0; i < points.count; i += kLanes) {
-    const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
-    const auto frame = k.frame_from_normal(n);
-    const SeenLight seen(light, p, i);
-    const PackVec3 view = transform_transposed(frame, v);
-    store(result + i, walk(seen, frame, p, view, integral).x);
-  }
-}
-
-template <class Share>
-__attribute__((flatten, noinline)) void polygon_radiance(const Share& share, double exponent, const PhongOptions& options,
-                                                         const PackLight& light, const Points& points, float* result) {
-  walk_points(share, exponent, options, light, points, result,
-              [](const SeenLight& seen, const auto& frame, const PackVec3& p, const PackVec3& view, auto& integral) {
-                return integrate(PolygonOutline{{seen, frame, p}}, seen.shading(view), integral);
-              });
-}
-
-// The corners of a round light gather about the mirrored view.
-template <class Share>
-__attribute__((flatten, noinline)) void curved_radiance(const Share& share, double exponent, const PhongOptions& options,
-                                                        const PackLight& light, const Points& points, float* result) {
-  walk_points(share, exponent, options, light, points, result,
-              [&](const SeenLight& seen, const auto& frame, const PackVec3& p, const PackVec3& view, auto& integral) {
-                const auto shading = seen.shading(view);
-                if (light.is_pieces()) return integrate(PiecesOutline{seen, frame}, shading, integral);
-                const AboutLobe about = {PackKernels().phong_mirror(view), PackReal(1 / std::sqrt(exponent + 1)), 12};
-                return integrate(RoundOutline{seen, frame, p, about}, shading, integral);
-              });
-}
-
-void radiance(const PackLight& light, const Points& points, double exponent, const PhongOptions& options, float* result) {
-  const integrals::PhongLobe<Pack> lobe(exponent, options);
-  const auto curved = [&](const auto& share) { curved_radiance(share, exponent, options, light, points, result); };
-  const auto series = [&]<Quality quality>() {
-    curved([&](const auto& a, const auto& b, const auto& axis) { return lobe.template share<Method::series, quality>(a, b, axis); });
-  };
-  if (!light.is_pieces() && !light.is_round())
-    integrals::with_phong_share<Pack>(lobe, options,
-                                      [&](const auto& share) { polygon_radiance(share, exponent, options, light, points, result); });
-  else if (options.method != Method::series)
-    integrals::with_phong_share<Pack>(lobe, options, [&](const auto& share) { curved(CalledShare(share)); });
-  else if (options.quality == Quality::high)
-    series.template operator()<Quality::high>();
-  else
-    series.template operator()<Quality::normal>();
+__attribute__((flatten, noinline)) void walk_points(const Share& share, const PackLight& light, const Points& points, const PackLobe& lobe,
+                                                    const LobeRadiance& result, const Walk& walk) {
+  integrals::Phong<Pack, Share> integral(share, lobe.lobe.exponent, lobe.options);
+  for_each_pack(light, points, result, [&](std::size_t i, const PackVec3& p, const SeenLight& seen) {
+    const PackVec3 n = load(points.normal, i), v = load(points.view, i);
+    const auto frame = PackKernels().frame_from_normal(n);
+    return walk(seen, frame, p, seen.shading(transform_transposed(frame, v)), integral);
+  });
 }
 
 }  // namespace
 
-const PhongTable& phong_table() {
-  static constexpr PhongTable table = {radiance};
-  return table;
+void phong_lobe_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result) {
+  const double exponent = lobe.lobe.exponent;
+  const PhongOptions& options = lobe.options;
+  const integrals::PhongLobe<Pack> of(exponent, options);
+  // The corners of a round light gather about the mirrored view.
+  const auto curved = [&](const auto& share) {
+    walk_points(share, light, points, lobe, result,
+                [&](const SeenLight& seen, const auto& frame, const PackVec3& p, const auto& shading, auto& integral) {
+                  if (light.is_pieces()) return integrate(PiecesOutline{seen, frame}, shading, integral);
+                  const AboutLobe about = {PackKernels().phong_mirror(shading.view), PackReal(1 / std::sqrt(exponent + 1)), 12};
+                  return integrate(RoundOutline{seen, frame, p, about}, shading, integral);
+                });
+  };
+  const auto series = [&]<Quality quality>() {
+    curved([&](const auto& a, const auto& b, const auto& axis) { return of.template share<Method::series, quality>(a, b, axis); });
+  };
+  if (!light.is_pieces() && !light.is_round())
+    integrals::with_phong_share<Pack>(of, options, [&](const auto& share) {
+      walk_points(share, light, points, lobe, result,
+                  [](const SeenLight& seen, const auto& frame, const PackVec3& p, const auto& shading, auto& integral) {
+                    return integrate(PolygonOutline{{seen, frame, p}}, shading, integral);
+                  });
+    });
+  else if (options.method != Method::series)
+    integrals::with_phong_share<Pack>(of, options, [&](const auto& share) { curved(CalledShare(share)); });
+  else if (options.quality == Quality::high)
+    series.template operator()<Quality::high>();
+  else
+    series.template operator()<Quality::normal>();
 }
 
 STERADIAN_END_ISA

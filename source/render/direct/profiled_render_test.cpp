@@ -5,7 +5,7 @@
 #include <memory>
 #include <tuple>
 
-#include "render/direct/irradiance.h"
+#include "render/direct/lobe_packs.h"
 #include "render/frame/uneven_diffuse.h"
 #include "render/lights/light_list.h"
 #include "render/surface/camera_rays.h"
@@ -101,7 +101,7 @@ TEST(ProfiledRender, ABoundaryAboveTheDiffuseLobeLeavesTheMeanAsItIs) {
     tile->fresnel_loss.fill(loss);
     tile->radiance.x.fill(0);
     add_diffuse_from_uneven(*tile, {&lights[0]});
-    irradiance_table_for(active_simd()).irradiance(lights[0], points_of(*tile), irradiance.data());
+    lobe_packs_for(active_simd())[methods::Procedure::diffuse](lights[0], points_of(*tile), {}, {irradiance.data()});
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const float now = tile->radiance.x[i] / irradiance[i];
       if (loss > 0) {

@@ -4,9 +4,12 @@
 #include <cstdint>
 
 #include "core/simd.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
+#include "render/tile/tile.h"
 
 namespace steradian {
+
+class TexturedLight;
 
 // Arrays with one float per point, a multiple of 16.
 struct TexturedMeans {
@@ -18,7 +21,7 @@ struct TexturedMeansTable {
   // Mean radiance of the light as each point's lobe sees it (TexturedLight::seen_by_diffuse, seen_by_ggx), where wanted > 0. A pack of
   // points splits the same cells, until its last point has its mean.
   void (*diffuse)(const TexturedLight& light, const Points& points, const float* wanted, const TexturedMeans& means);
-  // tables: ltc_compact_pack_tables(); any widths.
+  // tables: ltc_pack_tables(Method::ltc_compact); any widths.
   void (*ggx)(const TexturedLight& light, const Points& points, const LtcPackTables& tables, const float* wanted,
               const TexturedMeans& means);
 };

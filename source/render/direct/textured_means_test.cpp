@@ -55,7 +55,7 @@ Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(
 TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
   Random random(21);
   const Window window(random);
-  const LtcPackTables tables = ltc_compact_pack_tables();
+  const LtcPackTables tables = ltc_pack_tables(Method::ltc_compact);
   auto tile = std::make_unique<SurfaceTile>(), out = std::make_unique<SurfaceTile>();
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     // Neighbours, as in a tile, with an arbitrary point now and then.

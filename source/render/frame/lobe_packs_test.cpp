@@ -2,14 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <memory>
 
 #include "integrals/methods.h"
-#include "render/direct/closed_form.h"
-#include "render/direct/comparison.h"
-#include "render/direct/half_vector.h"
-#include "render/direct/phong.h"
+#include "render/direct/lobe_packs.h"
 #include "steradian/ellipse_light.h"
 #include "support/random_configurations.h"
 
@@ -57,52 +53,38 @@ struct Case {
   std::string name;
   Material lobe;  // for ggx, the width is the point's
   Method method;
-  std::function<void(const PackLight&, const Points&, Simd, float* plain, float* fresnel)> packs;
+  LtcPackTables tables = {};
+
+  void run(const PackLight& light, const Points& points, Simd simd, std::vector<float>& plain, std::vector<float>& fresnel) const {
+    lobe_packs_for(simd)[methods::procedure_of(method, lobe.brdf)](light, points, {lobe, {method}, &tables},
+                                                                   {plain.data(), fresnel.data()});
+  }
 };
 
 std::vector<Case> cases() {
   std::vector<Case> all;
   Material ggx;
   ggx.brdf = Brdf::ggx;
-  const auto options = methods::half_vector_options(Quality::normal);
-  all.push_back(
-      {"half-vector ggx", ggx, Method::half_vector, [=](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
-         half_vector_table_for(simd).ggx(light, p, options, plain, fresnel);
-       }});
-  all.push_back({"clipless", ggx, Method::ltc_clipless,
-                 [tables = ltc_classic_pack_tables()](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
-                   comparison_table_for(simd).clipless(light, p, tables, plain, fresnel);
-                 }});
-  all.push_back({"representative point", ggx, Method::representative_point,
-                 [](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
-                   comparison_table_for(simd).representative_point(light, p, plain, fresnel);
-                 }});
-  const auto lobe = [&](const std::string& name, const Material& m) {
-    all.push_back({name, m, Method::half_vector, [=](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
-                     half_vector_table_for(simd).lobe(light, p, m, options, plain);
-                     std::fill_n(fresnel, kPoints, 0.0f);
-                   }});
-  };
+  all.push_back({"half-vector ggx", ggx, Method::half_vector});
+  all.push_back({"clipless", ggx, Method::ltc_clipless, ltc_pack_tables(Method::ltc_clipless)});
+  all.push_back({"representative point", ggx, Method::representative_point});
   Material m;
   m.brdf = Brdf::beckmann;
   m.alpha_x = 0.4;
   m.alpha_y = 0.15;
   m.tangent = {1, 0.3, 0.1};
-  lobe("beckmann", m);
+  all.push_back({"beckmann", m, Method::half_vector});
   m.alpha_x = m.alpha_y = 0.3;
   m.tangent = {};
-  lobe("round beckmann", m);
+  all.push_back({"round beckmann", m, Method::half_vector});
   m = {};
   m.brdf = Brdf::blinn_phong;
   m.exponent = 40;
-  lobe("blinn-phong", m);
+  all.push_back({"blinn-phong", m, Method::half_vector});
   m = {};
   m.brdf = Brdf::phong;
   m.exponent = 25;
-  all.push_back({"phong", m, Method::series, [=](const PackLight& light, const Points& p, Simd simd, float* plain, float* fresnel) {
-                   phong_table_for(simd).radiance(light, p, m.exponent, {Method::series, Quality::normal}, plain);
-                   std::fill_n(fresnel, kPoints, 0.0f);
-                 }});
+  all.push_back({"phong", m, Method::series});
   return all;
 }
 
@@ -125,7 +107,7 @@ TEST(LobePacks, FollowOnePointAtATimeUnderPolygons) {
   std::vector<float> plain(kPoints), fresnel(kPoints);
   for (const Case& c : cases())
     for (const Simd simd : available_simd()) {
-      c.packs(light, cloud.points(), simd, plain.data(), fresnel.data());
+      c.run(light, cloud.points(), simd, plain, fresnel);
       int lit = 0;
       double largest = 0, worst = 0;
       for (std::size_t i = 0; i < kPoints; ++i) {
@@ -160,7 +142,7 @@ TEST(LobePacks, FollowOnePointAtATimeUnderRoundLights) {
   for (const Case& c : cases()) {
     if (c.lobe.brdf == Brdf::ggx) continue;
     for (const Simd simd : available_simd()) {
-      c.packs(light, cloud.points(), simd, plain.data(), fresnel.data());
+      c.run(light, cloud.points(), simd, plain, fresnel);
       double peak = 0;
       std::vector<double> truth(kPoints);
       for (std::size_t i = 0; i < kPoints; ++i) {
@@ -191,14 +173,14 @@ TEST(LobePacks, NeighboursNextToTheRimChangeNothing) {
   for (std::size_t i = 0; i < kPoints; i += 3) alone.put(0, i, Vec3d{0, 0, -3});
   const PackLight light = round_light(disk);
   std::vector<Case> all = cases();
-  all.push_back({"closed form", {}, Method::closed_form, [](const PackLight& l, const Points& p, Simd simd, float* plain, float* fresnel) {
-                   closed_form_table_for(simd).ggx(l, p, Quality::normal, plain, fresnel);
-                 }});
+  Material ggx;
+  ggx.brdf = Brdf::ggx;
+  all.push_back({"closed form", ggx, Method::closed_form});
   std::vector<float> with(kPoints), without(kPoints), fresnel(kPoints);
   for (const Case& c : all)
     for (const Simd simd : available_simd()) {
-      c.packs(light, cloud.points(), simd, with.data(), fresnel.data());
-      c.packs(light, alone.points(), simd, without.data(), fresnel.data());
+      c.run(light, cloud.points(), simd, with, fresnel);
+      c.run(light, alone.points(), simd, without, fresnel);
       for (std::size_t i = 0; i < kPoints; ++i) {
         if (i % 3 == 0) continue;
         EXPECT_NEAR(with[i], without[i], 1e-5f * (1 + with[i])) << c.name << " " << name_of(simd) << " " << i;

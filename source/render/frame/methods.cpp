@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scene/table_file.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -90,6 +91,12 @@ DirectMethod chosen(const std::vector<SpecularLobe>& lobes, const std::string& n
 
 const methods::Row& DirectMethod::row_for(const Material& lobe) const {
   return methods::resolve(method_for(asked_for, lobe), lobe, Precision::float_, quality);
+}
+
+LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
+  if (table.empty()) return ltc_pack_tables(method.ggx, method.quality);
+  const ClassicTable fitted = scene::read_classic_table(table);
+  return ltc_pack_tables(method.ggx, method.quality, &fitted);
 }
 
 std::vector<std::string> lobes_under_means(const Scene& scene, const DirectMethod& method) {

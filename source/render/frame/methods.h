@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrals/methods.h"
+#include "render/direct/ltc_tables.h"
 #include "render/sampled/monte_carlo.h"
 #include "steradian/render.h"
 
@@ -31,6 +32,9 @@ struct DirectMethod {
 
 // Throws UsageError, naming lobe and material, if the method does not serve a lobe of the scene.
 DirectMethod choose_method(const Scene& scene, const RenderOptions& options);
+
+// The tables by which a method integrates layered GGX. table: as RenderOptions::table.
+LtcPackTables tables_of(const DirectMethod& method, const std::string& table);
 
 // Light that the method omits under textured lights: a sentence for each lobe and light. Lobes other than GGX and the diffuse one use the
 // light's mean.

@@ -11,16 +11,9 @@
 #include "integrals/textured/profiled_light.h"
 #include "integrals/textured/textured_light.h"
 #include "lobes/lobe.h"
-#include "render/direct/closed_form.h"
-#include "render/direct/comparison.h"
-#include "render/direct/direct.h"
-#include "render/direct/half_vector.h"
-#include "render/direct/phong.h"
-#include "render/direct/sheen.h"
 #include "render/direct/textured_means.h"
 #include "render/many/lobe_elements.h"
 #include "render/surface/gbuffer.h"
-#include "scene/table_file.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/half_vector.h"
@@ -139,16 +132,15 @@ Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, co
 
 SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
     : method_(method),
-      tables_(!table.empty()                       ? ltc_pack_tables(scene::read_classic_table(table))
-              : method.ggx == Method::ltc_clipless ? ltc_classic_pack_tables()
-              : method.ggx == Method::ltc          ? method.quality == Quality::high ? ltc_fresnel_pack_tables() : ltc_classic_pack_tables()
-                       : method.ggx == Method::ltc_compact ? ltc_compact_pack_tables()
-                                                   : LtcPackTables{}),
-      compact_tables_(ltc_compact_pack_tables()) {}
+      procedure_(methods::procedure_of(method.ggx, Brdf::ggx)),
+      packs_(lobe_packs_for(active_simd())),
+      elements_(elements_of(procedure_, active_simd())),
+      tables_(tables_of(method, table)),
+      compact_tables_(ltc_pack_tables(Method::ltc_compact)) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
-  const bool ltc = method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact;
-  return ltc && tile.any_specular && tile.any_diffuse && (light.is_polygon() || light.is_pieces()) && light.is_even();
+  return procedure_ == methods::Procedure::ltc && tile.any_specular && tile.any_diffuse && (light.is_polygon() || light.is_pieces()) &&
+         light.is_even();
 }
 
 Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i) {
@@ -162,78 +154,43 @@ Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, s
   return m;
 }
 
-// Returns false if the method does not run on packs.
-bool SpecularPass::integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const {
-  const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
-  if (!light.is_area()) {
-    direct_table_for(active_simd()).punctual_ggx(light, points, sums.specular, sums.grazing);
-    return true;
-  }
-  if (method_.ggx == Method::closed_form) {
-    closed_form_table_for(active_simd()).ggx(light, points, method_.quality, sums.specular, sums.grazing);
-    return true;
-  }
-  switch (method_.ggx) {
-    case Method::half_vector:
-      half_vector_table_for(active_simd()).ggx(light, points, methods::half_vector_options(method_.quality), sums.specular, sums.grazing);
-      return true;
-    case Method::ltc_clipless:
-      comparison_table_for(active_simd()).clipless(light, points, tables_, sums.specular, sums.grazing);
-      return true;
-    case Method::representative_point:
-      comparison_table_for(active_simd()).representative_point(light, points, sums.specular, sums.grazing);
-      return true;
-    case Method::ltc:
-    case Method::ltc_compact: break;
-    default: return false;
-  }
-  const LtcPackTable& table = ltc_pack_table_for(active_simd());
-  (method_.ggx == Method::ltc ? table.classic : table.compact)(light, points, tables_, sums);
-  return true;
+void SpecularPass::integrate_ggx(const PackLight& light, const Points& points, const LobeRadiance& result) const {
+  (light.is_area() ? packs_[procedure_] : packs_.punctual_ggx)(light, points, {{}, {method_.ggx, method_.quality}, &tables_}, result);
 }
 
 void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const {
+  const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
   alignas(64) TilePlane plain, fresnel, irradiance;
   for (const PackLight* light : lights) {
     const bool diffuse = lobe.over_diffuse && brings_diffuse(tile, *light);
-    if (integrate_ggx(tile, lobe, *light, {diffuse ? irradiance.data() : nullptr, plain.data(), fresnel.data()})) {
-      if (diffuse) {
-        add_diffuse(tile.radiance.x, tile.albedo.x, irradiance, light->radiance.x);
-        add_diffuse(tile.radiance.y, tile.albedo.y, irradiance, light->radiance.y);
-        add_diffuse(tile.radiance.z, tile.albedo.z, irradiance, light->radiance.z);
-      }
-      if (light->is_even()) {
-        add_coloured(tile.radiance.x, lobe.f0.x, lobe.f90.x, plain, fresnel, light->radiance.x);
-        add_coloured(tile.radiance.y, lobe.f0.y, lobe.f90.y, plain, fresnel, light->radiance.y);
-        add_coloured(tile.radiance.z, lobe.f0.z, lobe.f90.z, plain, fresnel, light->radiance.z);
-        continue;
-      }
-      TileVector seen;
-      alignas(64) TilePlane found, wanted;
-      for (std::size_t i = 0; i < kTilePixels; ++i) wanted[i] = std::max(plain[i], fresnel[i]);
-      found.fill(0);
-      if (light->textured != nullptr)
-        textured_means_table_for(active_simd())
-            .ggx(*light->textured, points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y), compact_tables_, wanted.data(),
-                 {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
-      for (std::size_t i = 0; i < kTilePixels; ++i) {
-        if (!(wanted[i] > 0)) continue;
-        const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
-        Vec3f radiance = get(seen, i);
-        const Vec3f even = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
-        if (!(found[i] > 0))
-          radiance = static_cast<Vec3f>(seen_by(*light, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i),
-                                                static_cast<Vec3d>(even), TextureWay::look_up));
-        add_to(tile.radiance, i, radiance * even);
-      }
+    integrate_ggx(*light, points, {plain.data(), fresnel.data(), diffuse ? irradiance.data() : nullptr});
+    if (diffuse) {
+      add_diffuse(tile.radiance.x, tile.albedo.x, irradiance, light->radiance.x);
+      add_diffuse(tile.radiance.y, tile.albedo.y, irradiance, light->radiance.y);
+      add_diffuse(tile.radiance.z, tile.albedo.z, irradiance, light->radiance.z);
+    }
+    if (light->is_even()) {
+      add_coloured(tile.radiance.x, lobe.f0.x, lobe.f90.x, plain, fresnel, light->radiance.x);
+      add_coloured(tile.radiance.y, lobe.f0.y, lobe.f90.y, plain, fresnel, light->radiance.y);
+      add_coloured(tile.radiance.z, lobe.f0.z, lobe.f90.z, plain, fresnel, light->radiance.z);
       continue;
     }
-    const methods::Row& row = methods::row_of(method_.ggx);
+    TileVector seen;
+    alignas(64) TilePlane found, wanted;
+    for (std::size_t i = 0; i < kTilePixels; ++i) wanted[i] = std::max(plain[i], fresnel[i]);
+    found.fill(0);
+    if (light->textured != nullptr)
+      textured_means_table_for(active_simd())
+          .ggx(*light->textured, points, compact_tables_, wanted.data(), {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
     for (std::size_t i = 0; i < kTilePixels; ++i) {
+      if (!(wanted[i] > 0)) continue;
       const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
-      if (tile.material[i] == nullptr || !(f0.x + f0.y + f0.z + f90.x > 0)) continue;
-      const Material m = ggx_material(lobe, tile, i);
-      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance(row, method_.quality, *light, i, shading_point(tile, lobe.normal, i), m)));
+      Vec3f radiance = get(seen, i);
+      const Vec3f even = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
+      if (!(found[i] > 0))
+        radiance = static_cast<Vec3f>(seen_by(*light, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i),
+                                              static_cast<Vec3d>(even), TextureWay::look_up));
+      add_to(tile.radiance, i, radiance * even);
     }
   }
 }
@@ -252,14 +209,9 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
     }
   }
   const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
-  const lights::LobeElementTable& elements = lobe_element_table_for(active_simd());
   lights::LobeSums sums = {};
   std::vector<std::uint64_t> left(numbers.size(), 0);
-  if (method_.ggx == Method::closed_form)
-    ggx_element_table_for(active_simd()).ggx(far.lights, numbers.data(), numbers.size(), points, far.error, sums, left.data());
-  else
-    (method_.ggx == Method::ltc ? elements.classic : elements.compact)(far.lights, numbers.data(), numbers.size(), points, tables_,
-                                                                       far.error, sums, left.data());
+  elements_->add(far.lights, numbers.data(), numbers.size(), points, tables_, far.error, sums, left.data());
   const auto reflected = [&](std::size_t i, Vec3f plain, Vec3f fresnel) {
     return get(lobe.f0, i) * (plain - fresnel) + get(lobe.f90, i) * fresnel;
   };
@@ -268,13 +220,6 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
     add_to(far.bound, i, reflected(i, get(sums.specular_error, i), get(sums.grazing_error, i)));
   }
 
-  const LtcPackTable& outlines = ltc_pack_table_for(active_simd());
-  const auto integrate = [&](const PackLight& light, const Points& some, const LtcSums& result) {
-    if (method_.ggx == Method::closed_form)
-      closed_form_table_for(active_simd()).ggx(light, some, method_.quality, result.specular, result.grazing);
-    else
-      (method_.ggx == Method::ltc ? outlines.classic : outlines.compact)(light, some, tables_, result);
-  };
   // Blocks of sixteen neighbouring slots stay together.
   TileVector position, normal, view, tangent;
   alignas(64) TilePlane alpha_x, alpha_y, plain, fresnel;
@@ -297,7 +242,7 @@ void SpecularPass::add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::v
     some.tangent = arrays_of(tangent);
     some.alpha_x = alpha_x.data();
     some.alpha_y = alpha_y.data();
-    integrate(*together[n], some, {nullptr, plain.data(), fresnel.data()});
+    integrate_ggx(*together[n], some, {plain.data(), fresnel.data()});
     const Vec3f light = together[n]->radiance;
     std::size_t k = 0;
     for (std::uint64_t bits = left[n]; bits != 0; bits &= bits - 1)
@@ -312,7 +257,7 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
   alignas(64) TilePlane plain;
   for (const PackLight* light : lights) {
     if (light->is_area()) {
-      sheen_table_for(active_simd()).radiance(*light, points_of(tile, tile.sheen_alpha, tile.sheen_alpha), plain.data());
+      packs_[methods::Procedure::sheen](*light, points_of(tile, tile.sheen_alpha, tile.sheen_alpha), {}, {plain.data()});
       for (std::size_t i = 0; i < kTilePixels; ++i) {
         if (!(plain[i] > 0)) continue;
         const Vec3f color = get(tile.sheen, i);
@@ -365,18 +310,14 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
     for (const Material& material : surface->specular_override) {
       if (material.brdf == Brdf::lambert || add_ggx_override(tile, *surface, material, lights)) continue;
       const methods::Row& row = method_.row_for(material);
+      const auto procedure = methods::procedure_of(row.method, material.brdf);
+      const bool on_packs = (procedure == methods::Procedure::phong_lobe || procedure == methods::Procedure::half_vector) &&
+                            material.brdf != Brdf::ggx && methods::has_packs(material);
       for (const PackLight* light : lights) {
-        const bool phong = material.brdf == Brdf::phong && !material.foreshortening;
-        const bool microfacets = material.brdf == Brdf::beckmann || material.brdf == Brdf::blinn_phong;
-        if (light->is_area() && (phong || (microfacets && row.method == Method::half_vector))) {
+        if (light->is_area() && on_packs) {
           alignas(64) TilePlane result;
-          if (phong)
-            phong_table_for(active_simd())
-                .radiance(*light, points_of(tile), material.exponent, {row.method, method_.quality}, result.data());
-          else
-            half_vector_table_for(active_simd())
-                .lobe(*light, points_of(tile), material, methods::half_vector_options(method_.quality), result.data());
-          const auto factor = phong ? static_cast<Vec3f>(material.albedo) : Vec3f{1, 1, 1};
+          packs_[procedure](*light, points_of(tile), {material, {row.method, method_.quality}}, {result.data()});
+          const auto factor = material.brdf == Brdf::phong ? static_cast<Vec3f>(material.albedo) : Vec3f{1, 1, 1};
           for (std::size_t i = 0; i < kTilePixels; ++i) {
             if (tile.material[i] != surface || !(result[i] > 0)) continue;
             const Vec3f even = factor * result[i];
@@ -403,8 +344,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
 
 void SpecularPass::add(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Walk walk, const Far* far) const {
   // At quality high, the lobe times (1 - v.h)^5 has a table of its own, and no elements.
-  const bool elements = far != nullptr && tables_.fresnel_matrix.size == 0 &&
-                        (method_.ggx == Method::ltc || method_.ggx == Method::ltc_compact || method_.ggx == Method::closed_form);
+  const bool elements = far != nullptr && elements_ != nullptr && tables_.fresnel_matrix.size == 0;
   const auto add_lobe = [&](const Lobe& lobe) {
     if (elements)
       add_far_ggx(tile, lobe, lights, *far);

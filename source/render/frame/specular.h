@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/direct/ltc_points.h"
+#include "render/direct/lobe_packs.h"
 #include "render/frame/methods.h"
 #include "render/lights/light_list.h"
 #include "render/surface/surface.h"
@@ -14,10 +14,11 @@ namespace steradian {
 
 namespace lights {
 struct FarLights;
-}
+struct LobeElements;
+}  // namespace lights
 
-// Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong lobes under flat lights. Other lobes, and methods that
-// exist for comparison only, run point by point in float.
+// Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong, Beckmann and Blinn-Phong lobes. Other lobes run point
+// by point in float.
 class SpecularPass {
  public:
   // table: as RenderOptions::table.
@@ -45,9 +46,12 @@ class SpecularPass {
                         const std::vector<const PackLight*>& lights) const;
   void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   static Material ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i);
-  bool integrate_ggx(const SurfaceTile& tile, const Lobe& lobe, const PackLight& light, const LtcSums& sums) const;
+  void integrate_ggx(const PackLight& light, const Points& points, const LobeRadiance& result) const;
 
   const DirectMethod method_;
+  const methods::Procedure procedure_;  // of layered GGX
+  const LobePacks& packs_;
+  const lights::LobeElements* const elements_;
   const LtcPackTables tables_;
   const LtcPackTables compact_tables_;  // these also give the width of a lobe
 };

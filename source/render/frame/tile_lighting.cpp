@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "render/direct/direct.h"
+#include "render/direct/lobe_packs.h"
 #include "render/frame/uneven_diffuse.h"
 #include "render/surface/gbuffer.h"
 
@@ -36,7 +36,7 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
     : options_(options),
       method_(method),
       many_lights_(many_lights),
-      direct_(direct_table_for(active_simd())),
+      packs_(lobe_packs_for(active_simd())),
       specular_(method, options.table),
       work_([] { return std::make_shared<Work>(); }) {
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
@@ -47,7 +47,7 @@ void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight
   if (method_.exact_diffuse && tile.any_diffuse && !plain.empty())
     direct_clock_.run([&] {
       const std::vector<const PackLight*> even = even_ones(plain);
-      if (!even.empty()) direct_.add_diffuse(tile, even.data(), even.size());
+      if (!even.empty()) packs_.add_diffuse(tile, even.data(), even.size());
       if (even.size() < plain.size()) add_diffuse_from_uneven(tile, plain);
     });
   const SpecularPass::Far far = {many_lights_->lights(), many_lights_->error(), many_lights_->bound()};
@@ -65,7 +65,7 @@ void TileLighting::add(SurfaceTile& tile, const std::vector<const PackLight*>& l
     direct_clock_.run([&] {
       std::vector<const PackLight*> plain = even_ones(lights);
       if (!method_.estimates()) std::erase_if(plain, [&](const PackLight* light) { return specular_.brings_diffuse(tile, *light); });
-      if (!plain.empty()) direct_.add_diffuse(tile, plain.data(), plain.size());
+      if (!plain.empty()) packs_.add_diffuse(tile, plain.data(), plain.size());
       if (plain.size() < lights.size()) add_diffuse_from_uneven(tile, lights);
     });
   if (!method_.estimates()) specular_clock_.run([&] { specular_.add(tile, lights); });

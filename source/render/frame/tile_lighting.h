@@ -18,8 +18,6 @@
 
 namespace steradian {
 
-struct DirectTable;
-
 class TileLighting {
  public:
   // All arguments must outlive this object. lights: from prepare_lights. many_lights: null if each light is summed by itself.
@@ -63,7 +61,7 @@ class TileLighting {
   const RenderOptions& options_;
   const DirectMethod& method_;
   ManyLightPass* const many_lights_;
-  const DirectTable& direct_;
+  const LobePacks& packs_;
   const SpecularPass specular_;
   std::optional<ShadowPass> shadows_;
   tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;

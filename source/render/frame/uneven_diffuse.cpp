@@ -2,7 +2,7 @@
 
 #include "integrals/textured/profiled_light.h"
 #include "integrals/textured/textured_light.h"
-#include "render/direct/irradiance.h"
+#include "render/direct/lobe_packs.h"
 #include "render/direct/textured_means.h"
 
 namespace steradian {
@@ -24,12 +24,12 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
   for (const PackLight* light : lights) {
     if (light->is_even()) continue;
     const Points points = points_of(tile);
-    const IrradianceTable& table = irradiance_table_for(active_simd());
-    table.irradiance(*light, points, irradiance.data());
+    const auto diffuse = lobe_packs_for(active_simd())[methods::Procedure::diffuse];
+    diffuse(*light, points, {}, {irradiance.data()});
     if (light->profiled != nullptr) {
       Points without_boundary = points;
       without_boundary.fresnel_loss = nullptr;
-      table.irradiance(*light, without_boundary, above.data());
+      diffuse(*light, without_boundary, {}, {above.data()});
     }
     TileVector seen;
     alignas(64) TilePlane found;

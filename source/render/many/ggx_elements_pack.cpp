@@ -107,15 +107,15 @@ STERADIAN_INLINE GgxPoints ggx_points(const Points& points, std::size_t i) {
   return at;
 }
 
-__attribute__((flatten)) void ggx(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points, float error,
-                                  LobeSums& sums, std::uint64_t* left) {
+__attribute__((flatten)) void add(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points,
+                                  const LtcPackTables&, float error, LobeSums& sums, std::uint64_t* left) {
   add_elements_of(far, numbers, count, points, error, sums, left, [&](std::size_t i) { return ggx_points(points, i); });
 }
 
 }  // namespace
 
-const lights::GgxElementTable& ggx_element_table() {
-  static constexpr lights::GgxElementTable table = {ggx};
+const lights::LobeElements& ggx_elements() {
+  static constexpr lights::LobeElements table = {add};
   return table;
 }
 

@@ -84,7 +84,7 @@ TEST(GgxElements, AreWithinTheirBoundOfQuadrature) {
     lights::LobeSums sums{};
     const std::uint32_t number = 0;
     std::uint64_t left = 0;
-    ggx_element_table_for(active_simd()).ggx(far, &number, 1, block.points(), 0.5f, sums, &left);
+    ggx_elements_for(active_simd()).add(far, &number, 1, block.points(), {}, 0.5f, sums, &left);
     if (left != 0) continue;
 
     for (std::size_t i = 0; i < kPoints; i += 5) {

@@ -116,28 +116,27 @@ STERADIAN_INLINE LobePoints::Answer LobePoints::answer(const Light& light, const
 }
 
 template <class Decode>
-STERADIAN_INLINE void add(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points,
-                          const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left, Decode decode) {
+__attribute__((flatten, noinline)) void add_by(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points,
+                                               const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left,
+                                               Decode decode) {
   add_elements_of(far, numbers, count, points, error, sums, left, [&](std::size_t i) { return lobe_points(points, tables, i, decode); });
 }
 
-__attribute__((flatten)) void classic(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points,
-                                      const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left) {
-  add(far, numbers, count, points, tables, error, sums, left,
-      [](const K::vec4& t, PackReal, const PackVec3&) { return K{}.ltc_from_classic(t); });
-}
-
-__attribute__((flatten)) void compact(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points,
-                                      const LtcPackTables& tables, float error, LobeSums& sums, std::uint64_t* left) {
-  add(far, numbers, count, points, tables, error, sums, left, [](const K::vec4& e, PackReal roughness, const PackVec3& view) {
-    return K{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
-  });
+void add(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Points& points, const LtcPackTables& tables,
+         float error, LobeSums& sums, std::uint64_t* left) {
+  const auto by = [&](auto decode) { add_by(far, numbers, count, points, tables, error, sums, left, decode); };
+  if (tables.compact)
+    by([](const K::vec4& e, PackReal roughness, const PackVec3& view) {
+      return K{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
+    });
+  else
+    by([](const K::vec4& t, PackReal, const PackVec3&) { return K{}.ltc_from_classic(t); });
 }
 
 }  // namespace
 
-const lights::LobeElementTable& lobe_element_table() {
-  static constexpr lights::LobeElementTable table = {classic, compact};
+const lights::LobeElements& ltc_elements() {
+  static constexpr lights::LobeElements table = {add};
   return table;
 }
 

@@ -70,7 +70,7 @@ ManyLights::ManyLights(const std::vector<PackLight>& lights, Vec3f eye, float er
       eye_(eye),
       error_(error),
       packs_(cell_table_for(active_simd())),
-      outlines_(irradiance_table_for(active_simd())) {}
+      irradiance_(lobe_packs_for(active_simd())[methods::Procedure::diffuse]) {}
 
 void ManyLights::add_diffuse(SurfaceTile& tile, const std::vector<const PackLight*>& lights, TileVector& bound, Work& work) const {
   ReceiverSet& set = work.of_tile;
@@ -247,9 +247,9 @@ void ManyLights::add_outline(const PackLight& light, const Cell& cell, Receivers
   if (cut) {
     PackLight copy = light;
     copy.shape = std::move(*cut);
-    outlines_.irradiance(copy, receivers.points(), sent.data());
+    irradiance_(copy, receivers.points(), {}, {sent.data()});
   } else {
-    outlines_.irradiance(light, receivers.points(), sent.data());
+    irradiance_(light, receivers.points(), {}, {sent.data()});
   }
   for (std::size_t k = 0; k < receivers.count; ++k) put(receivers.irradiance, k, get(receivers.irradiance, k) + light.radiance * sent[k]);
 }

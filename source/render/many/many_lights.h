@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/direct/irradiance.h"
+#include "render/direct/lobe_packs.h"
 #include "render/lights/light_list.h"
 #include "render/many/cell.h"
 
@@ -74,7 +74,7 @@ class ManyLights {
   const Vec3f eye_;
   const float error_;
   const CellTable& packs_;
-  const IrradianceTable& outlines_;
+  const LobePacks::Function irradiance_;
 };
 
 }  // namespace steradian::lights

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "render/direct/closed_form.h"
+#include "render/direct/lobe_packs.h"
 
 namespace steradian::pieces_test {
 namespace {
@@ -36,7 +36,7 @@ std::array<float, kPoints> radiance(bool some_are_far) {
   alpha.fill(0.3f);
   const VectorArrays none{zero.data(), zero.data(), zero.data()}, up{nx.data(), ny.data(), nz.data()};
   const Points points{kPoints, none, up, up, {tx.data(), ny.data(), tx.data()}, alpha.data(), alpha.data()};
-  closed_form_table_for(active_simd()).ggx(light, points, Quality::normal, plain.data(), fresnel.data());
+  lobe_packs_for(active_simd())[methods::Procedure::closed_form](light, points, {}, {plain.data(), fresnel.data()});
   return plain;
 }
 

@@ -3,7 +3,7 @@
 
 #include "core/simd.h"
 #include "render/bounce/receivers/receivers.h"
-#include "render/direct/ltc_points.h"
+#include "render/direct/ltc_tables.h"
 
 namespace steradian::indirect {
 

@@ -1,6 +1,5 @@
 #include "integrals/ggx/ltc.h"
-#include "render/direct/ltc_points.h"
-#include "render/direct/seen_light_pack.h"
+#include "render/direct/lobe_loop_pack.h"
 #include "render/direct/table_pack.h"
 
 STERADIAN_BEGIN_ISA
@@ -45,10 +44,11 @@ __attribute__((flatten, noinline)) Both integrate_pieces(const SeenLight& seen, 
 }
 
 template <bool with_diffuse, class Decode>
-STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums, Decode decode) {
-  PackKernels k;
-  for (std::size_t i = 0; i < points.count; i += kLanes) {
-    const PackVec3 p = load(points.position, i), n = load(points.normal, i), v = load(points.view, i);
+__attribute__((flatten, noinline)) void run(const PackLight& light, const Points& points, const LtcPackTables& tables,
+                                            const LobeRadiance& result, const Decode& decode) {
+  for_each_pack(light, points, result, [&](std::size_t i, const PackVec3& p, const SeenLight& seen) {
+    PackKernels k;
+    const PackVec3 n = load(points.normal, i), v = load(points.view, i);
     const PackReal roughness = sqrt(load(points.alpha_x + i));
     const auto frame = k.frame_from_normal_and_view(n, v);
     const PackReal c = dot(n, v);
@@ -60,7 +60,6 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
     };
     const Lobe lobe = lobe_of(tables.matrix, tables.magnitude);
 
-    const SeenLight seen(light, p, i);
     Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
     if (any_lane(seen.lit)) {
       const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
@@ -78,35 +77,27 @@ STERADIAN_INLINE void run(const PackLight& light, const Points& points, const Lt
                               .specular.x;
       }
     }
-    if (with_diffuse) store(sums.irradiance + i, irradiance_below(both.irradiance, view, fresnel_loss(points, i)));
-    store(sums.specular + i, both.specular.x);
-    store(sums.grazing + i, both.specular.y);
-  }
-}
-
-template <class Decode>
-STERADIAN_INLINE void run(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums, Decode decode) {
-  if (sums.irradiance != nullptr)
-    run<true>(light, points, tables, sums, decode);
-  else
-    run<false>(light, points, tables, sums, decode);
-}
-
-__attribute__((flatten)) void classic(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums) {
-  run(light, points, tables, sums, [](const PackKernels::vec4& t, PackReal, const PackVec3&) { return PackKernels{}.ltc_from_classic(t); });
-}
-
-__attribute__((flatten)) void compact(const PackLight& light, const Points& points, const LtcPackTables& tables, const LtcSums& sums) {
-  run(light, points, tables, sums, [](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
-    return PackKernels{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
+    if (with_diffuse) store(result.irradiance + i, irradiance_below(both.irradiance, view, fresnel_loss(points, i)));
+    return both.specular;
   });
 }
 
 }  // namespace
 
-const LtcPackTable& ltc_pack_table() {
-  static constexpr LtcPackTable table = {classic, compact};
-  return table;
+void ltc_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result) {
+  const LtcPackTables& tables = *lobe.tables;
+  const auto by = [&](const auto& decode) {
+    if (result.irradiance != nullptr)
+      run<true>(light, points, tables, result, decode);
+    else
+      run<false>(light, points, tables, result, decode);
+  };
+  if (tables.compact)
+    by([](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
+      return PackKernels{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
+    });
+  else
+    by([](const PackKernels::vec4& t, PackReal, const PackVec3&) { return PackKernels{}.ltc_from_classic(t); });
 }
 
 STERADIAN_END_ISA
