@@ -12,6 +12,7 @@ vec3 case_surface_color(vec4 v) { return vec3(0.5 + 0.5 * v.x, 0.5 + 0.5 * v.y, 
 //   a.xyz  direction
 //   a.w    range(-1, 1)
 //   b.xyz  direction
+// Values: 3
 vec4 case_surface_frame(CaseInput i) {
     vec3 n = case_xyz(i.b);
     SurfaceFrame frame = surface_frame(n, i.a, case_surface_any(n));
@@ -25,6 +26,7 @@ vec4 case_surface_frame(CaseInput i) {
 //   c.y    range(0, 1)
 //   c.z    range(0.4, 1)
 //   c.w    range(0, 2)
+// Values: 3
 vec4 case_surface_bent_normal(CaseInput i) {
     vec3 n = case_xyz(i.b);
     return case_of_vec3(surface_bent_normal(surface_frame(n, i.a, case_surface_any(n)), case_xyz(i.c), i.c.w));
@@ -34,6 +36,7 @@ vec4 case_surface_bent_normal(CaseInput i) {
 //   a.xyz  direction
 //   b.xyz  direction
 //   a.w    range(0, 1)
+// Values: 3
 vec4 case_surface_towards(CaseInput i) { return case_of_vec3(surface_towards(case_xyz(i.a), case_xyz(i.b), i.a.w)); }
 
 // Surface, tangent of a brushed lobe
@@ -41,6 +44,7 @@ vec4 case_surface_towards(CaseInput i) { return case_of_vec3(surface_towards(cas
 //   b.xyz  direction
 //   c.x    range(0, 1)
 //   c.y    range(0, 1)
+// Values: 4
 vec4 case_surface_tangent(CaseInput i) {
     vec3 tangent = surface_tangent(case_xyz(i.a), case_xyz(i.b), case_surface_any(case_xyz(i.b)));
     return vec4(tangent.x, tangent.y, tangent.z, surface_brushed_alpha(surface_alpha(i.c.x), i.c.y));
@@ -58,6 +62,7 @@ SurfaceDielectric case_surface_dielectric(CaseInput i) {
 //   b.w    range(0, 1)
 //   c.xyz  direction
 //   c.w    range(0.01, 0.3)
+// Values: 4
 vec4 case_surface_weights(CaseInput i) {
     vec3 color = case_surface_color(i.a);
     SurfaceWeights w = surface_weights(color, color, i.a.w, case_surface_dielectric(i));
@@ -75,6 +80,7 @@ vec4 case_surface_weights(CaseInput i) {
 //   d.y    range(0, 1)
 //   d.z    range(0, 1)
 //   d.w    range(0, 1)
+// Values: 4
 vec4 case_surface_layers(CaseInput i) {
     vec3 color = case_surface_color(i.a);
     SurfaceDielectric dielectric = case_surface_dielectric(i);

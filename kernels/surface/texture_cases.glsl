@@ -6,6 +6,7 @@
 //   a.y    signed_log(0.0001, 1)
 //   b.x    signed_log(0.0001, 1)
 //   b.y    signed_log(0.0001, 1)
+// Values: 4
 vec4 case_texture_taps(CaseInput i) {
     TextureTaps taps = texture_taps(vec2(256.0, 64.0), vec2(i.a.x, i.a.y), vec2(i.b.x, i.b.y));
     real width = select(taps.covers, taps.width, 0.5);
@@ -22,6 +23,7 @@ real case_texture_blend(real u, int wrap) {
 
 // Texture, texels about a coordinate, by wrap mode, and a texel's centre
 //   a.x    range(-3, 3)
+// Values: 4
 vec4 case_texture_texels(CaseInput i) {
     real x = i.a.x;
     return vec4(case_texture_blend(x, 0), case_texture_blend(x, 1), case_texture_blend(x, 2), texture_center(x, 16.0));
