@@ -1,5 +1,4 @@
-// Layers that glTF puts over the metallic-roughness surface, and effects that spread its lobe: sheen, coats, brushing, light between
-// facets.
+// Layers that glTF puts over the metallic-roughness surface, and effects that spread its lobe: sheen, coats, brushing, scattering.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Widens the lobe along a direction. Returns the direction's cosine and sine, measured from the tangent.

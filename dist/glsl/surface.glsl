@@ -30,7 +30,8 @@
 
 // The surface of glTF: frames and lobes, from a material's factors times its texels.
 //
-// Radiance = emission + diffuse + specular (+ sheen) (+ coat). A back face shows the front's frame with a reversed normal.
+// Radiance = emission + diffuse + specular (+ sheen) (+ coat). A back face shows the front's frame with a reversed normal:
+// bumps and directions of brushing keep their places.
 // Source: glTF 2.0, appendix B, and KHR_materials_specular, _ior, _transmission, _anisotropy, _sheen and _clearcoat.
 
 // Product of two colours.

@@ -4,7 +4,6 @@
 
 #include "core/pack.h"
 #include "render/surface/texture_pack.h"
-#include "steradian/material.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
