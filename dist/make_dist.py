@@ -323,6 +323,7 @@ fn steradian_transform_transposed(m: mat3x3f, v: vec3f) -> vec3f {
 
 TOPICS = {  # name: (what it is, the beginnings of its kernels' names; a kernel belongs to the longest that fits
     "math": ("arithmetic that all topics share", ["math/"]),
+    "surface": ("surfaces of glTF: frames, lobes and texture look-up from factors and texels", ["surface/"]),
     "polygon": ("polygons: irradiance, solid angle, clipping to the horizon; Lambert's lobe",
                 ["outline/polygon", "outline/horizon_clip", "lobe/lambert"]),
     "lobe": ("lobes of surfaces", ["lobe/"]),

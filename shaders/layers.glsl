@@ -1,5 +1,4 @@
-// Layers that glTF puts over the metallic-roughness surface, and effects that spread its lobe: sheen, coats, brushing, light between
-// facets. Names and order are those of source/render/surface/surface.cpp.
+// Layers that glTF puts over the metallic-roughness surface, and effects that spread its lobe: sheen, coats, brushing, scattering.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Widens the lobe along a direction. Returns the direction's cosine and sine, measured from the tangent.
@@ -15,7 +14,7 @@ vec2 brush(inout Surface s, int material, Coordinates c) {
         if (any(notEqual(along, vec2(0.0)))) angle += atan(along.y, along.x);
         strength *= map.z;
     }
-    s.alpha.x += (1.0 - s.alpha.x) * strength * strength;
+    s.alpha.x = surface_brushed_alpha(s.alpha.x, strength);
     return vec2(cos(angle), sin(angle));
 }
 
@@ -34,43 +33,33 @@ float table_albedo(int first, vec2 sizes, float alpha, float cosine, bool uprigh
 void scatter_between_facets(inout Surface s) {
     vec4 sizes = texelFetch(tables, 0);
     float albedo = table_albedo(1, sizes.xy, s.alpha.x, clamp(dot(s.normal, s.view), 0.0, 1.0), false);
-    vec3 grown = vec3(ltc_multiple_scattering(s.f0.x, albedo), ltc_multiple_scattering(s.f0.y, albedo),
-                      ltc_multiple_scattering(s.f0.z, albedo));
-    s.f0 *= grown;
-    s.f90 *= grown;
+    vec3 grown = vec3(ltc_multiple_scattering(s.weights.f0.x, albedo), ltc_multiple_scattering(s.weights.f0.y, albedo),
+                      ltc_multiple_scattering(s.weights.f0.z, albedo));
+    s.weights.f0 *= grown;
+    s.weights.f90 *= grown;
 }
 
-// Adds sheen. Light that the fibres reflect does not reach the layers below.
+// Adds sheen.
 void add_sheen(inout Surface s, int material, Coordinates c) {
     vec4 factors = texelFetch(materials, material + kMaterialSheen);
     int uses = material + kMaterialTextures;
     if (!any(greaterThan(factors.xyz, vec3(0.0)))) return;
-    s.sheen = factors.xyz * texture_of(uses + kUse * kUseSheen, c).xyz;
-    float strongest = max(s.sheen.x, max(s.sheen.y, s.sheen.z));
-    if (!(strongest > 0.0)) return;
-    s.sheen_alpha = alpha_of(factors.w * texture_of(uses + kUse * kUseSheenRoughness, c).w);
+    vec3 sheen = factors.xyz * texture_of(uses + kUse * kUseSheen, c).xyz;
+    if (!any(greaterThan(sheen, vec3(0.0)))) return;
+    s.sheen_alpha = surface_alpha(factors.w * texture_of(uses + kUse * kUseSheenRoughness, c).w);
     vec4 sizes = texelFetch(tables, 0);
     int first = 1 + int(dot(sizes.xy, sizes.xy));
     float albedo = table_albedo(first, sizes.zw, s.sheen_alpha, clamp(dot(s.normal, s.view), 0.0, 1.0), true);
-    float under = clamp(1.0 - strongest * albedo, 0.0, 1.0);
-    s.albedo *= under;
-    s.f0 *= under;
-    s.f90 *= under;
+    s.weights = surface_with_sheen(s.weights, sheen, albedo);
 }
 
-// Adds the coat. Light that it reflects at the view's angle does not reach the layers below.
+// Adds the coat.
 void add_coat(inout Surface s, int material, Coordinates c) {
     vec4 factors = texelFetch(materials, material + kMaterialCoat);
     int uses = material + kMaterialTextures;
     if (!(factors.x > 0.0)) return;
-    s.coat = factors.x * texture_of(uses + kUse * kUseCoat, c).x;
-    if (!(s.coat > 0.0)) return;
-    s.coat_alpha = alpha_of(factors.y * texture_of(uses + kUse * kUseCoatRoughness, c).y);
-    float facing = clamp(1.0 - dot(s.coat_normal, s.view), 0.0, 1.0);
-    float under = 1.0 - s.coat * (0.04 + 0.96 * facing * facing * facing * facing * facing);
-    s.albedo *= under;
-    s.f0 *= under;
-    s.f90 *= under;
-    s.sheen *= under;
-    s.emission *= under;
+    float coat = factors.x * texture_of(uses + kUse * kUseCoat, c).x;
+    if (!(coat > 0.0)) return;
+    s.coat_alpha = surface_alpha(factors.y * texture_of(uses + kUse * kUseCoatRoughness, c).y);
+    s.weights = surface_with_coat(s.weights, coat, dot(s.coat_normal, s.view));
 }

@@ -1,4 +1,4 @@
-// Computes the surfaces at the pixels of tiles, from the visible triangles. Mirrors source/render/surface/surface.h.
+// Computes the surfaces at the pixels of tiles, from the visible triangles.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -24,15 +24,15 @@ layout(push_constant) uniform Push { uint first_tile; };
 #include "math/constants.glsl"
 #include "math/frame.glsl"
 #include "math/inverse_trig.glsl"
+#include "surface/surface.glsl"
+#include "surface/texture.glsl"
 #include "outline/polygon.glsl"
 #include "lobe/microfacet.glsl"
 #include "integral/ltc.glsl"
 #include "textures.glsl"
 #include "tables.glsl"
 
-float square_of(vec3 a) { return dot(a, a); }
-bool has_direction(vec3 a) { return square_of(a) > 1.0e-30 && square_of(a) < 1.0e30; }
-vec3 unit(vec3 a) { return has_direction(a) ? a * inversesqrt(square_of(a)) : vec3(0.0); }
+vec3 unit(vec3 a) { return surface_has_direction(a) ? surface_unit(a) : vec3(0.0); }
 
 // Corners of a triangle, and the weights that blend their values.
 struct Corners {
@@ -70,22 +70,10 @@ vec4 texture_of(int use, Coordinates c) {
     return sample_texture(use, f);
 }
 
-float alpha_of(float roughness) { return clamp(roughness * roughness, 1.0e-4, 1.0); }
-
-// Turns a normal towards the view, because a visible surface is seen from above. Mirrors surface.cpp's turned_to.
-vec3 turned_to(vec3 n, vec3 to_view, float facing) {
-    float least = min(0.01, 0.5 * facing);
-    float c = dot(n, to_view);
-    return c >= least ? n : unit(n + to_view * (least - c));
-}
-
-// Normal from a map, or `up` if there is no map or its normal points below the surface.
-vec3 bent_normal(int use, Coordinates c, vec3 x, vec3 y, vec3 up) {
-    if (texelFetch(materials, use).x < 0.0) return up;
-    vec3 map = 2.0 * texture_of(use, c).xyz - 1.0;
-    float scale = texelFetch(materials, use + 2).z;
-    vec3 bent = x * (map.x * scale) + y * (map.y * scale) + up * map.z;
-    return has_direction(bent) && map.z > 0.0 ? unit(bent) : up;
+// Normal from a map, or the frame's own without one.
+vec3 bent_normal(int use, Coordinates c, SurfaceFrame frame) {
+    if (texelFetch(materials, use).x < 0.0) return frame.z;
+    return surface_bent_normal(frame, texture_of(use, c).xyz, texelFetch(materials, use + 2).z);
 }
 
 struct Surface {
@@ -94,16 +82,10 @@ struct Surface {
     vec3 geometric;
     vec3 tangent;
     vec3 view;
-    vec3 emission;
-    vec3 albedo;
-    vec3 f0;
-    vec3 f90;
-    float fresnel_loss;
+    SurfaceWeights weights;
     vec2 alpha;
-    vec3 sheen;
     float sheen_alpha;
     vec3 coat_normal;
-    float coat;
     float coat_alpha;
     float mesh;  // its number from 1
     bool found;
@@ -173,9 +155,7 @@ Surface surface_of(uint triangle, vec3 direction) {
     }
 
     // The steps of surface_at, in its order.
-    s.sheen = vec3(0.0);
     s.sheen_alpha = s.coat_alpha = 1.0;
-    s.coat = 0.0;
     vec4 rest = texelFetch(materials, material + kMaterialRest);
     int flags = int(rest.w);
     vec3 base = texelFetch(materials, material + kMaterialBase).xyz * texture_of(uses + kUse * kUseBase, c).xyz;
@@ -183,53 +163,32 @@ Surface surface_of(uint triangle, vec3 direction) {
     if (kLayers != 0 && (flags & kUnlit) != 0) {
         s.normal = s.coat_normal = up * side;
         s.tangent = frame_from_normal(up)[0];
-        s.emission = base;
-        s.albedo = s.f0 = s.f90 = vec3(0.0);
-        s.fresnel_loss = 0.0;
+        s.weights = surface_unlit(base);
         s.alpha = vec2(1.0);
         return s;
     }
     vec4 emission = texelFetch(materials, material + kMaterialEmission);
-    s.emission = side > 0.0 || emission.w > 0.5 ? emission.xyz * texture_of(uses + kUse * kUseEmission, c).xyz : vec3(0.0);
+    emission.xyz = side > 0.0 || emission.w > 0.5 ? emission.xyz * texture_of(uses + kUse * kUseEmission, c).xyz : vec3(0.0);
 
-    vec3 x = frame_from_normal(up)[0];
-    float handed = 1.0;
-    if (mesh.y > 0.5) {
-        vec4 t = blended(at, kVertexTangent);
-        vec3 along = t.xyz - up * dot(up, t.xyz);
-        if (has_direction(along)) {
-            x = unit(along);
-            handed = t.w < 0.0 ? -1.0 : 1.0;
-        }
-    }
-    vec3 y = cross(up, x) * handed;
-    s.normal = turned_to(bent_normal(uses + kUse * kUseNormal, c, x, y, up) * side, s.view, abs(towards));
+    vec4 tangent = mesh.y > 0.5 ? blended(at, kVertexTangent) : vec4(0.0);
+    SurfaceFrame frame = surface_frame(up, tangent, frame_from_normal(up)[0]);
+    s.normal = surface_towards(bent_normal(uses + kUse * kUseNormal, c, frame) * side, s.view, abs(towards));
 
     vec3 rough_metal = texture_of(uses + kUse * kUseMetallicRoughness, c).xyz;
     float metallic = clamp(rest.x * rough_metal.z, 0.0, 1.0);
-    s.alpha = vec2(alpha_of(rest.y * rough_metal.y));
+    s.alpha = vec2(surface_alpha(rest.y * rough_metal.y));
+    vec3 along = frame.x;
     if (kLayers != 0) {
-        s.coat_normal = turned_to(bent_normal(uses + kUse * kUseCoatNormal, c, x, y, up) * side, s.view, abs(towards));
+        s.coat_normal = surface_towards(bent_normal(uses + kUse * kUseCoatNormal, c, frame) * side, s.view, abs(towards));
         vec2 brushed = brush(s, material, c);
-        x = x * brushed.x + y * brushed.y;
+        along = along * brushed.x + frame.y * brushed.y;
     }
-    vec3 along = x - s.normal * dot(s.normal, x);
-    if (dot(along, along) > 1.0e-10) {
-        along = unit(along);
-        s.tangent = unit(along - s.normal * dot(s.normal, along));
-    } else {
-        s.tangent = frame_from_normal(s.normal)[0];
-    }
+    s.tangent = surface_tangent(along, s.normal, frame_from_normal(s.normal)[0]);
 
     vec4 colored = texelFetch(materials, material + kMaterialSpecularColor);
     float specular = colored.w * texture_of(uses + kUse * kUseSpecular, c).w;
     colored.xyz *= texture_of(uses + kUse * kUseSpecularColor, c).xyz;
-    vec3 dielectric = clamp(colored.xyz * rest.z, 0.0, 1.0) * specular;
-    float largest = max(dielectric.x, max(dielectric.y, dielectric.z));
-    s.albedo = base * ((1.0 - metallic) * (1.0 - largest));
-    s.fresnel_loss = largest < 1.0 ? (specular - largest) / (1.0 - largest) : 0.0;
-    s.f0 = mix(dielectric, base, metallic);
-    s.f90 = mix(vec3(specular), vec3(1.0), metallic);
+    s.weights = surface_weights(emission.xyz, base, metallic, surface_dielectric(specular, colored.xyz, rest.z));
     if (kLayers != 0) {
         if ((flags & kScatters) != 0) scatter_between_facets(s);
         add_sheen(s, material, c);
@@ -269,24 +228,24 @@ void main() {
     if (s.found) {
         put(tile, slot, kPosition, s.position, s.alpha.x);
         put(tile, slot, kNormal, s.normal, s.alpha.y);
-        put(tile, slot, kView, s.view, s.fresnel_loss);
-        put(tile, slot, kAlbedo, s.albedo, s.geometric.x);
-        put(tile, slot, kF0, s.f0, s.geometric.y);
-        put(tile, slot, kF90, s.f90, s.geometric.z);
-        put(tile, slot, kTangent, s.tangent, s.coat);
+        put(tile, slot, kView, s.view, s.weights.fresnel_loss);
+        put(tile, slot, kAlbedo, s.weights.albedo, s.geometric.x);
+        put(tile, slot, kF0, s.weights.f0, s.geometric.y);
+        put(tile, slot, kF90, s.weights.f90, s.geometric.z);
+        put(tile, slot, kTangent, s.tangent, s.weights.coat);
         if (kLayers != 0) {
             put(tile, slot, kCoatNormal, s.coat_normal, s.coat_alpha);
-            put(tile, slot, kSheen, s.sheen, s.sheen_alpha);
+            put(tile, slot, kSheen, s.weights.sheen, s.sheen_alpha);
         }
         kinds = kAnySurface;
-        if (any(greaterThan(s.albedo, vec3(0.0)))) kinds |= kAnyDiffuse;
-        if (any(greaterThan(max(s.f0, s.f90), vec3(0.0)))) kinds |= kAnySpecular;
-        if (any(greaterThan(s.sheen, vec3(0.0)))) kinds |= kAnySheen;
-        if (s.coat > 0.0) kinds |= kAnyCoat;
+        if (any(greaterThan(s.weights.albedo, vec3(0.0)))) kinds |= kAnyDiffuse;
+        if (any(greaterThan(max(s.weights.f0, s.weights.f90), vec3(0.0)))) kinds |= kAnySpecular;
+        if (any(greaterThan(s.weights.sheen, vec3(0.0)))) kinds |= kAnySheen;
+        if (s.weights.coat > 0.0) kinds |= kAnyCoat;
     } else {
         put(tile, slot, kNormal, vec3(0.0), 0.0);
     }
-    radiance[tile * uint(kRadiance) + slot] = s.found ? vec4(s.emission, s.mesh) : vec4(0.0);
+    radiance[tile * uint(kRadiance) + slot] = s.found ? vec4(s.weights.emission, s.mesh) : vec4(0.0);
 
     // Bounds of the group's surfaces: by these, the host finds the lights that reach the tile.
     positions_of_group[gl_LocalInvocationID.x] = s.found ? s.position : vec3(0.0);

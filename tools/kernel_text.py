@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 KERNELS = ROOT / "kernels"
-FOLDERS = ("math", "outline", "lobe", "integral", "comparison", "plane", "indirect")
+FOLDERS = ("math", "surface", "outline", "lobe", "integral", "comparison", "plane", "indirect")
 OUTSIDE = [ROOT / "source" / "integrals" / "textured" / "texture_cell.glsl"]  # in the dialect, and no kernels: the programs' own
 CASE = ROOT / "tests" / "parity" / "case.glsl"  # what every file of cases needs
 

@@ -35,6 +35,9 @@ struct Kernels {
 #include "math/inverse_trig.glsl"
 #include "math/quartic.glsl"
 
+#include "surface/surface.glsl"
+#include "surface/texture.glsl"
+
 #include "outline/polygon.glsl"
 #include "outline/light_elements.glsl"
 #include "outline/far_light.glsl"

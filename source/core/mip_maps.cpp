@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "steradian/kernels.h"
 #include "steradian/texture.h"
 
 namespace steradian {
@@ -146,51 +147,29 @@ const std::vector<const Image*>& MipMaps::levels(const TextureUse& use) const {
 
 int level_count(const Image& image) { return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)))); }
 
-TextureTaps texture_taps(const TextureUse& use, const Image& image, const TextureFootprint& footprint) {
-  constexpr float kMostTaps = 16;
-  const auto turned = [&](Vec2f d) { return Vec2f{use.uv[0] * d.x + use.uv[1] * d.y, use.uv[3] * d.x + use.uv[4] * d.y}; };
-  const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
-  const Vec2f right = turned(footprint.right), down = turned(footprint.down);
-  // In texels, a circle of diameter 1 becomes an ellipse, whose axes are those of J transpose(J).
-  const Vec2f a{right.x * width, right.y * height}, b{down.x * width, down.y * height};
-  const float xx = a.x * a.x + b.x * b.x, xy = a.x * a.y + b.x * b.y, yy = a.y * a.y + b.y * b.y;
-  const float half = 0.5f * (xx - yy), longer2 = 0.5f * (xx + yy) + std::sqrt(half * half + xy * xy);
-  TextureTaps taps;
-  if (!(longer2 > 1)) return taps;
-  taps.covers = true;
-  const auto last = static_cast<float>(level_count(image) - 1);
-  if (!(longer2 < 1e12f)) {  // a million texels: only the mean of all
-    taps.level = last;
-    return taps;
-  }
-  const float longer = std::sqrt(longer2), shorter = std::max(1.0f, std::fabs(a.x * b.y - a.y * b.x) / longer);
-  const float count = std::clamp(std::ceil(longer / shorter - 1e-3f), 1.0f, kMostTaps);
-  taps.count = static_cast<int>(count);
-  taps.level = std::min(last, std::log2(std::max(shorter, longer / kMostTaps)));
-  const Vec2f along = half > 0 ? Vec2f{longer2 - yy, xy} : Vec2f{xy, longer2 - xx};
-  const float size2 = along.x * along.x + along.y * along.y, size = size2 > 0 ? longer / std::sqrt(size2) : 0;
-  taps.axis = {along.x * size / width, along.y * size / height};
-  return taps;
-}
-
 Vec4f sample_texture(const MipMaps& maps, const TextureUse& use, Vec2f t, const TextureFootprint& footprint) {
   if (!use.present()) return {1, 1, 1, 1};
   const Image& image = maps.images()[static_cast<std::size_t>(use.image)];
-  const TextureTaps taps = texture_taps(use, image, footprint);
+  using Kernel = Kernels<float>;
+  const auto turned = [&](Vec2f d) {
+    return Kernel::vec2{Kernel::real::of(use.uv[0] * d.x + use.uv[1] * d.y), Kernel::real::of(use.uv[3] * d.x + use.uv[4] * d.y)};
+  };
+  const auto taps = Kernel().texture_taps({double(image.width), double(image.height)}, turned(footprint.right), turned(footprint.down));
   const Vec2f middle = use.transformed(t);
-  if (!taps.covers || !std::isfinite(middle.x) || !std::isfinite(middle.y)) return sample_texture(maps.images(), use, t);
+  if (!taps.covers.m || !std::isfinite(middle.x) || !std::isfinite(middle.y)) return sample_texture(maps.images(), use, t);
   const auto& levels = maps.levels(use);
-  const auto level = static_cast<std::size_t>(taps.level);
-  const float coarser = taps.level - static_cast<float>(level);
+  const float coarseness = std::min(static_cast<float>(level_count(image) - 1), std::log2(taps.width.v)), count = taps.count.v;
+  const auto level = static_cast<std::size_t>(coarseness);
+  const float coarser = coarseness - static_cast<float>(level);
   Vec4f sum;
   const auto add = [&](const Image& of, float weight) {
-    for (int i = 0; i < taps.count; ++i) {
-      const float at = (static_cast<float>(i) + 0.5f) / static_cast<float>(taps.count) - 0.5f;
-      const Vec4f c = bilinear(of, use, {middle.x + taps.axis.x * at, middle.y + taps.axis.y * at});
+    for (float i = 0; i < count; ++i) {
+      const float at = (i + 0.5f) / count - 0.5f;
+      const Vec4f c = bilinear(of, use, {middle.x + taps.axis.x.v * at, middle.y + taps.axis.y.v * at});
       sum = {sum.x + weight * c.x, sum.y + weight * c.y, sum.z + weight * c.z, sum.w + weight * c.w};
     }
   };
-  const float each = 1 / static_cast<float>(taps.count);
+  const float each = 1 / count;
   add(*levels[level], each * (1 - coarser));
   if (coarser > 0) add(*levels[level + 1], each * coarser);
   return sum;

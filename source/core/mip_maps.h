@@ -60,19 +60,9 @@ class MipMaps {
 // Number of levels of an image.
 int level_count(const Image& image);
 
-// Positions and coarseness of the taps on a texture for the mean over a footprint.
-struct TextureTaps {
-  int count = 1;        // side by side along the footprint's longer axis, about its middle
-  Vec2f axis;           // that axis at full length, in the use's coordinates (0 to 1 over the picture)
-  float level = 0;      // of their picture; both neighbours if between two whole numbers
-  bool covers = false;  // more than a texel; else one tap on the picture itself, by the use's own filter
-};
-TextureTaps texture_taps(const TextureUse& use, const Image& image, const TextureFootprint& footprint);
-
 // Mean over a footprint at mesh coordinates t (transform and wrap applied), rgb linear. It is exact for a texture that is linear there,
 // else within what bilinear pictures of half the size show of it. White without a texture.
-//
-// Taps lie along the longer axis of the ellipse inscribed in the footprint, at most 16, and are as wide as the shorter axis.
+// The taps are those of kernels/surface/texture.glsl.
 Vec4f sample_texture(const MipMaps& maps, const TextureUse& use, Vec2f t, const TextureFootprint& footprint);
 
 }  // namespace steradian

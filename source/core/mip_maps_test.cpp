@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "steradian/kernels.h"
 #include "support/random_configurations.h"
 
 namespace steradian::mip_maps_test {
@@ -116,20 +117,17 @@ TEST(MipMaps, RampsKeepTheirMiddle) {
   }
 }
 
-// Axes and coarseness, worked by hand: a footprint of 8 texels by 2, turned, in a transform that doubles.
+// Axes and coarseness, worked by hand: a footprint of 8 texels by 2, turned.
 TEST(MipMaps, TapsLieAlongTheLongerAxis) {
-  TextureUse use = use_of(ColorSpace::linear);
-  use.uv[0] = use.uv[4] = 2;
-  const auto images = picture(64, 64, [](int, int, int) { return 7; });
-  const float c = 0.6f, s = 0.8f, texel = 1.0f / 64;
-  const TextureFootprint footprint{{0.5f * 2 * texel * -s, 0.5f * 2 * texel * c}, {0.5f * 8 * texel * c, 0.5f * 8 * texel * s}};
-  const TextureTaps taps = texture_taps(use, images[0], footprint);
-  EXPECT_TRUE(taps.covers);
-  EXPECT_EQ(taps.count, 4);
-  EXPECT_NEAR(static_cast<double>(taps.level), 1, 1e-5);
-  EXPECT_NEAR(std::fabs(static_cast<double>(taps.axis.x)), 8.0 / 64 * 0.6, 1e-6);
-  EXPECT_NEAR(std::fabs(static_cast<double>(taps.axis.y)), 8.0 / 64 * 0.8, 1e-6);
-  EXPECT_FALSE(texture_taps(use, images[0], {{0.4f * texel, 0}, {0, 0.4f * texel}}).covers);
+  const double c = 0.6, s = 0.8, texel = 1.0 / 64;
+  Kernels<double> k;
+  const auto taps = k.texture_taps({64, 64}, {2 * texel * -s, 2 * texel * c}, {8 * texel * c, 8 * texel * s});
+  EXPECT_TRUE(taps.covers.m);
+  EXPECT_EQ(taps.count.v, 4);
+  EXPECT_NEAR(taps.width.v, 2, 1e-12);
+  EXPECT_NEAR(std::fabs(taps.axis.x.v), 8 * texel * c, 1e-12);
+  EXPECT_NEAR(std::fabs(taps.axis.y.v), 8 * texel * s, 1e-12);
+  EXPECT_FALSE(k.texture_taps({64, 64}, {0.4 * texel, 0}, {0, 0.4 * texel}).covers.m);
 }
 
 // Footprints that are not finite or exceed all bounds.

@@ -5,11 +5,18 @@
 
 #include "render/surface/surface_pack.h"
 #include "steradian/albedo.h"
+#include "steradian/kernels.h"
 
 namespace steradian {
 namespace {
 
-constexpr auto kMinAlpha = static_cast<float>(kSmallestAlpha);
+using SurfaceKernels = Kernels<float>;
+
+SurfaceKernels::real in_kernel(float x) { return SurfaceKernels::real::of(x); }
+SurfaceKernels::vec3 in_kernel(Vec3f v) { return {in_kernel(v.x), in_kernel(v.y), in_kernel(v.z)}; }
+SurfaceKernels::vec4 in_kernel(Vec4f v) { return {in_kernel(v.x), in_kernel(v.y), in_kernel(v.z), in_kernel(v.w)}; }
+Vec3f from_kernel(SurfaceKernels::vec3 v) { return {v.x.v, v.y.v, v.z.v}; }
+Vec3f color_of(Vec4f c) { return {c.x, c.y, c.z}; }
 
 // Interpolation of values at the corners of a triangle.
 struct Corner {
@@ -66,40 +73,12 @@ Vec3f any_tangent(Vec3f n) {
   return {1 + s * n.x * n.x * a, n.x * n.y * a * s, -s * n.x};
 }
 
-// The part of a unit vector across a normal, as a unit vector. It is computed twice, because a small part is mostly rounding. Returns any
-// direction across the normal if there is no such part.
-Vec3f perpendicular_part(Vec3f a, Vec3f n) {
-  const Vec3f once = a - n * dot(n, a);
-  if (!(dot(once, once) > 1e-10f)) return any_tangent(n);
-  const Vec3f x = unit(once);
-  return unit(x - n * dot(n, x));
-}
-
-// The frame of tangent-space textures on the front face: the vertices' normal, and the mesh's tangent made perpendicular to it.
-struct TangentFrame {
-  Vec3f x, y, z;
-};
-TangentFrame tangent_frame(const Mesh& mesh, const Corner& at, Vec3f n) {
-  if (!mesh.tangents.empty()) {
-    const Vec4f t4 = at(mesh.tangents);
-    const Vec3f t{t4.x, t4.y, t4.z};
-    const Vec3f x = unit(t - n * dot(n, t));
-    if (dot(x, x) > 0.5f) return {x, cross(n, x) * (t4.w < 0 ? -1.0f : 1.0f), n};
-  }
-  const Vec3f x = any_tangent(n);
-  return {x, cross(n, x), n};
-}
-
-// Normal from a normal map, on the front face; the vertices' normal if the map points below the surface.
-Vec3f bent_normal(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use, const TangentFrame& frame) {
+// Normal from a normal map, on the front face, or the frame's own.
+SurfaceKernels::vec3 bent_normal(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use,
+                                 const SurfaceKernels::SurfaceFrame& frame) {
   if (!use.present()) return frame.z;
-  const Vec4f c = texel(scene, mesh, at, use);
-  const float up = 2 * c.z - 1;
-  const Vec3f bent = unit(frame.x * ((2 * c.x - 1) * use.scale) + frame.y * ((2 * c.y - 1) * use.scale) + frame.z * up);
-  return dot(bent, bent) > 0.5f && up > 0 ? bent : frame.z;
+  return SurfaceKernels().surface_bent_normal(frame, in_kernel(color_of(texel(scene, mesh, at, use))), in_kernel(use.scale));
 }
-
-double cosine_of_view(const Surface& s, Vec3f view) { return std::clamp(static_cast<double>(dot(s.normal, view)), 0.0, 1.0); }
 
 Material ggx_of(const Surface& s) {
   Material m;
@@ -112,56 +91,34 @@ Material ggx_of(const Surface& s) {
   return m;
 }
 
-void scatter_between_facets(Surface& s, Vec3f view) {
+// F0 and F90 with the light that bounces between facets.
+void scatter_between_facets(const Surface& s, Vec3f view, SurfaceKernels::SurfaceWeights& weights) {
   Material m = ggx_of(s);
+  m.f0 = static_cast<Vec3d>(from_kernel(weights.f0));
+  m.f90 = static_cast<Vec3d>(from_kernel(weights.f90));
   m.multiple_scattering = true;
   m = with_multiple_scattering(m, {{}, static_cast<Vec3d>(s.normal), static_cast<Vec3d>(view)});
-  s.f0 = static_cast<Vec3f>(m.f0);
-  s.f90 = static_cast<Vec3f>(m.f90);
+  weights.f0 = in_kernel(static_cast<Vec3f>(m.f0));
+  weights.f90 = in_kernel(static_cast<Vec3f>(m.f90));
 }
 
-// KHR_materials_sheen: light that the fibres reflect does not reach the layers below.
-void add_sheen(Surface& s, const Scene& scene, const Mesh& mesh, const Corner& at, Vec3f view) {
+// Puts the weights of its lobes into a surface. One without custom lobes covers the fraction of its place that its alpha says.
+Surface& finish(Surface& s, SurfaceKernels::SurfaceWeights weights, float alpha) {
   const SurfaceMaterial& m = *s.material;
-  s.sheen = m.sheen_color;
-  if (m.sheen_color_texture.present()) {
-    const Vec4f c = texel(scene, mesh, at, m.sheen_color_texture);
-    s.sheen = s.sheen * Vec3f{c.x, c.y, c.z};
+  const bool covers = m.unlit || m.specular_override.empty();
+  if (covers && m.alpha_mode == AlphaMode::blend)
+    weights = SurfaceKernels().surface_covering(weights, in_kernel(std::clamp(alpha, 0.0f, 1.0f)));
+  s.emission = from_kernel(weights.emission);
+  s.albedo = from_kernel(weights.albedo);
+  s.sheen = from_kernel(weights.sheen);
+  s.coat = weights.coat.v;
+  s.passes = from_kernel(weights.passes);
+  if (covers) {
+    s.fresnel_loss = weights.fresnel_loss.v;
+    s.f0 = from_kernel(weights.f0);
+    s.f90 = from_kernel(weights.f90);
   }
-  const float strongest = std::max({s.sheen.x, s.sheen.y, s.sheen.z});
-  if (!(strongest > 0)) return;
-  float roughness = m.sheen_roughness;
-  if (m.sheen_roughness_texture.present()) roughness *= texel(scene, mesh, at, m.sheen_roughness_texture).w;
-  s.sheen_alpha = std::clamp(roughness * roughness, kMinAlpha, 1.0f);
-  const auto albedo = static_cast<float>(charlie_albedo(static_cast<double>(s.sheen_alpha), cosine_of_view(s, view)));
-  const float under = std::clamp(1 - strongest * albedo, 0.0f, 1.0f);
-  s.albedo *= under;
-  s.f0 *= under;
-  s.f90 *= under;
-  s.passes *= under;
-}
-
-Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1 - t) + b * t; }
-
-float covered(const SurfaceMaterial& m, const Vec4f& base) {
-  return m.alpha_mode == AlphaMode::blend ? std::clamp(base.w, 0.0f, 1.0f) : 1.0f;
-}
-
-// Scales a surface by its coverage. The rest of its place shows the surfaces behind.
-void cover(Surface& s, float share) {
-  if (share == 1) return;
-  for (Vec3f* part : {&s.emission, &s.albedo, &s.f0, &s.f90, &s.sheen, &s.passes}) *part *= share;
-  s.coat *= share;
-  s.passes += Vec3f{1, 1, 1} * (1 - share);
-}
-
-// A visible surface is seen from above. If interpolation or a normal map turns the normal away from the viewer, this turns it back until
-// the view lies just above its horizon.
-//
-//   facing   cosine between the view and the triangle, which itself never changes
-Vec3f turned_to(Vec3f n, Vec3f view, float facing) {
-  const float least = std::min(0.01f, 0.5f * facing), c = dot(n, view);
-  return c >= least ? n : unit(n + view * (least - c));
+  return s;
 }
 
 }  // namespace
@@ -238,102 +195,71 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
   const float side = front ? 1.0f : -1.0f;
   s.geometric_normal = (dot(unit(geometric), unit(geometric)) > 0.5f ? unit(geometric) : n) * side;
 
+  SurfaceKernels k;
+  const auto look_up = [&](const TextureUse& use) { return texel(scene, mesh, at, use); };
   const Vec4f base = base_color(scene, mesh, at, m);
-  const Vec3f color{base.x, base.y, base.z};
+  const SurfaceKernels::vec3 color = in_kernel(color_of(base));
   if (m.unlit) {
     s.normal = s.coat_normal = n * side;
     s.tangent = any_tangent(n);
-    s.emission = color;
-    cover(s, covered(m, base));
-    return s;
+    return finish(s, k.surface_unlit(color), base.w);
   }
+  Vec3f emission;
   if (m.emits() && (front || m.double_sided)) {
     const LightEmission* lamp = emission_of(scene, mesh);
-    s.emission = lamp != nullptr ? static_cast<Vec3f>(emitted_radiance(*lamp, static_cast<Vec3d>(view))) : m.emissive;
-    if (m.emissive_texture.present()) {
-      const Vec4f t = texel(scene, mesh, at, m.emissive_texture);
-      s.emission = s.emission * Vec3f{t.x, t.y, t.z};
-    }
+    emission = lamp != nullptr ? static_cast<Vec3f>(emitted_radiance(*lamp, static_cast<Vec3d>(view))) : m.emissive;
+    emission = emission * color_of(look_up(m.emissive_texture));
   }
 
-  const TangentFrame frame = tangent_frame(mesh, at, n);
-  const float facing = std::fabs(dot(unit(geometric), view));
-  s.normal = turned_to(bent_normal(scene, mesh, at, m.normal_texture, frame) * side, view, facing);
-  s.coat_normal = turned_to(bent_normal(scene, mesh, at, m.clearcoat_normal_texture, frame) * side, view, facing);
+  const SurfaceKernels::SurfaceFrame frame =
+      k.surface_frame(in_kernel(n), in_kernel(mesh.tangents.empty() ? Vec4f{} : at(mesh.tangents)), in_kernel(any_tangent(n)));
+  const auto normal_of = [&](const TextureUse& use) {
+    return from_kernel(k.surface_towards(bent_normal(scene, mesh, at, use, frame) * in_kernel(side), in_kernel(view),
+                                         in_kernel(std::fabs(dot(unit(geometric), view)))));
+  };
+  s.normal = normal_of(m.normal_texture);
+  s.coat_normal = normal_of(m.clearcoat_normal_texture);
 
-  float metallic = m.metallic, roughness = m.roughness;
-  if (m.metallic_roughness_texture.present()) {
-    const Vec4f c = texel(scene, mesh, at, m.metallic_roughness_texture);
-    roughness *= c.y;
-    metallic *= c.z;
-  }
-  metallic = std::clamp(metallic, 0.0f, 1.0f);
-  const float alpha = std::clamp(roughness * roughness, kMinAlpha, 1.0f);
-  s.alpha_x = s.alpha_y = alpha;
-  Vec3f along = frame.x;
+  const Vec4f rough_metal = look_up(m.metallic_roughness_texture);
+  const SurfaceKernels::real metallic = in_kernel(std::clamp(m.metallic * rough_metal.z, 0.0f, 1.0f));
+  s.alpha_x = s.alpha_y = k.surface_alpha(in_kernel(m.roughness * rough_metal.y)).v;
+  SurfaceKernels::vec3 along = frame.x;
   if (m.anisotropy > 0) {
     float strength = m.anisotropy, angle = m.anisotropy_rotation;
     if (m.anisotropy_texture.present()) {
-      const Vec4f c = texel(scene, mesh, at, m.anisotropy_texture);
+      const Vec4f c = look_up(m.anisotropy_texture);
       angle += std::atan2(2 * c.y - 1, 2 * c.x - 1);
       strength *= c.z;
     }
-    // KHR_materials_anisotropy: the lobe widens along the rotated tangent towards alpha = 1.
-    s.alpha_x = alpha + (1 - alpha) * strength * strength;
-    along = frame.x * std::cos(angle) + frame.y * std::sin(angle);
+    s.alpha_x = k.surface_brushed_alpha(in_kernel(s.alpha_x), in_kernel(strength)).v;
+    along = frame.x * in_kernel(std::cos(angle)) + frame.y * in_kernel(std::sin(angle));
   }
-  s.tangent = perpendicular_part(along, s.normal);
+  s.tangent = from_kernel(k.surface_tangent(along, in_kernel(s.normal), in_kernel(any_tangent(s.normal))));
 
-  float specular = m.specular;
-  if (m.specular_texture.present()) specular *= texel(scene, mesh, at, m.specular_texture).w;
-  Vec3f specular_color = m.specular_color;
-  if (m.specular_color_texture.present()) {
-    const Vec4f c = texel(scene, mesh, at, m.specular_color_texture);
-    specular_color = specular_color * Vec3f{c.x, c.y, c.z};
-  }
-  const float r = (m.ior - 1) / (m.ior + 1);
-  const auto clamp1 = [](float x) { return std::clamp(x, 0.0f, 1.0f); };
-  const Vec3f colored = specular_color * (r * r);
-  const Vec3f dielectric = Vec3f{clamp1(colored.x), clamp1(colored.y), clamp1(colored.z)} * specular;
-  const float largest_f0 = std::max({dielectric.x, dielectric.y, dielectric.z});
-  s.albedo = color * ((1 - metallic) * (1 - largest_f0));
-  s.fresnel_loss = largest_f0 < 1 ? (specular - largest_f0) / (1 - largest_f0) : 0;
-  s.f0 = mix(dielectric, color, metallic);
-  s.f90 = mix(Vec3f{specular, specular, specular}, Vec3f{1, 1, 1}, metallic);
-
+  const float r = (m.ior - 1) / (m.ior + 1), cosine = dot(s.normal, view);
+  const SurfaceKernels::SurfaceDielectric dielectric =
+      k.surface_dielectric(in_kernel(m.specular * look_up(m.specular_texture).w),
+                           in_kernel(m.specular_color * color_of(look_up(m.specular_color_texture))), in_kernel(r * r));
+  SurfaceKernels::SurfaceWeights weights = k.surface_weights(in_kernel(emission), color, metallic, dielectric);
   if (m.transmission > 0 && m.specular_override.empty()) {
-    float share = m.transmission;
-    if (m.transmission_texture.present()) share *= texel(scene, mesh, at, m.transmission_texture).x;
-    const float c = std::clamp(1 - dot(s.normal, view), 0.0f, 1.0f), reflected = largest_f0 + (specular - largest_f0) * c * c * c * c * c;
-    s.albedo *= 1 - share;
-    s.passes = color * ((1 - metallic) * share * (1 - std::min(reflected, 1.0f)));
+    const float share = m.transmission * look_up(m.transmission_texture).x;
+    weights = k.surface_transmitting(weights, color, metallic, dielectric, in_kernel(share), in_kernel(cosine));
   }
-  if (scene.multiple_scattering) scatter_between_facets(s, view);
-  add_sheen(s, scene, mesh, at, view);
-
-  s.coat = m.clearcoat;
-  if (m.clearcoat_texture.present()) s.coat *= texel(scene, mesh, at, m.clearcoat_texture).x;
-  if (s.coat > 0) {
-    float coat_roughness = m.clearcoat_roughness;
-    if (m.clearcoat_roughness_texture.present()) coat_roughness *= texel(scene, mesh, at, m.clearcoat_roughness_texture).y;
-    s.coat_alpha = std::clamp(coat_roughness * coat_roughness, kMinAlpha, 1.0f);
-    // KHR_materials_clearcoat: light that the coat reflects at the view's angle does not reach the layers below.
-    const float c = std::clamp(1 - dot(s.coat_normal, view), 0.0f, 1.0f);
-    const float under = 1 - s.coat * (kCoatF0 + (1 - kCoatF0) * c * c * c * c * c);
-    s.albedo *= under;
-    s.f0 *= under;
-    s.f90 *= under;
-    s.sheen *= under;
-    s.emission *= under;
-    s.passes *= under;
+  if (scene.multiple_scattering) scatter_between_facets(s, view, weights);
+  if (weighs(m.sheen_color)) {
+    const Vec3f sheen = m.sheen_color * color_of(look_up(m.sheen_color_texture));
+    if (weighs(sheen)) {
+      s.sheen_alpha = k.surface_alpha(in_kernel(m.sheen_roughness * look_up(m.sheen_roughness_texture).w)).v;
+      const double albedo = charlie_albedo(static_cast<double>(s.sheen_alpha), std::clamp(static_cast<double>(cosine), 0.0, 1.0));
+      weights = k.surface_with_sheen(weights, in_kernel(sheen), in_kernel(static_cast<float>(albedo)));
+    }
   }
-  if (!m.specular_override.empty()) {
-    s.f0 = s.f90 = {};
-    s.fresnel_loss = 0;
-  } else {
-    cover(s, covered(m, base));
+  const float coat = m.clearcoat * look_up(m.clearcoat_texture).x;
+  if (coat > 0) {
+    s.coat_alpha = k.surface_alpha(in_kernel(m.clearcoat_roughness * look_up(m.clearcoat_roughness_texture).y)).v;
+    weights = k.surface_with_coat(weights, in_kernel(coat), in_kernel(dot(s.coat_normal, view)));
   }
-  return s;
+  return finish(s, weights, base.w);
 }
 
 Material sheen_of(const Surface& s) {

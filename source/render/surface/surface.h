@@ -11,11 +11,8 @@ inline constexpr float kCoatF0 = 0.04f;  // KHR_materials_clearcoat: a coat of i
 
 // The metallic-roughness surface at one point, with its textures looked up.
 //
-// A back face shows the front's frame with a reversed normal: bumps and directions of brushing keep their places.
-//
-// Radiance = emission + diffuse + specular (+ sheen) (+ coat). The diffuse lobe has albedo base (1 - metallic) (1 - F), F the largest
-// channel of the dielectric's Fresnel: light that its specular lobe reflects does not reach it. All terms are already weighted by the
-// surface's coverage of its place (alpha mode blend). A surface with custom lobes (extras) is opaque.
+// kernels/surface/surface.glsl computes its frame and its lobes. All terms are already weighted by the surface's coverage of its place
+// (alpha mode blend). A surface with custom lobes (extras) is opaque.
 struct Surface {
   Vec3f position;
   Vec3f normal;            // shading normal, unit; the view is above its horizon, as it is above the triangle

@@ -4,7 +4,6 @@
 
 #include "core/pack.h"
 #include "render/surface/texture_pack.h"
-#include "steradian/material.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
@@ -74,6 +73,7 @@ struct Corners {
 };
 
 using Mask = PackKernels::mask;
+using Weights = PackKernels::SurfaceWeights;
 
 // Writes the lanes in `kept`.
 struct Writer {
@@ -93,15 +93,6 @@ struct Writer {
   STERADIAN_INLINE void operator()(TilePlane& plane, float value) const { (*this)(plane, broadcast(value)); }
   STERADIAN_INLINE void operator()(TileVector& v, Vec3f value) const { (*this)(v, broadcast(value)); }
 };
-
-// The same as surface_at's turned_to.
-STERADIAN_INLINE PackVec3 turned_to(const PackVec3& n, const PackVec3& view, const PackReal& facing) {
-  const PackReal least = min(PackReal(0.01), PackReal(0.5) * facing), c = dot(n, view);
-  const Mask above = !(c < least);
-  if (!any_lane(!above)) return n;
-  const PackVec3 turned = n + view * (least - c);
-  return select(above, n, turned * inversesqrt(max(dot(turned, turned), PackReal(1e-30))));
-}
 
 // Hits of the lanes' rays on the mesh.
 struct Hits {
@@ -127,15 +118,10 @@ struct Hits {
   }
 };
 
-// The lobes of surface.h, except for layers that no packed surface has.
-struct Lobes {
-  PackVec3 albedo, f0, f90, emission, passes;
-  PackReal fresnel_loss, alpha;
-};
-
 // Returns the lanes that it wrote.
 STERADIAN_INLINE Mask write_surfaces(const Mesh& mesh, const Hits& hits, const PackVec3& normal, const PackVec3& tangent,
-                                     const Lobes& lobes, const SurfaceMaterial* material, std::size_t slot, SurfaceTile& tile) {
+                                     const Weights& weights, const PackReal& alpha, const SurfaceMaterial* material, std::size_t slot,
+                                     SurfaceTile& tile) {
   alignas(64) std::array<float, kLanes> here;
   for (std::size_t k = 0; k < kLanes; ++k) here[k] = (hits.kept >> k & 1) != 0 ? 1.0f : 0.0f;
   const Writer write = {slot, load(here.data()) > PackReal(0.5), hits.kept == (std::uint32_t{1} << kLanes) - 1};
@@ -144,19 +130,19 @@ STERADIAN_INLINE Mask write_surfaces(const Mesh& mesh, const Hits& hits, const P
   write(tile.geometric_normal, hits.geometric * hits.side);
   write(tile.view, hits.view);
   write(tile.tangent, tangent);
-  write(tile.albedo, lobes.albedo);
-  write(tile.fresnel_loss, lobes.fresnel_loss);
-  write(tile.f0, lobes.f0);
-  write(tile.f90, lobes.f90);
-  write(tile.alpha_x, lobes.alpha);
-  write(tile.alpha_y, lobes.alpha);
+  write(tile.albedo, weights.albedo);
+  write(tile.fresnel_loss, weights.fresnel_loss);
+  write(tile.f0, weights.f0);
+  write(tile.f90, weights.f90);
+  write(tile.alpha_x, alpha);
+  write(tile.alpha_y, alpha);
   write(tile.coat, 0.0f);
   write(tile.coat_alpha, 1.0f);
   write(tile.coat_normal, normal);
   write(tile.sheen, Vec3f{});
   write(tile.sheen_alpha, 1.0f);
-  write(tile.passes, lobes.passes);
-  write(tile.radiance, lobes.emission);
+  write(tile.passes, weights.passes);
+  write(tile.radiance, weights.emission);
   for (std::size_t k = 0; k < kLanes; ++k)
     if ((hits.kept >> k & 1) != 0) tile.material[slot + k] = material;
   return write.kept;
@@ -166,10 +152,15 @@ __attribute__((flatten)) std::uint32_t fill_plain_pack(const Mesh& mesh, const S
                                                        std::uint32_t slots, SurfaceTile& tile) {
   const Hits hits(mesh, tile_hits, slot, slots);
   if (hits.kept == 0) return 0;
-  const PackVec3 normal = turned_to(hits.blend * hits.side, hits.view, abs(hits.towards));
-  const Lobes lobes = {broadcast(like.albedo), broadcast(like.f0),           broadcast(like.f90),    broadcast(like.emission),
-                       broadcast(like.passes), broadcast(like.fresnel_loss), broadcast(like.alpha_x)};
-  write_surfaces(mesh, hits, normal, PackKernels().frame_from_normal(normal).c0, lobes, like.material, slot, tile);
+  PackKernels k;
+  const PackVec3 normal = k.surface_towards(hits.blend * hits.side, hits.view, abs(hits.towards));
+  Weights weights = k.surface_unlit(broadcast(like.emission));
+  weights.albedo = broadcast(like.albedo);
+  weights.fresnel_loss = broadcast(like.fresnel_loss);
+  weights.f0 = broadcast(like.f0);
+  weights.f90 = broadcast(like.f90);
+  weights.passes = broadcast(like.passes);
+  write_surfaces(mesh, hits, normal, k.frame_from_normal(normal).c0, weights, broadcast(like.alpha_x), like.material, slot, tile);
   return hits.kept;
 }
 
@@ -230,37 +221,11 @@ class Textures {
   PackVec2 right_, down_;
 };
 
-STERADIAN_INLINE PackVec3 unit(const PackVec3& a) { return a * inversesqrt(max(dot(a, a), PackReal(1e-30))); }
-STERADIAN_INLINE PackReal clamp1(PackReal x) { return min(max(x, PackReal(0.0)), PackReal(1.0)); }
-STERADIAN_INLINE PackVec3 mix(const PackVec3& a, const PackVec3& b, PackReal t) { return a * (PackReal(1.0) - t) + b * t; }
-STERADIAN_INLINE PackVec3 by_channel(const PackVec3& a, const PackVec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-STERADIAN_INLINE PackVec3 grey(PackReal x) { return {x, x, x}; }
-
-// The same as surface.cpp's tangent_frame.
-struct TangentFrame {
-  PackVec3 x, y, z;
-};
-STERADIAN_INLINE TangentFrame tangent_frame(const Mesh& mesh, const Hits& hits) {
-  const PackVec3& n = hits.blend;
-  const PackVec3 any = PackKernels().frame_from_normal(n).c0;
-  if (mesh.tangents.empty()) return {any, cross(n, any), n};
-  const PackColor t4 = hits.at(mesh.tangents);
-  const PackVec3 t = t4.rgb, across = t - n * dot(n, t);
-  const PackReal across2 = dot(across, across);
-  const Mask usual = across2 > PackReal(1e-30) && across2 < PackReal(1e30);
-  const PackVec3 x = select(usual, unit(across), any);
-  const PackReal handed = select(usual && t4.alpha < PackReal(0.0), PackReal(-1.0), PackReal(1.0));
-  return {x, cross(n, x) * handed, n};
-}
-
-// The same as surface.cpp's bent_normal.
-STERADIAN_INLINE PackVec3 bent_normal(const Textures& textures, const TextureUse& use, const TangentFrame& frame) {
-  if (!use.present()) return frame.z;
-  const PackVec3 c = textures(use).rgb;
-  const PackReal one(1.0), two(2.0), scale = broadcast(use.scale), up = two * c.z - one;
-  const PackVec3 bent = frame.x * ((two * c.x - one) * scale) + frame.y * ((two * c.y - one) * scale) + frame.z * up;
-  const PackReal square = dot(bent, bent);
-  return select(square > PackReal(1e-30) && square < PackReal(1e30) && up > PackReal(0.0), unit(bent), frame.z);
+// Tangents with their w; 0 for a mesh without them.
+STERADIAN_INLINE PackKernels::vec4 tangents_of(const Mesh& mesh, const Hits& hits) {
+  if (mesh.tangents.empty()) return {0.0, 0.0, 0.0, 0.0};
+  const PackColor t = hits.at(mesh.tangents);
+  return {t.rgb.x, t.rgb.y, t.rgb.z, t.alpha};
 }
 
 __attribute__((flatten)) std::uint32_t fill_textured_pack(const Scene& scene, const Mesh& mesh, const Shading& shading,
@@ -271,63 +236,48 @@ __attribute__((flatten)) std::uint32_t fill_textured_pack(const Scene& scene, co
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   const Textures textures(mesh, hits, shading, tile_hits, slot);
   const PackReal zero(0.0), one(1.0);
+  PackKernels k;
 
   // The same steps as surface_at, in its order.
   PackColor base = textures(m.base_color_texture);
-  base = {by_channel(base.rgb, broadcast(Vec3f{m.base_color.x, m.base_color.y, m.base_color.z})), base.alpha * broadcast(m.base_color.w)};
+  base = {k.surface_product(base.rgb, broadcast(Vec3f{m.base_color.x, m.base_color.y, m.base_color.z})),
+          base.alpha * broadcast(m.base_color.w)};
   if (!mesh.colors.empty()) {
     const PackColor of_vertices = hits.at(mesh.colors);
-    base = {by_channel(base.rgb, of_vertices.rgb), base.alpha * of_vertices.alpha};
+    base = {k.surface_product(base.rgb, of_vertices.rgb), base.alpha * of_vertices.alpha};
   }
-  Lobes lobes;
-  lobes.emission = broadcast(Vec3f{});
+  PackVec3 emission = broadcast(Vec3f{});
   if (m.emits()) {
-    const PackVec3 shines = by_channel(textures(m.emissive_texture).rgb, broadcast(m.emissive));
-    lobes.emission = m.double_sided ? shines : select(hits.side > zero, shines, lobes.emission);
+    const PackVec3 shines = k.surface_product(textures(m.emissive_texture).rgb, broadcast(m.emissive));
+    emission = m.double_sided ? shines : select(hits.side > zero, shines, emission);
   }
-  const TangentFrame frame = tangent_frame(mesh, hits);
-  const PackVec3 normal = turned_to(bent_normal(textures, m.normal_texture, frame) * hits.side, hits.view, abs(hits.towards));
-  const PackVec3 across = frame.x - normal * dot(normal, frame.x), along = unit(across);
-  const PackVec3 tangent =
-      select(dot(across, across) > PackReal(1e-10), unit(along - normal * dot(normal, along)), PackKernels().frame_from_normal(normal).c0);
+  const PackVec3& n = hits.blend;
+  const auto frame = k.surface_frame(n, tangents_of(mesh, hits), k.frame_from_normal(n).c0);
+  PackVec3 normal = n;
+  if (m.normal_texture.present()) normal = k.surface_bent_normal(frame, textures(m.normal_texture).rgb, broadcast(m.normal_texture.scale));
+  normal = k.surface_towards(normal * hits.side, hits.view, abs(hits.towards));
+  const PackVec3 tangent = k.surface_tangent(frame.x, normal, k.frame_from_normal(normal).c0);
 
-  PackReal metallic = broadcast(m.metallic), roughness = broadcast(m.roughness);
-  if (m.metallic_roughness_texture.present()) {
-    const PackVec3 c = textures(m.metallic_roughness_texture).rgb;
-    roughness = roughness * c.y;
-    metallic = metallic * c.z;
-  }
-  metallic = clamp1(metallic);
-  lobes.alpha = min(max(roughness * roughness, PackReal(kSmallestAlpha)), one);
-
-  PackReal specular = broadcast(m.specular);
-  if (m.specular_texture.present()) specular = specular * textures(m.specular_texture).alpha;
-  PackVec3 specular_color = broadcast(m.specular_color);
-  if (m.specular_color_texture.present()) specular_color = by_channel(specular_color, textures(m.specular_color_texture).rgb);
+  const PackVec3 rough_metal = textures(m.metallic_roughness_texture).rgb;
+  const PackReal metallic = clamp(broadcast(m.metallic) * rough_metal.z, zero, one);
+  const PackReal alpha = k.surface_alpha(broadcast(m.roughness) * rough_metal.y);
   const float r = (m.ior - 1) / (m.ior + 1);
-  const PackVec3 colored = specular_color * broadcast(r * r);
-  const PackVec3 dielectric = PackVec3(clamp1(colored.x), clamp1(colored.y), clamp1(colored.z)) * specular;
-  const PackReal largest_f0 = max(dielectric.x, max(dielectric.y, dielectric.z)), left = one - largest_f0;
-  lobes.albedo = base.rgb * ((one - metallic) * left);
-  lobes.fresnel_loss = select(largest_f0 < one, (specular - largest_f0) / select(largest_f0 < one, left, one), zero);
-  lobes.f0 = mix(dielectric, base.rgb, metallic);
-  lobes.f90 = mix(grey(specular), grey(one), metallic);
-  lobes.passes = broadcast(Vec3f{});
+  const auto dielectric =
+      k.surface_dielectric(broadcast(m.specular) * textures(m.specular_texture).alpha,
+                           k.surface_product(broadcast(m.specular_color), textures(m.specular_color_texture).rgb), broadcast(r * r));
+  Weights weights = k.surface_weights(emission, base.rgb, metallic, dielectric);
   if (!m.specular_override.empty()) {
-    lobes.f0 = lobes.f90 = broadcast(Vec3f{});
-    lobes.fresnel_loss = zero;
+    weights.f0 = weights.f90 = broadcast(Vec3f{});
+    weights.fresnel_loss = zero;
+  } else if (m.alpha_mode == AlphaMode::blend) {
+    weights = k.surface_covering(weights, clamp(base.alpha, zero, one));
   }
-  if (m.alpha_mode == AlphaMode::blend && m.specular_override.empty()) {
-    const PackReal share = clamp1(base.alpha);
-    for (PackVec3* part : {&lobes.emission, &lobes.albedo, &lobes.f0, &lobes.f90}) *part = *part * share;
-    lobes.passes = grey(one - share);
-  }
-  const Mask kept = write_surfaces(mesh, hits, normal, tangent, lobes, &m, slot, tile);
+  const Mask kept = write_surfaces(mesh, hits, normal, tangent, weights, alpha, &m, slot, tile);
   const auto weighs = [&](const PackVec3& c) { return any_lane(kept && max(c.x, max(c.y, c.z)) > zero); };
   tile.any_surface = true;
-  tile.any_passing |= weighs(lobes.passes);
-  tile.any_diffuse |= weighs(lobes.albedo);
-  tile.any_specular |= weighs(lobes.f0) || weighs(lobes.f90);
+  tile.any_passing |= weighs(weights.passes);
+  tile.any_diffuse |= weighs(weights.albedo);
+  tile.any_specular |= weighs(weights.f0) || weighs(weights.f90);
   tile.any_override |= !m.specular_override.empty();
   return hits.kept;
 }
