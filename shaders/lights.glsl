@@ -149,9 +149,10 @@ LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     return e;
 }
 
-// Returns true if four elements serve in place of the outline. For roundings, bias and least_distance2 see source/shapes/small_light.h.
-bool elements_serve(LightElements e, float sharpness, float roundings, float bias) {
-    return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, roundings, bias);
+// Returns true if four elements serve in place of an outline whose integral has these limits.
+bool elements_serve(LightElements e, float sharpness, LightElementsLimits limits) {
+    return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, limits.roundings, limits.bias);
 }
-bool elements_serve(LightElements e, float sharpness, float roundings) { return elements_serve(e, sharpness, roundings, 0.0); }
-bool may_be_small(Light light, vec3 p, float least_distance2) { return distance2_of(light, p) > deviation2_of(light) * least_distance2; }
+bool may_be_small(Light light, vec3 p, LightElementsLimits limits) {
+    return CAREFUL && distance2_of(light, p) > deviation2_of(light) * limits.least_distance2;
+}

@@ -1,5 +1,4 @@
-// Phong's lobe about the mirrored view, times the light's cosine where the material asks for it. Mirrors source/integrals/phong/phong.h and
-// foreshortened_phong.h.
+// Phong's lobe about the mirrored view, times the light's cosine where the material asks for it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "phong_front.glsl"
 
@@ -47,10 +46,10 @@ float phong_over_outline(Light light, Seen seen, mat3 frame, vec3 p, PhongLobe l
     return moment_phong_radiance(sum, seen.reversed);
 }
 
-// Values of source/shapes/small_light.h.
+// Bias of the method. Elements miss the bend that a lobe of an exponent below 2 has at its end: they serve only where the lobe is tiny there.
 float phong_bias(PhongLobe lobe) {
     if (lobe.n < 2.0) return 0.0;
-    return METHOD == kPhongSeries ? 1.0 / 64.0 : METHOD == kPhongSeriesHigh ? 1.0 / 115.0 : 0.0;
+    return METHOD == kPhongSeries ? light_elements_series_bias() : METHOD == kPhongSeriesHigh ? light_elements_series_high_bias() : 0.0;
 }
 
 // Radiance towards the view from a light of radiance 1, for a lobe of colour 1.
@@ -66,12 +65,10 @@ float own_radiance(Light light, vec3 p, vec3 n, vec3 v, vec3 tangent, OwnLobe ow
     }
     if (has_corners()) fill_corners(light, frame, p, lobe.mirror, inversesqrt(lobe.n + 1.0));
     float sent = phong_over_outline(light, seen, frame, p, lobe);
-    float sharpness = 2.5 + sqrt(lobe.n);
-    float bias = phong_bias(lobe);
-    float least_distance2 = bias > 0.0 ? min(500.0, 4.0 * sharpness * sharpness) : 500.0;
-    if (CAREFUL && may_be_small(light, p, least_distance2)) {
+    LightElementsLimits limits = light_elements_along_power(lobe.n, phong_bias(lobe));
+    if (may_be_small(light, p, limits)) {
         LightElements e = elements_in(light, seen, frame, p);
-        if (elements_serve(e, sharpness, 128.0, bias)) {
+        if (elements_serve(e, light_elements_power_sharpness(lobe.n), limits)) {
             sent = 0.0;
             for (int i = 0; i < 4; i++) {
                 LightElement element = light_element_at(e, i);

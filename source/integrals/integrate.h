@@ -12,8 +12,6 @@
 // Each is in a file of its own beside this one. It manages memory that it reuses from light to light itself.
 #pragma once
 
-#include <algorithm>
-
 #include "shapes/outline.h"
 #include "shapes/small_light.h"
 
@@ -114,7 +112,7 @@ struct Together {
   STERADIAN_INLINE auto finish(M reversed) {
     return Pair<decltype(first.finish(reversed)), decltype(second.finish(reversed))>{first.finish(reversed), second.finish(reversed)};
   }
-  double least_distance2() const { return std::min(first.least_distance2(), second.least_distance2()); }
+  auto least_distance2() const { return min(first.least_distance2(), second.least_distance2()); }
   template <class V>
   auto small_light(const V& center) const {
     return BothSmall<decltype(first.small_light(center)), decltype(second.small_light(center))>{first.small_light(center),
@@ -188,7 +186,7 @@ STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shadin
                   outline.elements();
                   integral.least_distance2();
                 }) {
-    const auto beyond = outline.distance2() > outline.deviation2() * Real<S>(integral.least_distance2());
+    const auto beyond = outline.distance2() > outline.deviation2() * integral.least_distance2();
     if (any_lane(lit && beyond)) return integrate_small(outline, shading, integral, lit);
   }
   return select(lit, integrate_edges(outline, shading, integral), nothing);

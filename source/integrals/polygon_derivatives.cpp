@@ -238,7 +238,7 @@ auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const 
   const Vec3d to = q.center - at.position;
   const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
   const double bias = integrals::bias_of(m.exponent, {Method::series, quality});
-  const bool small = (2.5 + std::sqrt(m.exponent)) * deviation < std::cbrt(8 * bias);
+  const bool small = Kernels<double>().light_elements_power_sharpness(m.exponent).v * deviation < std::cbrt(8 * bias);
   return [&m, quality, small]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
     const integrals::PhongLobe<S> lobe(m.exponent);
     // Only two methods appear here: all of them in dual numbers would exceed the compiler's budget for inlining.

@@ -160,9 +160,9 @@ template <class S, class Round>
 STERADIAN_INLINE auto by_elements_where_small(typename Kernels<S>::vec3 e, const Round& light, const typename Kernels<S>::mat3& frame,
                                               const typename Kernels<S>::vec3& p) {
   Kernels<S> k;
-  if (any_lane(distance2<S>(light, p) > deviation2<S>(light) * Real<S>(integrals::kAlongArcs.least_distance2))) {
+  if (any_lane(distance2<S>(light, p) > deviation2<S>(light) * k.light_elements_along_arcs().least_distance2)) {
     const auto elements = elements_in<S>(light, frame, p);
-    const auto serve = integrals::elements_serve<S>(elements, {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings});
+    const auto serve = integrals::elements_serve<S>(elements, {k.light_elements_diffuse_sharpness(), k.light_elements_along_arcs()});
     e = select(serve, k.light_elements_irradiance_vector(elements), e);
   }
   return e;

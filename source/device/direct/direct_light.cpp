@@ -7,7 +7,6 @@
 #include "render/direct/ltc_points.h"
 #include "render/lights/light_bounds.h"
 #include "scene/table_file.h"
-#include "shapes/small_light.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -271,12 +270,16 @@ bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) c
 // Least squared distance for a lobe's integral, in the light's mean square deviations.
 double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
   if (pass.own != nullptr) return pass.own->least_distance2;
-  switch (pass.shader) {
-    case kDiffuse: return light.kind == kPolygon ? integrals::kAlongEdges.least_distance2 : integrals::kAlongArcs.least_distance2;
-    case kClosedForm: return integrals::kAlongArcs.least_distance2;
-    case kHalfVector: return integrals::kHalfVectorsLeastDistance2;
-    default: return integrals::kTransformed.least_distance2;
-  }
+  Kernels<double> k;
+  const auto limits = [&] {
+    switch (pass.shader) {
+      case kDiffuse: return light.kind == kPolygon ? k.light_elements_along_edges() : k.light_elements_along_arcs();
+      case kClosedForm: return k.light_elements_along_arcs();
+      case kHalfVector: return k.light_elements_along_half_vectors(0.0);
+      default: return k.light_elements_transformed();
+    }
+  };
+  return limits().least_distance2.v;
 }
 
 // Returns true if some point of a box may see the light as small, or may be near its rim. Otherwise the shaders skip both tests.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "integrals/ggx/half_vector.h"
-#include "shapes/small_light.h"
+#include "integrals/phong/phong.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -17,6 +17,7 @@ Vec4Floats with(Vec3d v, double w) {
 }
 
 OwnLobes::Lobe lobe_by(const Material& m, Method method, Quality quality, std::size_t first) {
+  Kernels<double> k;
   OwnLobes::Lobe lobe{m, method, static_cast<std::uint32_t>(first), 0, 0, 0, true, 0};
   switch (m.brdf) {
     case Brdf::phong:
@@ -24,15 +25,16 @@ OwnLobes::Lobe lobe_by(const Material& m, Method method, Quality quality, std::s
       lobe.form = m.foreshortening ? 1 : 0;
       lobe.low = m.foreshortening ? integrals::cosine_series_range(m.exponent) : m.exponent < 1 ? 2 : 0;
       lobe.by_points = m.foreshortening;
-      lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
+      lobe.least_distance2 = k.light_elements_along_power(m.exponent, integrals::bias_of(m.exponent, {method, quality})).least_distance2.v;
       break;
     case Brdf::ggx:
       lobe.form = method == Method::exact ? 2 : m.shadowing ? 0 : 1;
-      lobe.least_distance2 = method == Method::half_vector                              ? integrals::kHalfVectorsLeastDistance2
-                             : method == Method::closed_form || method == Method::exact ? integrals::kAlongArcs.least_distance2
-                                                                                        : integrals::kTransformed.least_distance2;
+      lobe.least_distance2 = (method == Method::half_vector                              ? k.light_elements_along_half_vectors(0.0)
+                              : method == Method::closed_form || method == Method::exact ? k.light_elements_along_arcs()
+                                                                                         : k.light_elements_transformed())
+                                 .least_distance2.v;
       break;
-    default: lobe.least_distance2 = integrals::kTransformed.least_distance2; break;  // charlie
+    default: lobe.least_distance2 = k.light_elements_transformed().least_distance2.v; break;  // charlie
   }
   return lobe;
 }

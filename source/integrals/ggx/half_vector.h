@@ -54,9 +54,9 @@ class HalfVector {
   }
   Part<S> finish(Mask<S> reversed) { return lobe_.finish(view_, edges_, sum_, select(reversed, Real<S>(-1.0), Real<S>(1.0))); }
 
-  double least_distance2() const { return kHalfVectorsLeastDistance2; }
+  Real<S> least_distance2() const { return K().light_elements_along_half_vectors(lobe_.bias()).least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
-    return {K().light_elements_half_vector_sharpness(lobe_.deviation(), view_.v.z), kAlongArcs.roundings, lobe_.bias()};
+    return {K().light_elements_half_vector_sharpness(lobe_.deviation(), view_.v.z), K().light_elements_along_half_vectors(lobe_.bias())};
   }
   Part<S> at(const vec3& u) const { return lobe_.at(view_, u); }
 
@@ -83,7 +83,7 @@ class BlinnPhongArcs {
   Real<S> alpha_x() const { return K().blinn_phong_alpha(n_); }
   Real<S> alpha_y() const { return alpha_x(); }
   Real<S> deviation() const { return inversesqrt(max(n_, Real<S>(1.0e-12))); }
-  double bias() const { return std::is_same_v<S, double> ? kUnbiased : kSeriesBias; }
+  Real<S> bias() const { return std::is_same_v<S, double> ? Real<S>(0.0) : K().light_elements_series_bias(); }
   template <class View, class V>
   Part<S> at(const View& view, const V& u) const {
     K k;
@@ -122,7 +122,7 @@ struct BeckmannArcs {
   Real<S> alpha_x() const { return ax; }
   Real<S> alpha_y() const { return ay; }
   Real<S> deviation() const { return Real<S>(0.707106781186547524) * min(ax, ay); }
-  double bias() const { return kBeckmannBias; }
+  Real<S> bias() const { return K().light_elements_beckmann_bias(); }
   template <class View, class V>
   Part<S> at(const View& view, const V& u) const {
     K k;
@@ -153,7 +153,7 @@ struct GgxHalfVectorArcs {
   Real<S> alpha_x() const { return ax; }
   Real<S> alpha_y() const { return ay; }
   Real<S> deviation() const { return Real<S>(0.5) * min(ax, ay); }
-  double bias() const { return kUnbiased; }  // chords of short edges are as exact as their arcs
+  Real<S> bias() const { return 0.0; }  // chords of short edges are as exact as their arcs
   template <class View, class V>
   Part<S> at(const View& view, const V& u) const {
     return K().ggx_lobe_and_fresnel(view, u, smith);
