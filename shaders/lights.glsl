@@ -100,29 +100,6 @@ float distance2_of(Light light, vec3 p) {
     return dot(to, to);
 }
 
-// Elements of a capsule: its strip, which is equally wide from everywhere across, and the half balls at its ends. Each has its second
-// moment along the axis. Mirrors source/shapes/capsule.h.
-LightElements capsule_elements(Light light, vec3 p) {
-    float radius = light.r[2].w;
-    float r2 = radius * radius;
-    vec3 axis = light.r[4].xyz * 2.0;
-    vec3 center = (light.r[2].xyz - p + (light.r[3].xyz - p)) * 0.5;
-    float length2 = dot(axis, axis);
-    vec3 along = axis * inversesqrt(max(length2, smallest_square()));
-    vec3 sight = center * inversesqrt(max(dot(center, center), smallest_square()));
-    vec3 across = sight - along * dot(along, sight);
-    vec3 aside = cross(along, sight);
-    float strip = 2.0 * radius * sqrt(length2);
-    float balls = pi() * r2;
-    float share = 2.0 / max(strip + balls, smallest_square());
-    LightElements e;
-    e.center = center;
-    e.area = -(across * (inversesqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
-    e.reach_a = along * sqrt(share * (strip * length2 / 12.0 + balls * (length2 + r2) * 0.25));
-    e.reach_b = aside * (inversesqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip / 3.0 + balls * 0.25)));
-    return e;
-}
-
 // Elements in the shading frame, of the visible side.
 LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     LightElements e;
@@ -137,7 +114,7 @@ LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
         e.reach_b = light.r[5].xyz;
         e.area = light.r[6].xyz * (seen.reversed ? -1.0 : 1.0);
     } else if (KIND == kCapsule) {
-        e = capsule_elements(light, p);
+        e = capsule_elements((light.r[2].xyz - p + (light.r[3].xyz - p)) * 0.5, light.r[4].xyz * 2.0, light.r[2].w);
     } else {
         EllipsoidOutline outline = round_outline(light, p);
         e = ellipse_elements(ellipse_prepare(outline.center, outline.axis_a, outline.axis_b));

@@ -162,12 +162,24 @@ const bool DRAFT = false;
 const bool EXACT = false;
 const int EXTRA_NODES = 0;
 
-#define ARC_SUM vec3
-vec3 share_of_arc(GgxView view, vec3 a, vec3 b) { return ggx_arc(view, a, b); }
-vec3 share_at(GgxView view, vec3 h) { return ggx_at_half_vector(view, h); }
-#include "arcs.glsl"
+const int ARCS = QUALITY == 2 ? 8 : 3 + QUALITY;  // of an edge
 
-vec3 vector_of(GgxView view, ConicArc edge) { return sum_over_arcs(view, edge); }
+vec3 vector_of(GgxView view, ConicArc edge) {
+    vec3 sum = vec3(0.0);
+    if (!(edge.end > edge.begin)) return sum;
+    HalfVectorWalk walk = half_vector_begin(view, edge);
+    for (int j = 1; j <= ARCS; j++) {
+        float tau = edge.end;
+        if (j < ARCS) tau = half_vector_split_pole_mapped(edge, float(j) / float(ARCS));
+        walk = half_vector_next(walk, view, edge, tau);
+        sum += ggx_arc(view, walk.a, walk.b);
+        for (int i = 0; i < half_vector_nodes(); i++) {
+            HalfVectorNode node = half_vector_node(walk, view, edge, i);
+            sum += ggx_at_half_vector(view, node.h) * node.solid_angle;
+        }
+    }
+    return sum;
+}
 #endif
 
 // A light that nothing cuts: its edges are the outline's own.

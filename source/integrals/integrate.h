@@ -134,7 +134,7 @@ STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& 
     auto clip = k.horizon_clip_begin();
     const auto close = [&] {
       if (!any_lane(clip.closes)) return;
-      const auto wide = dot(clip.arc_start, clip.arc_end) < Real<S>(-0.9999);
+      const auto wide = k.horizon_arc_wide(clip.arc_start, clip.arc_end);
       auto start = clip.arc_start;
       if (any_lane(wide)) {
         const auto middle = k.horizon_arc_middle(start, clip.arc_end, select(shading.reversed, Real<S>(-1.0), Real<S>(1.0)));

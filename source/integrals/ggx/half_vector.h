@@ -33,23 +33,18 @@ class HalfVector {
     const auto edge = k.ggx_edge(view_, a, b);
     if (!any_lane(edge.end > edge.begin)) return;
     edges_.push_back(edge);
-    const Real<S> weight = k.half_vector_split_weight(edge);
-    auto first = k.half_vector_split_end(edge, edge.begin, weight);
-    auto p = k.half_vector_at(view_, edge, edge.begin);
+    auto walk = k.half_vector_begin(view_, edge);
     for (int j = 1; j <= options_.arcs; ++j) {
       const Real<S> share(static_cast<double>(j) / options_.arcs);
       const auto tau = j == options_.arcs                    ? edge.end
                        : options_.split == ArcSplit::uniform ? k.half_vector_split_uniform(edge, share)
                                                              : k.half_vector_split_pole_mapped(edge, share);
-      const auto q = k.half_vector_at(view_, edge, tau);
-      const auto last = k.half_vector_split_end(edge, tau, weight);
-      sum_ = sum_ + lobe_.arc(view_, p, q);
-      for (int i = 0; i < kSliverNodes; ++i) {
-        const auto node = k.half_vector_between(view_, edge, first, last, p, q, k.gauss_legendre_node(kSliverNodes, i));
+      walk = k.half_vector_next(walk, view_, edge, tau);
+      sum_ = sum_ + lobe_.arc(view_, walk.a, walk.b);
+      for (int i = 0; i < k.half_vector_nodes(); ++i) {
+        const auto node = k.half_vector_node(walk, view_, edge, i);
         sum_ = sum_ + lobe_.at_half_vector(view_, node.h) * node.solid_angle;
       }
-      p = q;
-      first = last;
     }
   }
   Part<S> finish(Mask<S> reversed) { return lobe_.finish(view_, edges_, sum_, select(reversed, Real<S>(-1.0), Real<S>(1.0))); }
@@ -61,8 +56,6 @@ class HalfVector {
   Part<S> at(const vec3& u) const { return lobe_.at(view_, u); }
 
  private:
-  static constexpr int kSliverNodes = 4;  // three have four to ten times the error (docs/measured/accuracy.md, "Half vectors")
-
   Lobe lobe_;
   HalfVectorOptions options_;
   typename K::GgxView view_;
