@@ -7,7 +7,7 @@
 //   half = lobe(v / |v|) / |v| = scale w_z D / |w|^4        diffuse: cosine / |v| = (n.v) / D
 //
 // and light that reaches the eye by a pair is flux times the product of both halves: no square root. See docs/indirect.md.
-// Needs: constants.glsl ltc.glsl microfacet.glsl
+// Needs: constants.glsl polygon.glsl ltc.glsl microfacet.glsl
 // Source: Xia, Liu, Zeng, Pu, Zhang, "Real-time indirect glossy reflection based on linearly transformed spherical
 // distributions", 2023; Tokuyoshi, Harada, "Stochastic light culling", 2016.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
@@ -154,6 +154,124 @@ IndirectGgx indirect_ggx(mat3 frame, vec3 view, real alpha, vec3 l) {
 // Source: Tokuyoshi, Harada 2016.
 real indirect_kept(real value, real reach, real xi) {
     return select(value > xi * reach, max(value, reach), 0.0);
+}
+
+// The way from a receiver to a virtual light: the vector v, D, and 1 / |v|.
+struct IndirectWay {
+    vec3 v;
+    real d2;
+    real inverse;
+};
+
+// The way from the point p; a light at the point is 1.0e-10 away.
+IndirectWay indirect_way(vec3 light, vec3 p) {
+    IndirectWay way;
+    way.v = light - p;
+    way.d2 = max(dot(way.v, way.v), 1.0e-20);
+    way.inverse = inversesqrt(way.d2);
+    return way;
+}
+
+// A virtual light as a quad, for lobes so sharp that its middle does not stand for it.
+//   normal          unit, on the side away from the receiver
+//   edge_x, edge_y  half its sides
+//   inverse_area    one over its area
+//   size2           squared length of its longer edge
+struct IndirectQuad {
+    vec3 normal;
+    vec3 edge_x;
+    vec3 edge_y;
+    real inverse_area;
+    real size2;
+};
+
+// Lobes of a smaller alpha see virtual lights as quads.
+real indirect_sharp() { return 0.1; }
+
+// True where the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: over a speck the lobe is nearly
+// constant. Also false where the quad is seen edge-on, to a thousandth: indirect_quad_half divides by that sine, and is off by 1.0e-7 of
+// the hemisphere.
+//
+//   kept, value  the light's half after culling and before
+mask indirect_quad_matters(IndirectLobe lobe, IndirectQuad quad, IndirectWay way, real kept, real value) {
+    vec3 w = indirect_under(lobe, way.v);
+    real facing = dot(quad.normal, way.v);
+    return kept > 0.0 && quad.size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > way.d2 * 1.0e-6;
+}
+
+// A walk around the quad in the lobe's own space.
+PolygonWalk indirect_quad_walk(IndirectLobe lobe, vec3 v, vec3 ex, vec3 ey) {
+    vec3 a = polygon_direction(indirect_under(lobe, v + (-ex - ey)));
+    vec3 b = polygon_direction(indirect_under(lobe, v + (ex - ey)));
+    vec3 c = polygon_direction(indirect_under(lobe, v + (ex + ey)));
+    vec3 d = polygon_direction(indirect_under(lobe, v + (ey - ex)));
+    PolygonWalk walk = polygon_begin();
+    walk = polygon_add_edge(walk, a, b);
+    walk = polygon_add_edge(walk, b, c);
+    walk = polygon_add_edge(walk, c, d);
+    return polygon_add_edge(walk, d, a);
+}
+
+// The half of a glossy end, for scale 1, over the quad in place of its value at the middle.
+//
+//   rarity   by which the light stands for more: kept over value
+real indirect_quad_half(IndirectLobe lobe, IndirectQuad quad, IndirectWay way, real wide2, real rarity) {
+    real grow = sqrt(rarity);
+    vec3 ex = quad.edge_x * grow;
+    vec3 ey = quad.edge_y * grow;
+    mask reversed = dot(cross(ex, ey), way.v) < 0.0;
+    real integral = polygon_irradiance(indirect_quad_walk(lobe, way.v, ex, ey), reversed) * inverse_pi();
+    real facing = max(dot(quad.normal, way.v), 1.0e-12);
+    return integral * (way.d2 + wide2) * quad.inverse_area / (facing * lobe.scale * rarity);
+}
+
+// Conditions under which the filter takes two points for one surface.
+//   least_cosine  between the normals
+//   slope2        squared distance from the plane over squared distance
+//   widths        lobes whose alphas differ by more than this fraction have different glossy light
+struct IndirectLikeness {
+    real least_cosine;
+    real slope2;
+    real widths;
+};
+
+// The usual conditions: 26 degrees and a twentieth.
+IndirectLikeness indirect_alike() {
+    IndirectLikeness like;
+    like.least_cosine = 0.9;
+    like.slope2 = 0.0025;
+    like.widths = 0.2;
+    return like;
+}
+
+// Loose conditions, for places that find so little that the pattern would be visible, at edges.
+IndirectLikeness indirect_alike_loosely() {
+    IndirectLikeness like;
+    like.least_cosine = 0.3;
+    like.slope2 = 0.49;
+    like.widths = 0.5;
+    return like;
+}
+
+// True if a point is on the same surface as another, to a hundredth of a millimetre.
+//
+//   n, m     unit normals
+//   d        vector between the points [m]
+mask indirect_same_surface(IndirectLikeness like, vec3 n, vec3 m, vec3 d) {
+    real off = dot(n, d);
+    return dot(n, m) > like.least_cosine && off * off < dot(d, d) * like.slope2 + 1.0e-10;
+}
+
+// Fraction of the filter's weights that is enough.
+real indirect_enough() { return 0.6; }
+
+// The filter's mean of a weighted sum; zero weights give zero.
+vec3 indirect_over(vec3 sum, real weight) { return sum * (1.0 / max(weight, 1.0e-12)); }
+
+// The same; where the weight is less than enough, others supply the rest.
+vec3 indirect_filtered(vec3 sum, real weight, vec3 others, real others_weight) {
+    real lack = max(indirect_enough() - weight, 0.0);
+    return indirect_over(sum + indirect_over(others, others_weight) * lack, weight + lack);
 }
 
 // The largest factor by which M stretches a vector: one over the least by which M^-1 does.
