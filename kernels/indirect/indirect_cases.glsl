@@ -93,6 +93,8 @@ vec4 case_indirect_quad(CaseInput i) {
     return vec4(indirect_quad_half(lobe, quad, way, 0.01, 1.0), matters * indirect_sharp(), 0.0, 0.0);
 }
 
+// Error analysis cannot tell on which side of a condition two surfaces lie.
+
 // filter of the bounce: surfaces that are alike, and means
 //   a.xyz  direction
 //   b.xyz  direction
@@ -100,6 +102,7 @@ vec4 case_indirect_quad(CaseInput i) {
 //   a.w    range(0.1, 1)
 //   b.w    range(0.1, 1)
 // Values: 4
+// Bound: statistical
 vec4 case_indirect_filter(CaseInput i) {
     mask same = indirect_same_surface(indirect_alike(), case_xyz(i.a), case_xyz(i.b), case_xyz(i.c));
     mask loosely = indirect_same_surface(indirect_alike_loosely(), case_xyz(i.a), case_xyz(i.b), case_xyz(i.c));

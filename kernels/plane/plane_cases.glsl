@@ -71,8 +71,6 @@ vec4 case_plane_disk_rays(CaseInput i) {
 // plane, place on a disk of a vertex in front of the eye
 //   a.x    range(0.3, 3)
 //   a.y    range(-1, 1)
-//   b.x    range(-0.2, 0.2)
-//   b.y    range(-0.2, 0.2)
 vec4 case_plane_place_on_light(CaseInput i) {
     vec2 to_light = vec2(4.0, 0.0);
     vec2 from_eye = vec2(i.a.x, i.a.y);
