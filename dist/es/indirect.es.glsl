@@ -184,6 +184,124 @@ float steradian_indirect_kept(float value, float reach, float xi) {
     return steradian_select(value > xi * reach, max(value, reach), 0.0);
 }
 
+// The way from a receiver to a virtual light: the vector v, D, and 1 / |v|.
+struct SteradianIndirectWay {
+    vec3 v;
+    float d2;
+    float inverse;
+};
+
+// The way from the point p; a light at the point is 1.0e-10 away.
+SteradianIndirectWay steradian_indirect_way(vec3 light, vec3 p) {
+    SteradianIndirectWay way;
+    way.v = light - p;
+    way.d2 = max(dot(way.v, way.v), 1.0e-20);
+    way.inverse = inversesqrt(way.d2);
+    return way;
+}
+
+// A virtual light as a quad, for lobes so sharp that its middle does not stand for it.
+//   normal          unit, on the side away from the receiver
+//   edge_x, edge_y  half its sides
+//   inverse_area    one over its area
+//   size2           squared length of its longer edge
+struct SteradianIndirectQuad {
+    vec3 normal;
+    vec3 edge_x;
+    vec3 edge_y;
+    float inverse_area;
+    float size2;
+};
+
+// Lobes of a smaller alpha see virtual lights as quads.
+float steradian_indirect_sharp() { return 0.1; }
+
+// True where the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: over a speck the lobe is nearly
+// constant. Also false where the quad is seen edge-on, to a thousandth: steradian_indirect_quad_half divides by that sine, and is off by 1.0e-7 of
+// the hemisphere.
+//
+//   kept, value  the light's half after culling and before
+bool steradian_indirect_quad_matters(SteradianIndirectLobe lobe, SteradianIndirectQuad quad, SteradianIndirectWay way, float kept, float value) {
+    vec3 w = steradian_indirect_under(lobe, way.v);
+    float facing = dot(quad.normal, way.v);
+    return kept > 0.0 && quad.size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > way.d2 * 1.0e-6;
+}
+
+// A walk around the quad in the lobe's own space.
+SteradianPolygonWalk steradian_indirect_quad_walk(SteradianIndirectLobe lobe, vec3 v, vec3 ex, vec3 ey) {
+    vec3 a = steradian_polygon_direction(steradian_indirect_under(lobe, v + (-ex - ey)));
+    vec3 b = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex - ey)));
+    vec3 c = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex + ey)));
+    vec3 d = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ey - ex)));
+    SteradianPolygonWalk walk = steradian_polygon_begin();
+    walk = steradian_polygon_add_edge(walk, a, b);
+    walk = steradian_polygon_add_edge(walk, b, c);
+    walk = steradian_polygon_add_edge(walk, c, d);
+    return steradian_polygon_add_edge(walk, d, a);
+}
+
+// The half of a glossy end, for scale 1, over the quad in place of its value at the middle.
+//
+//   rarity   by which the light stands for more: kept over value
+float steradian_indirect_quad_half(SteradianIndirectLobe lobe, SteradianIndirectQuad quad, SteradianIndirectWay way, float wide2, float rarity) {
+    float grow = sqrt(rarity);
+    vec3 ex = quad.edge_x * grow;
+    vec3 ey = quad.edge_y * grow;
+    bool reversed = dot(cross(ex, ey), way.v) < 0.0;
+    float integral = steradian_polygon_irradiance(steradian_indirect_quad_walk(lobe, way.v, ex, ey), reversed) * steradian_inverse_pi();
+    float facing = max(dot(quad.normal, way.v), 1.0e-12);
+    return integral * (way.d2 + wide2) * quad.inverse_area / (facing * lobe.scale * rarity);
+}
+
+// Conditions under which the filter takes two points for one surface.
+//   least_cosine  between the normals
+//   slope2        squared distance from the plane over squared distance
+//   widths        lobes whose alphas differ by more than this fraction have different glossy light
+struct SteradianIndirectLikeness {
+    float least_cosine;
+    float slope2;
+    float widths;
+};
+
+// The usual conditions: 26 degrees and a twentieth.
+SteradianIndirectLikeness steradian_indirect_alike() {
+    SteradianIndirectLikeness like;
+    like.least_cosine = 0.9;
+    like.slope2 = 0.0025;
+    like.widths = 0.2;
+    return like;
+}
+
+// Loose conditions, for places that find so little that the pattern would be visible, at edges.
+SteradianIndirectLikeness steradian_indirect_alike_loosely() {
+    SteradianIndirectLikeness like;
+    like.least_cosine = 0.3;
+    like.slope2 = 0.49;
+    like.widths = 0.5;
+    return like;
+}
+
+// True if a point is on the same surface as another, to a hundredth of a millimetre.
+//
+//   n, m     unit normals
+//   d        vector between the points [m]
+bool steradian_indirect_same_surface(SteradianIndirectLikeness like, vec3 n, vec3 m, vec3 d) {
+    float off = dot(n, d);
+    return dot(n, m) > like.least_cosine && off * off < dot(d, d) * like.slope2 + 1.0e-10;
+}
+
+// Fraction of the filter's weights that is enough.
+float steradian_indirect_enough() { return 0.6; }
+
+// The filter's mean of a weighted sum; zero weights give zero.
+vec3 steradian_indirect_over(vec3 sum, float weight) { return sum * (1.0 / max(weight, 1.0e-12)); }
+
+// The same; where the weight is less than enough, others supply the rest.
+vec3 steradian_indirect_filtered(vec3 sum, float weight, vec3 others, float others_weight) {
+    float lack = max(steradian_indirect_enough() - weight, 0.0);
+    return steradian_indirect_over(sum + steradian_indirect_over(others, others_weight) * lack, weight + lack);
+}
+
 // The largest factor by which M stretches a vector: one over the least by which M^-1 does.
 float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
     // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.

@@ -184,6 +184,124 @@ fn steradian_indirect_kept(value: f32, reach: f32, xi: f32) -> f32 {
     return select(0.0, max(value, reach), value > xi * reach);
 }
 
+// The way from a receiver to a virtual light: the vector v, D, and 1 / |v|.
+struct SteradianIndirectWay {
+    v: vec3f,
+    d2: f32,
+    inverse: f32,
+}
+
+// The way from the point p; a light at the point is 1.0e-10 away.
+fn steradian_indirect_way(light: vec3f, p: vec3f) -> SteradianIndirectWay {
+    var way: SteradianIndirectWay;
+    way.v = light - p;
+    way.d2 = max(dot(way.v, way.v), 1.0e-20);
+    way.inverse = inverseSqrt(way.d2);
+    return way;
+}
+
+// A virtual light as a quad, for lobes so sharp that its middle does not stand for it.
+//   normal          unit, on the side away from the receiver
+//   edge_x, edge_y  half its sides
+//   inverse_area    one over its area
+//   size2           squared length of its longer edge
+struct SteradianIndirectQuad {
+    normal: vec3f,
+    edge_x: vec3f,
+    edge_y: vec3f,
+    inverse_area: f32,
+    size2: f32,
+}
+
+// Lobes of a smaller alpha see virtual lights as quads.
+fn steradian_indirect_sharp() -> f32 { return 0.1; }
+
+// True where the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: over a speck the lobe is nearly
+// constant. Also false where the quad is seen edge-on, to a thousandth: indirect_quad_half divides by that sine, and is off by 1.0e-7 of
+// the hemisphere.
+//
+//   kept, value  the light's half after culling and before
+fn steradian_indirect_quad_matters(lobe: SteradianIndirectLobe, quad: SteradianIndirectQuad, way: SteradianIndirectWay, kept: f32, value: f32) -> bool {
+    let w = steradian_indirect_under(lobe, way.v);
+    let facing = dot(quad.normal, way.v);
+    return kept > 0.0 && quad.size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > way.d2 * 1.0e-6;
+}
+
+// A walk around the quad in the lobe's own space.
+fn steradian_indirect_quad_walk(lobe: SteradianIndirectLobe, v: vec3f, ex: vec3f, ey: vec3f) -> SteradianPolygonWalk {
+    let a = steradian_polygon_direction(steradian_indirect_under(lobe, v + (-ex - ey)));
+    let b = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex - ey)));
+    let c = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex + ey)));
+    let d = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ey - ex)));
+    var walk = steradian_polygon_begin();
+    walk = steradian_polygon_add_edge(walk, a, b);
+    walk = steradian_polygon_add_edge(walk, b, c);
+    walk = steradian_polygon_add_edge(walk, c, d);
+    return steradian_polygon_add_edge(walk, d, a);
+}
+
+// The half of a glossy end, for scale 1, over the quad in place of its value at the middle.
+//
+//   rarity   by which the light stands for more: kept over value
+fn steradian_indirect_quad_half(lobe: SteradianIndirectLobe, quad: SteradianIndirectQuad, way: SteradianIndirectWay, wide2: f32, rarity: f32) -> f32 {
+    let grow = sqrt(rarity);
+    let ex = quad.edge_x * grow;
+    let ey = quad.edge_y * grow;
+    let reversed = dot(cross(ex, ey), way.v) < 0.0;
+    let integral = steradian_polygon_irradiance(steradian_indirect_quad_walk(lobe, way.v, ex, ey), reversed) * steradian_inverse_pi();
+    let facing = max(dot(quad.normal, way.v), 1.0e-12);
+    return integral * (way.d2 + wide2) * quad.inverse_area / (facing * lobe.scale * rarity);
+}
+
+// Conditions under which the filter takes two points for one surface.
+//   least_cosine  between the normals
+//   slope2        squared distance from the plane over squared distance
+//   widths        lobes whose alphas differ by more than this fraction have different glossy light
+struct SteradianIndirectLikeness {
+    least_cosine: f32,
+    slope2: f32,
+    widths: f32,
+}
+
+// The usual conditions: 26 degrees and a twentieth.
+fn steradian_indirect_alike() -> SteradianIndirectLikeness {
+    var like: SteradianIndirectLikeness;
+    like.least_cosine = 0.9;
+    like.slope2 = 0.0025;
+    like.widths = 0.2;
+    return like;
+}
+
+// Loose conditions, for places that find so little that the pattern would be visible, at edges.
+fn steradian_indirect_alike_loosely() -> SteradianIndirectLikeness {
+    var like: SteradianIndirectLikeness;
+    like.least_cosine = 0.3;
+    like.slope2 = 0.49;
+    like.widths = 0.5;
+    return like;
+}
+
+// True if a point is on the same surface as another, to a hundredth of a millimetre.
+//
+//   n, m     unit normals
+//   d        vector between the points [m]
+fn steradian_indirect_same_surface(like: SteradianIndirectLikeness, n: vec3f, m: vec3f, d: vec3f) -> bool {
+    let off = dot(n, d);
+    return dot(n, m) > like.least_cosine && off * off < dot(d, d) * like.slope2 + 1.0e-10;
+}
+
+// Fraction of the filter's weights that is enough.
+fn steradian_indirect_enough() -> f32 { return 0.6; }
+
+// The filter's mean of a weighted sum; zero weights give zero.
+fn steradian_indirect_over(sum: vec3f, weight: f32) -> vec3f { return sum * (1.0 / max(weight, 1.0e-12)); }
+
+// The same; where the weight is less than enough, others supply the rest.
+fn steradian_indirect_filtered(sum: vec3f, weight: f32, others: vec3f, others_weight: f32) -> vec3f {
+    let lack = max(steradian_indirect_enough() - weight, 0.0);
+    return steradian_indirect_over(sum + steradian_indirect_over(others, others_weight) * lack, weight + lack);
+}
+
 // The largest factor by which M stretches a vector: one over the least by which M^-1 does.
 fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
     // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.

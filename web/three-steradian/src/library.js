@@ -303,6 +303,7 @@ vec3 steradian_horizon_crossing(vec3 a, vec3 b) {
     p = p * inversesqrt(max(dot(p, p), steradian_smallest_square()));
     return vec3(p.x, p.y, 0.0);
 }
+bool steradian_horizon_arc_wide(vec3 a, vec3 b) { return dot(a, b) < -0.9999; }
 vec3 steradian_horizon_arc_middle(vec3 a, vec3 b, float facing) {
     float unsure = 1.0e-6;
     vec2 across = vec2(b.y - a.y, a.x - b.x) * facing;
@@ -601,6 +602,32 @@ float steradian_light_elements_sharpness(float deviation) {
 float steradian_light_elements_half_vector_sharpness(float deviation, float view_z) {
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
+float steradian_light_elements_power_sharpness(float n) {
+    return steradian_light_elements_diffuse_sharpness() + sqrt(n);
+}
+struct SteradianLightElementsLimits {
+    float roundings;
+    float least_distance2;
+    float bias;
+};
+SteradianLightElementsLimits steradian_light_elements_limits(float roundings, float least_distance2, float bias) {
+    SteradianLightElementsLimits limits;
+    limits.roundings = roundings;
+    limits.least_distance2 = least_distance2;
+    limits.bias = bias;
+    return limits;
+}
+SteradianLightElementsLimits steradian_light_elements_along_edges() { return steradian_light_elements_limits(2.0, 4000.0, 0.0); }
+SteradianLightElementsLimits steradian_light_elements_transformed() { return steradian_light_elements_limits(8.0, 2000.0, 0.0); }
+SteradianLightElementsLimits steradian_light_elements_along_arcs() { return steradian_light_elements_limits(128.0, 500.0, 0.0); }
+SteradianLightElementsLimits steradian_light_elements_along_half_vectors(float bias) { return steradian_light_elements_limits(128.0, 30.0, bias); }
+SteradianLightElementsLimits steradian_light_elements_along_power(float n, float bias) {
+    float sharpness = steradian_light_elements_power_sharpness(n);
+    return steradian_light_elements_limits(128.0, steradian_select(bias > 0.0, min(500.0, 4.0 * sharpness * sharpness), 500.0), bias);
+}
+float steradian_light_elements_series_bias() { return 0.015625; }
+float steradian_light_elements_series_high_bias() { return 0.008695652173913044; }
+float steradian_light_elements_beckmann_bias() { return 0.005; }
 bool steradian_light_elements_serve(SteradianLightElements e, vec3 normal, float sharpness, float roundings, float bias) {
     float unit = 6.0e-8;
     float inverse = inversesqrt(max(dot(e.center, e.center), steradian_smallest_square()));
@@ -1013,6 +1040,23 @@ vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 
 }
 vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
+}
+SteradianLightElements steradian_capsule_elements(vec3 center, vec3 axis, float radius) {
+    float r2 = radius * radius;
+    float length2 = dot(axis, axis);
+    vec3 along = axis * inversesqrt(max(length2, steradian_smallest_square()));
+    vec3 sight = center * inversesqrt(max(dot(center, center), steradian_smallest_square()));
+    vec3 across = sight - along * dot(along, sight);
+    vec3 aside = cross(along, sight);
+    float strip = 2.0 * radius * sqrt(length2);
+    float balls = steradian_pi() * r2;
+    float share = 2.0 / max(strip + balls, steradian_smallest_square());
+    SteradianLightElements e;
+    e.center = center;
+    e.area = -(across * (inversesqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 * 0.0833333333333333333 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (inversesqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip * 0.333333333333333333 + balls * 0.25)));
+    return e;
 }
 struct SteradianCapsule {
     vec3 end_a;
@@ -2592,6 +2636,35 @@ SteradianHalfVectorNode steradian_half_vector_between(SteradianGgxView view, Ste
     node.h = middle * shorter;
     node.solid_angle = steradian_select(n2 > steradian_smallest_square(), -apart * sweep * (shorter * shorter * shorter), 0.0);
     return node;
+}
+struct SteradianHalfVectorWalk {
+    float weight;
+    SteradianConicNode first;
+    SteradianConicNode last;
+    vec3 a;
+    vec3 b;
+};
+SteradianHalfVectorWalk steradian_half_vector_begin(SteradianGgxView view, SteradianConicArc edge) {
+    SteradianHalfVectorWalk walk;
+    walk.weight = steradian_half_vector_split_weight(edge);
+    walk.last = steradian_half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = steradian_half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+SteradianHalfVectorWalk steradian_half_vector_next(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, float tau) {
+    SteradianHalfVectorWalk next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = steradian_half_vector_split_end(edge, tau, walk.weight);
+    next.b = steradian_half_vector_at(view, edge, tau);
+    return next;
+}
+int steradian_half_vector_nodes() { return 4; }
+SteradianHalfVectorNode steradian_half_vector_node(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, int i) {
+    vec2 rule = steradian_gauss_legendre_node(steradian_half_vector_nodes(), i);
+    return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 float steradian_blinn_phong_at_half_vector(vec3 h, vec3 v, float n) {
     return 2.0 * steradian_pi() * steradian_blinn_phong_distribution(h, n) * max(dot(h, v), 0.0);
