@@ -109,3 +109,30 @@ vec4 case_indirect_filter(CaseInput i) {
     vec3 mean = indirect_filtered(case_xyz(i.c), i.a.w, case_xyz(i.b), i.b.w);
     return vec4(mean.x, mean.y, mean.z, select(same, 2.0, select(loosely, 1.0, 0.0)));
 }
+
+// Error analysis cannot tell whether a region that just touches a box reaches it.
+
+// virtual light: whether its regions reach a box
+//   a.xyz  vector(0.5, 5)
+//   b.xyz  direction
+//   c.x    range(0.1, 1)
+//   c.y    range(0.1, 1)
+//   c.z    range(0.1, 1)
+// Values: 2
+// Bound: statistical
+vec4 case_indirect_reaches(CaseInput i) {
+    IndirectBox box;
+    box.center = vec3(0.0, 0.0, 0.0);
+    box.extent = case_xyz(i.c);
+    box.normal = vec3(0.0, 0.0, 1.0);
+    box.turn = vec3(0.5, 0.5, 0.5);
+    vec3 at = case_xyz(i.a);
+    vec3 n = case_xyz(i.b);
+    mask egg = indirect_egg_reaches(box, at, n, 3.0, dot(n, at));
+    mat3 frame = frame_from_normal(n);
+    vec3 x = transform(frame, vec3(0.5, 0.0, 0.0));
+    vec3 y = transform(frame, vec3(0.0, 0.5, 0.0));
+    vec3 z = transform(frame, vec3(0.0, 0.0, 0.7));
+    mask spheroid = indirect_spheroid_reaches(box, x, y, z, vec3(dot(x, at), dot(y, at), dot(z, at) - 0.85), n, dot(n, at));
+    return vec4(select(egg, 1.0, 0.0), select(spheroid, 1.0, 0.0), 0.0, 0.0);
+}
