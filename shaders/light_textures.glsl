@@ -1,5 +1,5 @@
-// Textured lights as the host wrote them (source/device/direct/light_records.cpp): a head, the levels of blurred copies, the cells of the
-// tree. The parity of frames holds them to the host.
+// Textured lights from the host (source/device/direct/light_records.cpp): a head, the levels of blurred copies, the cells of the
+// tree.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "integrals/textured/texture_rule.glsl"
 #include "integral/texture_cell.glsl"

@@ -1,5 +1,4 @@
-// Lights as the host wrote them (source/device/direct/light_records.cpp), and how a point sees them. This text mirrors source/shapes for
-// packs; the parity of frames holds the two together.
+// Lights from the host (source/device/direct/light_records.cpp), and how a point sees them.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // One light.

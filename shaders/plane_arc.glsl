@@ -155,5 +155,5 @@ vec3 arc_light(uint at) {
         }
         from = after_gap(k, from);
     }
-    return (colour_at(at + uint(kLightColour)) * sum.x + colour_at(at + uint(kLightSlope)) * sum.y) * kInverseTurn;
+    return (colour_at(at + uint(kLightColour)) * sum.x + colour_at(at + uint(kLightSlope)) * sum.y) * inverse_two_pi();
 }

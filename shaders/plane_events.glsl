@@ -101,7 +101,7 @@ float share_left(DiskView view) {
         from = after_gap(k, from);
     }
     turns += taken + 1;
-    return max(sum, 0.0) * kInverseTurn;
+    return max(sum, 0.0) * inverse_two_pi();
 }
 
 #if KIND == PLANE_DISKS

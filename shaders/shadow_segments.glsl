@@ -1,5 +1,4 @@
-// A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells. Mirrors
-// source/shadow/edges/edge_arrays.cpp and lanes_see_pack.cpp.
+// A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 shared ivec4 cells[SEGMENT_SPACE];  // start, end

@@ -1,5 +1,5 @@
-// Mean radiance of a textured light, as a lobe sees it: over cells of it, as in source/integrals/textured/texture_mean.h. If the lobe is too
-// narrow for cells, it is a look-up in blurred copies, as in source/integrals/textured/textured_light.cpp.
+// Mean radiance of a textured light, as a lobe sees it: over cells of it (texture_cell.glsl). If the lobe is too narrow for cells,
+// it is a look-up in blurred copies.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The surface's lobe: 0 the diffuse one, 1 the base's, 2 the coat's, 3 one of extras.steradian.

@@ -164,7 +164,7 @@ class EventEnds {
   }
 
   STERADIAN_INLINE void add_colour(int i, PackReal share) {
-    share = share * PackReal(0.159154943091895336);
+    share = share * PackKernels().inverse_two_pi();
     if (shares_ != nullptr) {
       if (!shared) std::fill_n(shares_, kTilePixels, 0.0f);
       shared = true;
