@@ -8,22 +8,17 @@ const bool FORESHORTENED = LOBE_FORM == 1;
 float phong_share(vec3 a, vec3 b, vec3 r, float n) {
     MomentEdge edge = moment_edge(a, b, r);
     if (!FORESHORTENED) return moment_edge_share(edge, phong_front(edge, n));
-    float front = 0.0;
+    float front;
     float cosines;
     if (METHOD == kPhongExact) {
-        if (n == 0.0) {
-            cosines = trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
-        } else {
-            MomentIntegrands q = moment_quadrature_front(edge, n - 1.0);
-            front = q.moment;
-            cosines = q.power;
-        }
+        MomentIntegrands q = moment_foreshortened_front(edge, n, int(n == 0.0));
+        front = q.moment;
+        cosines = q.power;
     } else {
         front = phong_front(edge, n - 1.0);
         cosines = moment_cosine_front(edge, n, LOW_EXPONENT > 0 ? 1 : 0);
     }
-    float share = moment_double_axis_share(a, b, r, vec3(0.0, 0.0, 1.0), moment_edge_share(edge, front), cosines);
-    return (n + 1.0) / (n + 2.0) * share;
+    return (n + 1.0) / (n + 2.0) * moment_foreshortened_share(edge, a, b, r, front, cosines);
 }
 
 struct PhongLobe {
