@@ -44,7 +44,7 @@ void add_pair(Receiver at, IndirectWay way, float kept, float value, vec3 bright
     if (QUADS && at.sharp) {
         IndirectQuad quad = IndirectQuad(light_normal, lights[edges].xyz, lights[edges + 1].xyz, inverse_area, size2);
         if (indirect_quad_matters(at.lobe, quad, way, kept, value))
-            through = indirect_quad_half(at.lobe, quad, way, soft, kept / max(value, 1.0e-30));
+            through = indirect_quad_half(at.lobe, quad, way, soft, kept / max(value, smallest_divisor()));
     }
     if (cosine > 0.0) glossy_sum += bright * (kept * through);
 }

@@ -43,20 +43,13 @@ EllipsoidOutline round_outline(Light light, vec3 p) {
     return ellipsoid_outline(light.r[2].xyz - p, axes, inverse_axes);
 }
 
-// The outline in units of its distance, so that squares of squares stay in the range of float.
 Ellipse ellipse_in(Light light, mat3 frame, vec3 p) {
     EllipsoidOutline outline = round_outline(light, p);
-    float size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
-    float unit = inversesqrt(max(size2, 1.0e-30));
-    return ellipse_prepare(transform_transposed(frame, outline.center) * unit, transform_transposed(frame, outline.axis_a) * unit,
-                           transform_transposed(frame, outline.axis_b) * unit);
+    return ellipse_in_units(frame, outline.center, outline.axis_a, outline.axis_b);
 }
 
 Capsule capsule_between(vec3 end_a, vec3 end_b, float radius, mat3 frame, vec3 p) {
-    vec3 a = transform_transposed(frame, end_a - p);
-    vec3 b = transform_transposed(frame, end_b - p);
-    float unit = inversesqrt(max(dot(a, a) + dot(b, b) + radius * radius, 1.0e-30));
-    return capsule_prepare(a * unit, b * unit, radius * unit);
+    return capsule_in_units(transform_transposed(frame, end_a - p), transform_transposed(frame, end_b - p), radius);
 }
 
 Capsule capsule_in(Light light, mat3 frame, vec3 p) {

@@ -40,7 +40,7 @@ Edge edge_of(vec2 point, vec2 normal, float begin, float inverse_range) {
 
 float slope_along(Edge e, float place) { return clamp((place - e.foot) * e.inverse_d, -kBeyond, kBeyond); }
 
-float reach_of(Edge e) { return sqrt(max(1.0 / max(e.q, 1.0e-30) - 1.0, 0.0)); }
+float reach_of(Edge e) { return sqrt(max(1.0 / max(e.q, smallest_divisor()) - 1.0, 0.0)); }
 
 // Emission of an edge.
 struct Emission {
@@ -92,7 +92,7 @@ vec2 small_sums(vec2 a, vec2 b) {
 float share_at(float m, vec2 begin, vec2 end) {
     float g0 = m * begin.x - begin.y;
     float g1 = m * end.x - end.y;
-    return clamp(g0 / max(g0 - g1, 1.0e-30), 0.0, 1.0);
+    return clamp(g0 / max(g0 - g1, smallest_divisor()), 0.0, 1.0);
 }
 
 vec3 small_part_light(uint part, vec2 run_axis, bool whole) {

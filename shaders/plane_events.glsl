@@ -40,7 +40,7 @@ void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
         vec2 from_eye = v - eye;
         vec2 from_light = v - light;
         float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
-        float place = across * inversesqrt(max(dot(from_eye, from_eye), 1.0e-30));
+        float place = across * inversesqrt(max(dot(from_eye, from_eye), smallest_divisor()));
         if (!(dot(p, from_eye) < 0.0)) place = plane_beyond(cross2(near, from_eye));
         from = min(from, place);
         to = max(to, place);

@@ -110,7 +110,7 @@ vec3 mean_by_look_up(Light light, LightTexture t, LtcTextureCellView view, mat3 
         ltc_texture_axes(vec2(dot(f.axis_a, view.x), dot(f.axis_a, view.y)), vec2(dot(f.axis_b, view.x), dot(f.axis_b, view.y)));
     vec3 from_origin = f.center - view.origin;
     vec2 hit = vec2(dot(from_origin, view.x), dot(from_origin, view.y));
-    float z = max(ltc_transform(view.transform_inverse, f.center).z, 1.0e-30);
+    float z = max(ltc_transform(view.transform_inverse, f.center).z, smallest_divisor());
     vec2 slope = vec2(ltc_transform(view.transform_inverse, view.x).z, ltc_transform(view.transform_inverse, view.y).z) / z;
     float widest = kTextureWidest * sqrt(t.covariance.x + t.covariance.z);
     vec4 sum = vec4(0.0);

@@ -96,6 +96,12 @@ Capsule capsule_prepare(vec3 end_a, vec3 end_b, real radius) {
     return c;
 }
 
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+Capsule capsule_in_units(vec3 end_a, vec3 end_b, real radius) {
+    real unit = inversesqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, smallest_divisor()));
+    return capsule_prepare(end_a * unit, end_b * unit, radius * unit);
+}
+
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
 real capsule_touch(Capsule c) {
     return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));

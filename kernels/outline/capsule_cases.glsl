@@ -10,7 +10,7 @@
 // Values: 3
 // Bound: statistical
 vec4 case_capsule_irradiance(CaseInput i) {
-    return case_of_vec3(capsule_irradiance_vector(capsule_prepare(case_xyz(i.a), case_xyz(i.b), i.c.x)));
+    return case_of_vec3(capsule_irradiance_vector(capsule_in_units(case_xyz(i.a), case_xyz(i.b), i.c.x)));
 }
 
 // line, irradiance vector

@@ -45,9 +45,7 @@ template <class S>
 STERADIAN_INLINE auto capsule_in(const packed::Capsule& light, const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p) {
   const auto a = transform_transposed(frame, to_kernel<S>(light.end_a) - p);
   const auto b = transform_transposed(frame, to_kernel<S>(light.end_b) - p);
-  const Real<S> radius(static_cast<double>(light.radius));
-  const Real<S> unit = inversesqrt(max(dot(a, a) + dot(b, b) + radius * radius, Real<S>(1.0e-30)));
-  return Kernels<S>().capsule_prepare(a * unit, b * unit, radius * unit);
+  return Kernels<S>().capsule_in_units(a, b, static_cast<double>(light.radius));
 }
 
 // These are functions of their own: inlined, they would take registers from the walks of polygons.

@@ -103,11 +103,7 @@ STERADIAN_INLINE Seen<S> see(const packed::Ellipsoid& light, const typename Kern
 template <class S, class Round>
 STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p) {
   const auto outline = outline_from<S>(light, p);
-  const Real<S> size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
-  const Real<S> unit = inversesqrt(max(size2, Real<S>(1.0e-30)));
-  return Kernels<S>().ellipse_prepare(transform_transposed(frame, outline.center) * unit,
-                                      transform_transposed(frame, outline.axis_a) * unit,
-                                      transform_transposed(frame, outline.axis_b) * unit);
+  return Kernels<S>().ellipse_in_units(frame, outline.center, outline.axis_a, outline.axis_b);
 }
 
 // Mean squares of the lights' extents; an ellipsoid's is an upper bound.
