@@ -1503,6 +1503,14 @@ SteradianEllipse steradian_ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b
     return e;
 }
 
+// The same in the shading frame and in units of the distance, for any unit: squares of squares stay in the range of float.
+SteradianEllipse steradian_ellipse_in_units(mat3 frame, vec3 center, vec3 axis_a, vec3 axis_b) {
+    float size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    float unit = inversesqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
+}
+
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
 //
 //   e        of steradian_ellipse_prepare
@@ -1916,6 +1924,12 @@ SteradianCapsule steradian_capsule_prepare(vec3 end_a, vec3 end_b, float radius)
     c.radius = radius;
     c.outside = steradian_select(beside, height2, nearer2) > radius2;
     return c;
+}
+
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+SteradianCapsule steradian_capsule_in_units(vec3 end_a, vec3 end_b, float radius) {
+    float unit = inversesqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
@@ -2987,6 +3001,29 @@ float steradian_moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float s
     float n2 = dot(n, n);
     float inward = dot(n, v) * inversesqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + steradian_select(n2 > steradian_smallest_divisor(), inward * cosines, 0.0);
+}
+
+// The two integrands over the part in front of a lobe of exponent n times the light's cosine, by quadrature: share's and cosines'.
+//
+//   level  1 where n is 0, the same for every lane: the integral of x^0 is the angle, and (1 - x^0)/(1 - x^2) is 0
+SteradianMomentIntegrands steradian_moment_foreshortened_front(SteradianMomentEdge edge, float n, int level) {
+    SteradianMomentIntegrands front;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+
+// One edge's share of (n + 2) times the moment of a lobe times the light's cosine: z is the normal.
+//
+//   front    |s| times the integral of (1 - x^m)/(1 - x^2) with exponent n - 1, by any method
+//   cosines  the integral of x^n dphi over the part in front, by any method
+float steradian_moment_foreshortened_share(SteradianMomentEdge edge, vec3 a, vec3 b, vec3 r, float front, float cosines) {
+    return steradian_moment_double_axis_share(a, b, r, vec3(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
 }
 
 // ======== ltc: linearly transformed cosines over polygons, textured ones too ========
@@ -5346,6 +5383,10 @@ float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
     return inversesqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
+// The spheroid that holds the egg of range 1 (steradian_indirect_spheroid): the distance of its centre in front of the light, and its half axes
+// along that direction and across. A ball of the last holds it too.
+vec3 steradian_indirect_ball() { return vec3(0.46, 0.54, 0.628); }
+
 // The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
 //   lobe     turned; a diffuse light's: its frame
@@ -5358,5 +5399,89 @@ float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
 vec3 steradian_indirect_spheroid(SteradianIndirectLobe lobe, vec3 v, float range) {
     vec3 w = steradian_indirect_under(lobe, v);
     float inverse = 1.0 / range;
-    return vec3(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
+    vec3 ball = steradian_indirect_ball();
+    return vec3(w.x * (inverse / ball.z), w.y * (inverse / ball.z), (w.z * inverse - ball.x) / ball.y);
+}
+
+// Bounds of receivers: a box of their places, and of their normals.
+//   center, extent  the box' middle and half its sides
+//   normal, turn    the same of the normals
+struct SteradianIndirectBox {
+    vec3 center;
+    vec3 extent;
+    vec3 normal;
+    vec3 turn;
+};
+
+// Half the box' extent along a vector, times its length.
+float steradian_indirect_box_reach(SteradianIndirectBox box, vec3 along) {
+    return abs(along.x) * box.extent.x + abs(along.y) * box.extent.y + abs(along.z) * box.extent.z;
+}
+
+// Squared distance of a point from the box.
+float steradian_indirect_box_distance2(SteradianIndirectBox box, vec3 p) {
+    vec3 d = vec3(max(abs(box.center.x - p.x) - box.extent.x, 0.0), max(abs(box.center.y - p.y) - box.extent.y, 0.0),
+                  max(abs(box.center.z - p.z) - box.extent.z, 0.0));
+    return dot(d, d);
+}
+
+// The largest product of a coordinate of a normal and of a way, each within its bounds.
+float steradian_indirect_most(float normal, float turn, float way, float extent) {
+    return normal * way + abs(normal) * extent + turn * (abs(way) + extent);
+}
+
+// True if the egg of a diffuse virtual light may reach the box.
+//
+//   at, n    place and normal
+//   range    square root of bright / threshold
+//   offset   dot(n, p) of the light's plane
+//
+// Two bounds: d^3 <= range^2 h, with the least distance d and the greatest height h above the light's plane, culls boxes in the plane
+// itself; the ball that holds the egg is for large boxes. No light comes from below the horizons of all receivers: n.v is largest where
+// each of its three products is.
+bool steradian_indirect_egg_reaches(SteradianIndirectBox box, vec3 at, vec3 n, float range, float offset) {
+    float height = dot(n, box.center) + abs(n.x) * box.extent.x + abs(n.y) * box.extent.y + abs(n.z) * box.extent.z - offset;
+    vec3 v = at - box.center;
+    float above = steradian_indirect_most(box.normal.x, box.turn.x, v.x, box.extent.x) + steradian_indirect_most(box.normal.y, box.turn.y, v.y, box.extent.y)
+        + steradian_indirect_most(box.normal.z, box.turn.z, v.z, box.extent.z);
+    bool reaches = height > 0.0 && above > 0.0;
+    if (reaches) {  // neighbours in the light's grid mostly agree
+        vec3 ball = steradian_indirect_ball();
+        float range2 = range * range;
+        float d2 = steradian_indirect_box_distance2(box, at);
+        float reach = range2 * height;
+        float ball2 = steradian_indirect_box_distance2(box, at + n * (range * ball.x));
+        reaches = reaches && d2 * d2 * d2 <= reach * reach && ball2 <= range2 * (ball.z * ball.z);
+    }
+    return reaches;
+}
+
+// True if the spheroid of a glossy virtual light may reach the box.
+//
+//   x, y, z  rows of T
+//   g        the unit ball is that of q = g - T p
+//   n        the light's normal
+//   offset   dot(n, p) of the light's plane
+//
+// The ball is tested against the box under T, a parallelepiped. They are apart if the plane that touches the ball below the box' centre
+// separates them. They are also apart if the box' bounds along the lobe's axes miss the egg in the ball: |w|^3 <= w_z, w in units of the
+// range. A sharp and bright lobe's ball is so large that it contains everything near its light. The egg begins at the light, and extends
+// one way.
+bool steradian_indirect_spheroid_reaches(SteradianIndirectBox box, vec3 x, vec3 y, vec3 z, vec3 g, vec3 n, float offset) {
+    vec3 ball = steradian_indirect_ball();
+    float qz = g.z - dot(z, box.center);
+    float wz = ball.y * qz + ball.x;
+    float deep = ball.y * steradian_indirect_box_reach(box, z);
+    float highest = wz + deep + 1.0e-6 * (abs(g.z) + 1.0);  // plus the rounding of a difference in float
+    bool reaches = highest > 0.0 && dot(n, box.center) + steradian_indirect_box_reach(box, n) > offset;
+    if (reaches) {
+        vec3 q = vec3(g.x - dot(x, box.center), g.y - dot(y, box.center), qz);
+        float q2 = dot(q, q);
+        float gap = q2 - steradian_indirect_box_reach(box, x * q.x + y * q.y + z * q.z);  // T transposed times q
+        vec3 least = vec3(ball.z * max(abs(q.x) - steradian_indirect_box_reach(box, x), 0.0), ball.z * max(abs(q.y) - steradian_indirect_box_reach(box, y), 0.0),
+                          max(abs(wz) - deep, 0.0));
+        float w2 = dot(least, least);
+        reaches = reaches && !(gap > 0.0 && gap * gap > q2) && w2 * w2 * w2 <= highest * highest;
+    }
+    return reaches;
 }

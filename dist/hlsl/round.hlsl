@@ -449,6 +449,14 @@ SteradianEllipse steradian_ellipse_prepare(float3 center, float3 axis_a, float3 
     return e;
 }
 
+// The same in the shading frame and in units of the distance, for any unit: squares of squares stay in the range of float.
+SteradianEllipse steradian_ellipse_in_units(float3x3 frame, float3 center, float3 axis_a, float3 axis_b) {
+    float size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    float unit = rsqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
+}
+
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
 //
 //   e        of steradian_ellipse_prepare
@@ -862,6 +870,12 @@ SteradianCapsule steradian_capsule_prepare(float3 end_a, float3 end_b, float rad
     c.radius = radius;
     c.outside = steradian_select(beside, height2, nearer2) > radius2;
     return c;
+}
+
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+SteradianCapsule steradian_capsule_in_units(float3 end_a, float3 end_b, float radius) {
+    float unit = rsqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).

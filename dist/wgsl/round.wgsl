@@ -449,6 +449,14 @@ fn steradian_ellipse_prepare(center: vec3f, axis_a: vec3f, axis_b: vec3f) -> Ste
     return e;
 }
 
+// The same in the shading frame and in units of the distance, for any unit: squares of squares stay in the range of float.
+fn steradian_ellipse_in_units(frame: mat3x3f, center: vec3f, axis_a: vec3f, axis_b: vec3f) -> SteradianEllipse {
+    let size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    let unit = inverseSqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
+}
+
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
 //
 //   e        of ellipse_prepare
@@ -862,6 +870,12 @@ fn steradian_capsule_prepare(end_a: vec3f, end_b: vec3f, radius: f32) -> Steradi
     c.radius = radius;
     c.outside = select(nearer2, height2, beside) > radius2;
     return c;
+}
+
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+fn steradian_capsule_in_units(end_a: vec3f, end_b: vec3f, radius: f32) -> SteradianCapsule {
+    let unit = inverseSqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).

@@ -819,6 +819,12 @@ SteradianEllipse steradian_ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b
     e.axis_b = steradian_select(reversed, -axis_b, axis_b);
     return e;
 }
+SteradianEllipse steradian_ellipse_in_units(mat3 frame, vec3 center, vec3 axis_a, vec3 axis_b) {
+    float size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    float unit = inversesqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
+}
 SteradianLightElements steradian_ellipse_elements(SteradianEllipse e) {
     SteradianLightElements elements;
     elements.center = e.center;
@@ -1100,6 +1106,10 @@ SteradianCapsule steradian_capsule_prepare(vec3 end_a, vec3 end_b, float radius)
     c.radius = radius;
     c.outside = steradian_select(beside, height2, nearer2) > radius2;
     return c;
+}
+SteradianCapsule steradian_capsule_in_units(vec3 end_a, vec3 end_b, float radius) {
+    float unit = inversesqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 float steradian_capsule_touch(SteradianCapsule c) {
     return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
@@ -1791,6 +1801,20 @@ float steradian_moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float s
     float n2 = dot(n, n);
     float inward = dot(n, v) * inversesqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + steradian_select(n2 > steradian_smallest_divisor(), inward * cosines, 0.0);
+}
+SteradianMomentIntegrands steradian_moment_foreshortened_front(SteradianMomentEdge edge, float n, int level) {
+    SteradianMomentIntegrands front;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+float steradian_moment_foreshortened_share(SteradianMomentEdge edge, vec3 a, vec3 b, vec3 r, float front, float cosines) {
+    return steradian_moment_double_axis_share(a, b, r, vec3(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
 }
 struct SteradianLtcMatrix {
     float xx;

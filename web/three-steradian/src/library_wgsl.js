@@ -817,6 +817,12 @@ fn steradian_ellipse_prepare(center: vec3f, axis_a: vec3f, axis_b: vec3f) -> Ste
     e.axis_b = select(axis_b, -axis_b, reversed);
     return e;
 }
+fn steradian_ellipse_in_units(frame: mat3x3f, center: vec3f, axis_a: vec3f, axis_b: vec3f) -> SteradianEllipse {
+    let size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    let unit = inverseSqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
+}
 fn steradian_ellipse_elements(e: SteradianEllipse) -> SteradianLightElements {
     var elements: SteradianLightElements;
     elements.center = e.center;
@@ -1098,6 +1104,10 @@ fn steradian_capsule_prepare(end_a: vec3f, end_b: vec3f, radius: f32) -> Steradi
     c.radius = radius;
     c.outside = select(nearer2, height2, beside) > radius2;
     return c;
+}
+fn steradian_capsule_in_units(end_a: vec3f, end_b: vec3f, radius: f32) -> SteradianCapsule {
+    let unit = inverseSqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 fn steradian_capsule_touch(c: SteradianCapsule) -> f32 {
     return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
@@ -1789,6 +1799,20 @@ fn steradian_moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, sh
     let n2 = dot(n, n);
     let inward = dot(n, v) * inverseSqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + select(0.0, inward * cosines, n2 > steradian_smallest_divisor());
+}
+fn steradian_moment_foreshortened_front(edge: SteradianMomentEdge, n: f32, level: i32) -> SteradianMomentIntegrands {
+    var front: SteradianMomentIntegrands;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+fn steradian_moment_foreshortened_share(edge: SteradianMomentEdge, a: vec3f, b: vec3f, r: vec3f, front: f32, cosines: f32) -> f32 {
+    return steradian_moment_double_axis_share(a, b, r, vec3f(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
 }
 struct SteradianLtcMatrix {
     xx: f32,
