@@ -132,7 +132,8 @@ def without_lanes(pieces):
 
 
 HELPERS = ("select", "transform", "transform_transposed", "xy")
-TEXTS = {path: path.read_text() for path in kernel_files()}
+PROGRAMS_OWN = ("texture_cell", "shadow")  # kernels that say nothing without our programs' lists
+TEXTS = {path: path.read_text() for path in kernel_files() if path.stem not in PROGRAMS_OWN}
 FUNCTIONS = {name: "steradian_" + name
              for name in (*HELPERS, *(name for text in TEXTS.values() for name, _ in functions(text)))}
 STRUCTS = {name: "Steradian" + name
@@ -484,7 +485,7 @@ def topic_text(topic, language, printer):
     if topic == "ltc_tables":
         return tables_text(language)
     kernels = "".join(f"// ==== {p.stem} ====\n\n{printer(without_head(without_double(TEXTS[p]))).strip()}\n\n"
-                      for p in in_order(kernel_files()) if topic_of(p) == topic)
+                      for p in in_order(TEXTS) if topic_of(p) == topic)
     return (LANGUAGES[language][3] + "\n" if topic == "math" else "") + kernels.rstrip("\n") + "\n"
 
 

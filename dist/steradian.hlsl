@@ -877,7 +877,7 @@ float steradian_solid_angle_finish(SteradianSolidAngleWalk walk, bool reversed) 
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = steradian_horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-// each arc in two where it may be nearly half the horizon (steradian_horizon_arc_middle)
+// each arc in two where it is wide (steradian_horizon_arc_wide, steradian_horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (steradian_polygon_direction) in walk order.
 
@@ -922,6 +922,9 @@ float3 steradian_horizon_crossing(float3 a, float3 b) {
     p = p * rsqrt(max(dot(p, p), steradian_smallest_square()));
     return float3(p.x, p.y, 0.0);
 }
+
+// True where an arc from a to b may be nearly half the horizon: integrals take it in two.
+bool steradian_horizon_arc_wide(float3 a, float3 b) { return dot(a, b) < -0.9999; }
 
 // A direction between the ends of an arc of the horizon that is wider than a right angle.
 //
@@ -1477,13 +1480,67 @@ float steradian_light_elements_half_vector_sharpness(float deviation, float view
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
+// Sharpness of a power n of a cosine, whose deviation is 1 / sqrt(n).
+float steradian_light_elements_power_sharpness(float n) {
+    return steradian_light_elements_diffuse_sharpness() + sqrt(n);
+}
+
+// Limits of an integral along the outline, beyond which the elements are better.
+//   roundings        how many roundings of a unit direction the integral makes, relative to the light's solid angle times
+//                    its distance over its size
+//   least_distance2  squared distance in the light's mean square deviations below which elements never serve: there t^3 / 8
+//                    of the least sharpness exceeds the rounding of float
+//   bias             error of the integral that is none of rounding, as the share that t^3 / 8 bounds
+struct SteradianLightElementsLimits {
+    float roundings;
+    float least_distance2;
+    float bias;
+};
+
+// Limits from their three numbers.
+SteradianLightElementsLimits steradian_light_elements_limits(float roundings, float least_distance2, float bias) {
+    SteradianLightElementsLimits limits;
+    limits.roundings = roundings;
+    limits.least_distance2 = least_distance2;
+    limits.bias = bias;
+    return limits;
+}
+
+// Lambert's edges: few roundings, since they add up vectors of the light's size.
+SteradianLightElementsLimits steradian_light_elements_along_edges() { return steradian_light_elements_limits(2.0, 4000.0, 0.0); }
+
+// Transformed cosines, cubatures without arcs, and a light's point that stands for it.
+SteradianLightElementsLimits steradian_light_elements_transformed() { return steradian_light_elements_limits(8.0, 2000.0, 0.0); }
+
+// Arcs: an edge subtracts numbers of the order of 1.
+SteradianLightElementsLimits steradian_light_elements_along_arcs() { return steradian_light_elements_limits(128.0, 500.0, 0.0); }
+
+// Arcs of half vectors: their bias makes the elements better from much nearer on.
+SteradianLightElementsLimits steradian_light_elements_along_half_vectors(float bias) { return steradian_light_elements_limits(128.0, 30.0, bias); }
+
+// Edges of a power n of a cosine: t^3 / 8 falls below the bias at a distance that depends on the lobe.
+SteradianLightElementsLimits steradian_light_elements_along_power(float n, float bias) {
+    float sharpness = steradian_light_elements_power_sharpness(n);
+    return steradian_light_elements_limits(128.0, steradian_select(bias > 0.0, min(500.0, 4.0 * sharpness * sharpness), 500.0), bias);
+}
+
+// Bias of the cosine series: t^3 / 8 where the elements' error is as large.
+//
+// The series' error is that fraction of the full lobe for each half of an edge (moment_series.glsl). Over a light that is
+// small against the lobe, it is that fraction of the light.
+float steradian_light_elements_series_bias() { return 0.015625; }
+
+// Bias of the longer cosine series.
+float steradian_light_elements_series_high_bias() { return 0.008695652173913044; }
+
+// Bias of Beckmann's arcs.
+float steradian_light_elements_beckmann_bias() { return 0.005; }
+
 // True where the elements are better than an integral along the outline.
 //
-//   normal     the surface's, unit
-//   sharpness  of the lobe
-//   roundings  how many roundings of a unit direction the other integral makes, relative to the light's solid angle
-//              times its distance over its size
-//   bias       error of the other integral that is none of rounding, as the share that t^3 / 8 bounds
+//   normal           the surface's, unit
+//   sharpness        of the lobe
+//   roundings, bias  SteradianLightElementsLimits
 //
 // A light across the horizon is cut only by whole elements: there the outline serves as long as rounding leaves it a digit.
 bool steradian_light_elements_serve(SteradianLightElements e, float3 normal, float sharpness, float roundings, float bias) {
@@ -1774,6 +1831,14 @@ SteradianEllipse steradian_ellipse_prepare(float3 center, float3 axis_a, float3 
     bool reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
     e.axis_b = steradian_select(reversed, -axis_b, axis_b);
     return e;
+}
+
+// The same in the shading frame and in units of the distance, for any unit: squares of squares stay in the range of float.
+SteradianEllipse steradian_ellipse_in_units(float3x3 frame, float3 center, float3 axis_a, float3 axis_b) {
+    float size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    float unit = rsqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
 }
 
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
@@ -2105,6 +2170,31 @@ float3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
 // cap within the other, it sees a sphere.
 // Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
 
+// The capsule as four elements, for where it is small: the strip of its cylinder, which is equally wide from all directions
+// across, and the half balls at its ends. Each has its second moment along the axis.
+//
+//   center   its middle, from the shading point
+//   axis     from one end to the other
+//
+// Degenerate: ends that meet make a sphere.
+SteradianLightElements steradian_capsule_elements(float3 center, float3 axis, float radius) {
+    float r2 = radius * radius;
+    float length2 = dot(axis, axis);
+    float3 along = axis * rsqrt(max(length2, steradian_smallest_square()));
+    float3 sight = center * rsqrt(max(dot(center, center), steradian_smallest_square()));
+    float3 across = sight - along * dot(along, sight);
+    float3 aside = cross(along, sight);
+    float strip = 2.0 * radius * sqrt(length2);
+    float balls = steradian_pi() * r2;
+    float share = 2.0 / max(strip + balls, steradian_smallest_square());
+    SteradianLightElements e;
+    e.center = center;
+    e.area = -(across * (rsqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 * 0.0833333333333333333 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (rsqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip * 0.333333333333333333 + balls * 0.25)));
+    return e;
+}
+
 // A capsule, seen from the shading point. Where the point sees a sphere, both ends are the nearer one and `along` is any
 // direction across: half of the sphere's outline belongs to each.
 //   end_a, end_b  centres of the end balls
@@ -2164,6 +2254,12 @@ SteradianCapsule steradian_capsule_prepare(float3 end_a, float3 end_b, float rad
     c.radius = radius;
     c.outside = steradian_select(beside, height2, nearer2) > radius2;
     return c;
+}
+
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+SteradianCapsule steradian_capsule_in_units(float3 end_a, float3 end_b, float radius) {
+    float unit = rsqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
@@ -3235,6 +3331,29 @@ float steradian_moment_double_axis_share(float3 a, float3 b, float3 r, float3 v,
     float n2 = dot(n, n);
     float inward = dot(n, v) * rsqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + steradian_select(n2 > steradian_smallest_divisor(), inward * cosines, 0.0);
+}
+
+// The two integrands over the part in front of a lobe of exponent n times the light's cosine, by quadrature: share's and cosines'.
+//
+//   level  1 where n is 0, the same for every lane: the integral of x^0 is the angle, and (1 - x^0)/(1 - x^2) is 0
+SteradianMomentIntegrands steradian_moment_foreshortened_front(SteradianMomentEdge edge, float n, int level) {
+    SteradianMomentIntegrands front;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+
+// One edge's share of (n + 2) times the moment of a lobe times the light's cosine: z is the normal.
+//
+//   front    |s| times the integral of (1 - x^m)/(1 - x^2) with exponent n - 1, by any method
+//   cosines  the integral of x^n dphi over the part in front, by any method
+float steradian_moment_foreshortened_share(SteradianMomentEdge edge, float3 a, float3 b, float3 r, float front, float cosines) {
+    return steradian_moment_double_axis_share(a, b, r, float3(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
 }
 
 // ======== ltc: linearly transformed cosines over polygons, textured ones too ========
@@ -4350,10 +4469,11 @@ float steradian_ggx_radiance(float2 r, float f0, float f90) {
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
 //   SteradianConicArc edge = steradian_ggx_edge(view, a, b);
-//   for j in 0 .. count - 1:
-//       p = steradian_half_vector_at(view, edge, steradian_half_vector_split_pole_mapped(edge, j / count)), q the next one
-//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
-//       and of the lobe at each steradian_half_vector_between times its solid angle
+//   SteradianHalfVectorWalk walk = steradian_half_vector_begin(view, edge);
+//   for j in 1 .. count:
+//       walk = steradian_half_vector_next(walk, view, edge, steradian_half_vector_split_pole_mapped(edge, j / count))
+//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc from walk.a to walk.b, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
+//       and of the lobe at each steradian_half_vector_node times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 
@@ -4482,6 +4602,48 @@ SteradianHalfVectorNode steradian_half_vector_between(SteradianGgxView view, Ste
     node.h = middle * shorter;
     node.solid_angle = steradian_select(n2 > steradian_smallest_square(), -apart * sweep * (shorter * shorter * shorter), 0.0);
     return node;
+}
+
+// A walk over the arcs of an edge.
+//   weight       steradian_half_vector_split_weight
+//   first, last  steradian_half_vector_split_end of the last arc's ends
+//   a, b         steradian_half_vector_at of the same
+struct SteradianHalfVectorWalk {
+    float weight;
+    SteradianConicNode first;
+    SteradianConicNode last;
+    float3 a;
+    float3 b;
+};
+
+// The walk before the first arc.
+SteradianHalfVectorWalk steradian_half_vector_begin(SteradianGgxView view, SteradianConicArc edge) {
+    SteradianHalfVectorWalk walk;
+    walk.weight = steradian_half_vector_split_weight(edge);
+    walk.last = steradian_half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = steradian_half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+
+// Goes on to the arc that ends at tau.
+SteradianHalfVectorWalk steradian_half_vector_next(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, float tau) {
+    SteradianHalfVectorWalk next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = steradian_half_vector_split_end(edge, tau, walk.weight);
+    next.b = steradian_half_vector_at(view, edge, tau);
+    return next;
+}
+
+// Number of nodes of an arc's sliver: three have four to ten times the error (docs/measured/accuracy.md, "Half vectors").
+int steradian_half_vector_nodes() { return 4; }
+
+// Node i of the last arc's sliver.
+SteradianHalfVectorNode steradian_half_vector_node(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, int i) {
+    float2 rule = steradian_gauss_legendre_node(steradian_half_vector_nodes(), i);
+    return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 
 // Blinn-Phong's lobe at a half vector, in the unit of steradian_blinn_phong_arc for each steradian of half vectors.
@@ -5200,6 +5362,71 @@ float steradian_plane_slope(float w, float t, float beyond) {
     return steradian_select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
 }
 
+// The slope from the centre's direction of a ray that passes a disk's centre at the signed distance x.
+float steradian_plane_disk_slope(float x, float d2) {
+    return x * rsqrt(max(d2 - x * x, 1.0e-12));
+}
+
+// The largest x of rays that reach a disk within the range, R = 1; 0 inside the disk.
+//
+// The near side leaves the range before the tangent does: law of cosines.
+float steradian_plane_disk_reach(float d2, float radius) {
+    float rho2 = radius * radius;
+    bool leaves = d2 - rho2 > 1.0;
+    float reach = steradian_select(d2 > rho2, radius, 0.0);
+    if (leaves) {
+        float along = 0.5 * (d2 + 1.0 - rho2);
+        reach = steradian_select(leaves, min(sqrt(max(d2 - along * along, 0.0)), radius), reach);
+    }
+    return reach;
+}
+
+// A place beyond all of a disk, on the side of a place.
+float steradian_plane_beyond(float place) {
+    return steradian_select(place > 0.0, 1.0e6, -1.0e6);
+}
+
+// The signed distance at which the ray from the eye through a vertex passes a disk's centre.
+//
+//   from_light, from_eye  of the vertex
+//   returns               -radius at the low tangent to radius at the high one; beyond all of the disk if the vertex is behind the eye
+float steradian_plane_place_on_light(float2 from_light, float2 from_eye) {
+    float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
+    float ahead = dot(from_eye - from_light, from_eye);
+    float place = across * rsqrt(max(dot(from_eye, from_eye), steradian_smallest_divisor()));
+    return steradian_select(ahead > 0.0, place, steradian_plane_beyond(across));
+}
+
+// The same of the two tangents of a round blocker.
+struct SteradianPlaneRoundEnds {
+    float begin;
+    float end;
+    bool begins_ahead;
+    bool ends_ahead;
+};
+
+// The places on a disk between which a round blocker occludes it.
+//
+//   to_light, to_blocker  from the eye to both centres
+//   from_light            from the light's centre to the blocker's
+//   radius                the blocker's
+SteradianPlaneRoundEnds steradian_plane_round_ends(float2 to_light, float2 to_blocker, float2 from_light, float radius) {
+    float k2 = dot(to_blocker, to_blocker);
+    float t = steradian_plane_root(max(k2 - radius * radius, 0.0));
+    // cross(a, k) = cross(a, k - a): no cancellation if the blocker is far behind the light.
+    float across = to_light.x * from_light.y - to_light.y * from_light.x;
+    float ahead = dot(to_light, to_blocker);
+    float inverse = 1.0 / max(k2, steradian_smallest_divisor());
+    float begin = (t * across - radius * ahead) * inverse;
+    float end = (t * across + radius * ahead) * inverse;
+    SteradianPlaneRoundEnds ends;
+    ends.begins_ahead = t * ahead + radius * across > 0.0;
+    ends.ends_ahead = t * ahead - radius * across > 0.0;
+    ends.begin = steradian_select(ends.begins_ahead, begin, steradian_plane_beyond(begin));
+    ends.end = steradian_select(ends.ends_ahead, end, steradian_plane_beyond(end));
+    return ends;
+}
+
 // ======== indirect: one bounce from virtual lights ========
 
 // ==== indirect ====
@@ -5360,6 +5587,124 @@ float steradian_indirect_kept(float value, float reach, float xi) {
     return steradian_select(value > xi * reach, max(value, reach), 0.0);
 }
 
+// The way from a receiver to a virtual light: the vector v, D, and 1 / |v|.
+struct SteradianIndirectWay {
+    float3 v;
+    float d2;
+    float inverse;
+};
+
+// The way from the point p; a light at the point is 1.0e-10 away.
+SteradianIndirectWay steradian_indirect_way(float3 light, float3 p) {
+    SteradianIndirectWay way;
+    way.v = light - p;
+    way.d2 = max(dot(way.v, way.v), 1.0e-20);
+    way.inverse = rsqrt(way.d2);
+    return way;
+}
+
+// A virtual light as a quad, for lobes so sharp that its middle does not stand for it.
+//   normal          unit, on the side away from the receiver
+//   edge_x, edge_y  half its sides
+//   inverse_area    one over its area
+//   size2           squared length of its longer edge
+struct SteradianIndirectQuad {
+    float3 normal;
+    float3 edge_x;
+    float3 edge_y;
+    float inverse_area;
+    float size2;
+};
+
+// Lobes of a smaller alpha see virtual lights as quads.
+float steradian_indirect_sharp() { return 0.1; }
+
+// True where the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: over a speck the lobe is nearly
+// constant. Also false where the quad is seen edge-on, to a thousandth: steradian_indirect_quad_half divides by that sine, and is off by 1.0e-7 of
+// the hemisphere.
+//
+//   kept, value  the light's half after culling and before
+bool steradian_indirect_quad_matters(SteradianIndirectLobe lobe, SteradianIndirectQuad quad, SteradianIndirectWay way, float kept, float value) {
+    float3 w = steradian_indirect_under(lobe, way.v);
+    float facing = dot(quad.normal, way.v);
+    return kept > 0.0 && quad.size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > way.d2 * 1.0e-6;
+}
+
+// A walk around the quad in the lobe's own space.
+SteradianPolygonWalk steradian_indirect_quad_walk(SteradianIndirectLobe lobe, float3 v, float3 ex, float3 ey) {
+    float3 a = steradian_polygon_direction(steradian_indirect_under(lobe, v + (-ex - ey)));
+    float3 b = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex - ey)));
+    float3 c = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex + ey)));
+    float3 d = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ey - ex)));
+    SteradianPolygonWalk walk = steradian_polygon_begin();
+    walk = steradian_polygon_add_edge(walk, a, b);
+    walk = steradian_polygon_add_edge(walk, b, c);
+    walk = steradian_polygon_add_edge(walk, c, d);
+    return steradian_polygon_add_edge(walk, d, a);
+}
+
+// The half of a glossy end, for scale 1, over the quad in place of its value at the middle.
+//
+//   rarity   by which the light stands for more: kept over value
+float steradian_indirect_quad_half(SteradianIndirectLobe lobe, SteradianIndirectQuad quad, SteradianIndirectWay way, float wide2, float rarity) {
+    float grow = sqrt(rarity);
+    float3 ex = quad.edge_x * grow;
+    float3 ey = quad.edge_y * grow;
+    bool reversed = dot(cross(ex, ey), way.v) < 0.0;
+    float integral = steradian_polygon_irradiance(steradian_indirect_quad_walk(lobe, way.v, ex, ey), reversed) * steradian_inverse_pi();
+    float facing = max(dot(quad.normal, way.v), 1.0e-12);
+    return integral * (way.d2 + wide2) * quad.inverse_area / (facing * lobe.scale * rarity);
+}
+
+// Conditions under which the filter takes two points for one surface.
+//   least_cosine  between the normals
+//   slope2        squared distance from the plane over squared distance
+//   widths        lobes whose alphas differ by more than this fraction have different glossy light
+struct SteradianIndirectLikeness {
+    float least_cosine;
+    float slope2;
+    float widths;
+};
+
+// The usual conditions: 26 degrees and a twentieth.
+SteradianIndirectLikeness steradian_indirect_alike() {
+    SteradianIndirectLikeness like;
+    like.least_cosine = 0.9;
+    like.slope2 = 0.0025;
+    like.widths = 0.2;
+    return like;
+}
+
+// Loose conditions, for places that find so little that the pattern would be visible, at edges.
+SteradianIndirectLikeness steradian_indirect_alike_loosely() {
+    SteradianIndirectLikeness like;
+    like.least_cosine = 0.3;
+    like.slope2 = 0.49;
+    like.widths = 0.5;
+    return like;
+}
+
+// True if a point is on the same surface as another, to a hundredth of a millimetre.
+//
+//   n, m     unit normals
+//   d        vector between the points [m]
+bool steradian_indirect_same_surface(SteradianIndirectLikeness like, float3 n, float3 m, float3 d) {
+    float off = dot(n, d);
+    return dot(n, m) > like.least_cosine && off * off < dot(d, d) * like.slope2 + 1.0e-10;
+}
+
+// Fraction of the filter's weights that is enough.
+float steradian_indirect_enough() { return 0.6; }
+
+// The filter's mean of a weighted sum; zero weights give zero.
+float3 steradian_indirect_over(float3 sum, float weight) { return sum * (1.0 / max(weight, 1.0e-12)); }
+
+// The same; where the weight is less than enough, others supply the rest.
+float3 steradian_indirect_filtered(float3 sum, float weight, float3 others, float others_weight) {
+    float lack = max(steradian_indirect_enough() - weight, 0.0);
+    return steradian_indirect_over(sum + steradian_indirect_over(others, others_weight) * lack, weight + lack);
+}
+
 // The largest factor by which M stretches a vector: one over the least by which M^-1 does.
 float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
     // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
@@ -5370,6 +5715,10 @@ float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
     float least2 = determinant * determinant / max(larger2, steradian_smallest_square());
     return rsqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
+
+// The spheroid that holds the egg of range 1 (steradian_indirect_spheroid): the distance of its centre in front of the light, and its half axes
+// along that direction and across. A ball of the last holds it too.
+float3 steradian_indirect_ball() { return float3(0.46, 0.54, 0.628); }
 
 // The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
@@ -5383,5 +5732,89 @@ float steradian_indirect_largest_stretch(SteradianLtcMatrix m) {
 float3 steradian_indirect_spheroid(SteradianIndirectLobe lobe, float3 v, float range) {
     float3 w = steradian_indirect_under(lobe, v);
     float inverse = 1.0 / range;
-    return float3(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
+    float3 ball = steradian_indirect_ball();
+    return float3(w.x * (inverse / ball.z), w.y * (inverse / ball.z), (w.z * inverse - ball.x) / ball.y);
+}
+
+// Bounds of receivers: a box of their places, and of their normals.
+//   center, extent  the box' middle and half its sides
+//   normal, turn    the same of the normals
+struct SteradianIndirectBox {
+    float3 center;
+    float3 extent;
+    float3 normal;
+    float3 turn;
+};
+
+// Half the box' extent along a vector, times its length.
+float steradian_indirect_box_reach(SteradianIndirectBox box, float3 along) {
+    return abs(along.x) * box.extent.x + abs(along.y) * box.extent.y + abs(along.z) * box.extent.z;
+}
+
+// Squared distance of a point from the box.
+float steradian_indirect_box_distance2(SteradianIndirectBox box, float3 p) {
+    float3 d = float3(max(abs(box.center.x - p.x) - box.extent.x, 0.0), max(abs(box.center.y - p.y) - box.extent.y, 0.0),
+                  max(abs(box.center.z - p.z) - box.extent.z, 0.0));
+    return dot(d, d);
+}
+
+// The largest product of a coordinate of a normal and of a way, each within its bounds.
+float steradian_indirect_most(float normal, float turn, float way, float extent) {
+    return normal * way + abs(normal) * extent + turn * (abs(way) + extent);
+}
+
+// True if the egg of a diffuse virtual light may reach the box.
+//
+//   at, n    place and normal
+//   range    square root of bright / threshold
+//   offset   dot(n, p) of the light's plane
+//
+// Two bounds: d^3 <= range^2 h, with the least distance d and the greatest height h above the light's plane, culls boxes in the plane
+// itself; the ball that holds the egg is for large boxes. No light comes from below the horizons of all receivers: n.v is largest where
+// each of its three products is.
+bool steradian_indirect_egg_reaches(SteradianIndirectBox box, float3 at, float3 n, float range, float offset) {
+    float height = dot(n, box.center) + abs(n.x) * box.extent.x + abs(n.y) * box.extent.y + abs(n.z) * box.extent.z - offset;
+    float3 v = at - box.center;
+    float above = steradian_indirect_most(box.normal.x, box.turn.x, v.x, box.extent.x) + steradian_indirect_most(box.normal.y, box.turn.y, v.y, box.extent.y)
+        + steradian_indirect_most(box.normal.z, box.turn.z, v.z, box.extent.z);
+    bool reaches = height > 0.0 && above > 0.0;
+    if (reaches) {  // neighbours in the light's grid mostly agree
+        float3 ball = steradian_indirect_ball();
+        float range2 = range * range;
+        float d2 = steradian_indirect_box_distance2(box, at);
+        float reach = range2 * height;
+        float ball2 = steradian_indirect_box_distance2(box, at + n * (range * ball.x));
+        reaches = reaches && d2 * d2 * d2 <= reach * reach && ball2 <= range2 * (ball.z * ball.z);
+    }
+    return reaches;
+}
+
+// True if the spheroid of a glossy virtual light may reach the box.
+//
+//   x, y, z  rows of T
+//   g        the unit ball is that of q = g - T p
+//   n        the light's normal
+//   offset   dot(n, p) of the light's plane
+//
+// The ball is tested against the box under T, a parallelepiped. They are apart if the plane that touches the ball below the box' centre
+// separates them. They are also apart if the box' bounds along the lobe's axes miss the egg in the ball: |w|^3 <= w_z, w in units of the
+// range. A sharp and bright lobe's ball is so large that it contains everything near its light. The egg begins at the light, and extends
+// one way.
+bool steradian_indirect_spheroid_reaches(SteradianIndirectBox box, float3 x, float3 y, float3 z, float3 g, float3 n, float offset) {
+    float3 ball = steradian_indirect_ball();
+    float qz = g.z - dot(z, box.center);
+    float wz = ball.y * qz + ball.x;
+    float deep = ball.y * steradian_indirect_box_reach(box, z);
+    float highest = wz + deep + 1.0e-6 * (abs(g.z) + 1.0);  // plus the rounding of a difference in float
+    bool reaches = highest > 0.0 && dot(n, box.center) + steradian_indirect_box_reach(box, n) > offset;
+    if (reaches) {
+        float3 q = float3(g.x - dot(x, box.center), g.y - dot(y, box.center), qz);
+        float q2 = dot(q, q);
+        float gap = q2 - steradian_indirect_box_reach(box, x * q.x + y * q.y + z * q.z);  // T transposed times q
+        float3 least = float3(ball.z * max(abs(q.x) - steradian_indirect_box_reach(box, x), 0.0), ball.z * max(abs(q.y) - steradian_indirect_box_reach(box, y), 0.0),
+                          max(abs(wz) - deep, 0.0));
+        float w2 = dot(least, least);
+        reaches = reaches && !(gap > 0.0 && gap * gap > q2) && w2 * w2 * w2 <= highest * highest;
+    }
+    return reaches;
 }

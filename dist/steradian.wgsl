@@ -873,7 +873,7 @@ fn steradian_solid_angle_finish(walk: SteradianSolidAngleWalk, reversed: bool) -
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-// each arc in two where it may be nearly half the horizon (horizon_arc_middle)
+// each arc in two where it is wide (horizon_arc_wide, horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (polygon_direction) in walk order.
 
@@ -918,6 +918,9 @@ fn steradian_horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
     p = p * inverseSqrt(max(dot(p, p), steradian_smallest_square()));
     return vec3f(p.x, p.y, 0.0);
 }
+
+// True where an arc from a to b may be nearly half the horizon: integrals take it in two.
+fn steradian_horizon_arc_wide(a: vec3f, b: vec3f) -> bool { return dot(a, b) < -0.9999; }
 
 // A direction between the ends of an arc of the horizon that is wider than a right angle.
 //
@@ -1473,13 +1476,67 @@ fn steradian_light_elements_half_vector_sharpness(deviation: f32, view_z: f32) -
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
+// Sharpness of a power n of a cosine, whose deviation is 1 / sqrt(n).
+fn steradian_light_elements_power_sharpness(n: f32) -> f32 {
+    return steradian_light_elements_diffuse_sharpness() + sqrt(n);
+}
+
+// Limits of an integral along the outline, beyond which the elements are better.
+//   roundings        how many roundings of a unit direction the integral makes, relative to the light's solid angle times
+//                    its distance over its size
+//   least_distance2  squared distance in the light's mean square deviations below which elements never serve: there t^3 / 8
+//                    of the least sharpness exceeds the rounding of float
+//   bias             error of the integral that is none of rounding, as the share that t^3 / 8 bounds
+struct SteradianLightElementsLimits {
+    roundings: f32,
+    least_distance2: f32,
+    bias: f32,
+}
+
+// Limits from their three numbers.
+fn steradian_light_elements_limits(roundings: f32, least_distance2: f32, bias: f32) -> SteradianLightElementsLimits {
+    var limits: SteradianLightElementsLimits;
+    limits.roundings = roundings;
+    limits.least_distance2 = least_distance2;
+    limits.bias = bias;
+    return limits;
+}
+
+// Lambert's edges: few roundings, since they add up vectors of the light's size.
+fn steradian_light_elements_along_edges() -> SteradianLightElementsLimits { return steradian_light_elements_limits(2.0, 4000.0, 0.0); }
+
+// Transformed cosines, cubatures without arcs, and a light's point that stands for it.
+fn steradian_light_elements_transformed() -> SteradianLightElementsLimits { return steradian_light_elements_limits(8.0, 2000.0, 0.0); }
+
+// Arcs: an edge subtracts numbers of the order of 1.
+fn steradian_light_elements_along_arcs() -> SteradianLightElementsLimits { return steradian_light_elements_limits(128.0, 500.0, 0.0); }
+
+// Arcs of half vectors: their bias makes the elements better from much nearer on.
+fn steradian_light_elements_along_half_vectors(bias: f32) -> SteradianLightElementsLimits { return steradian_light_elements_limits(128.0, 30.0, bias); }
+
+// Edges of a power n of a cosine: t^3 / 8 falls below the bias at a distance that depends on the lobe.
+fn steradian_light_elements_along_power(n: f32, bias: f32) -> SteradianLightElementsLimits {
+    let sharpness = steradian_light_elements_power_sharpness(n);
+    return steradian_light_elements_limits(128.0, select(500.0, min(500.0, 4.0 * sharpness * sharpness), bias > 0.0), bias);
+}
+
+// Bias of the cosine series: t^3 / 8 where the elements' error is as large.
+//
+// The series' error is that fraction of the full lobe for each half of an edge (moment_series.glsl). Over a light that is
+// small against the lobe, it is that fraction of the light.
+fn steradian_light_elements_series_bias() -> f32 { return 0.015625; }
+
+// Bias of the longer cosine series.
+fn steradian_light_elements_series_high_bias() -> f32 { return 0.008695652173913044; }
+
+// Bias of Beckmann's arcs.
+fn steradian_light_elements_beckmann_bias() -> f32 { return 0.005; }
+
 // True where the elements are better than an integral along the outline.
 //
-//   normal     the surface's, unit
-//   sharpness  of the lobe
-//   roundings  how many roundings of a unit direction the other integral makes, relative to the light's solid angle
-//              times its distance over its size
-//   bias       error of the other integral that is none of rounding, as the share that t^3 / 8 bounds
+//   normal           the surface's, unit
+//   sharpness        of the lobe
+//   roundings, bias  LightElementsLimits
 //
 // A light across the horizon is cut only by whole elements: there the outline serves as long as rounding leaves it a digit.
 fn steradian_light_elements_serve(e: SteradianLightElements, normal: vec3f, sharpness: f32, roundings: f32, bias: f32) -> bool {
@@ -1770,6 +1827,14 @@ fn steradian_ellipse_prepare(center: vec3f, axis_a: vec3f, axis_b: vec3f) -> Ste
     let reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
     e.axis_b = select(axis_b, -axis_b, reversed);
     return e;
+}
+
+// The same in the shading frame and in units of the distance, for any unit: squares of squares stay in the range of float.
+fn steradian_ellipse_in_units(frame: mat3x3f, center: vec3f, axis_a: vec3f, axis_b: vec3f) -> SteradianEllipse {
+    let size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    let unit = inverseSqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
 }
 
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
@@ -2101,6 +2166,31 @@ fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) ->
 // cap within the other, it sees a sphere.
 // Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
 
+// The capsule as four elements, for where it is small: the strip of its cylinder, which is equally wide from all directions
+// across, and the half balls at its ends. Each has its second moment along the axis.
+//
+//   center   its middle, from the shading point
+//   axis     from one end to the other
+//
+// Degenerate: ends that meet make a sphere.
+fn steradian_capsule_elements(center: vec3f, axis: vec3f, radius: f32) -> SteradianLightElements {
+    let r2 = radius * radius;
+    let length2 = dot(axis, axis);
+    let along = axis * inverseSqrt(max(length2, steradian_smallest_square()));
+    let sight = center * inverseSqrt(max(dot(center, center), steradian_smallest_square()));
+    let across = sight - along * dot(along, sight);
+    let aside = cross(along, sight);
+    let strip = 2.0 * radius * sqrt(length2);
+    let balls = steradian_pi() * r2;
+    let share = 2.0 / max(strip + balls, steradian_smallest_square());
+    var e: SteradianLightElements;
+    e.center = center;
+    e.area = -(across * (inverseSqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 * 0.0833333333333333333 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (inverseSqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip * 0.333333333333333333 + balls * 0.25)));
+    return e;
+}
+
 // A capsule, seen from the shading point. Where the point sees a sphere, both ends are the nearer one and `along` is any
 // direction across: half of the sphere's outline belongs to each.
 //   end_a, end_b  centres of the end balls
@@ -2160,6 +2250,12 @@ fn steradian_capsule_prepare(end_a: vec3f, end_b: vec3f, radius: f32) -> Steradi
     c.radius = radius;
     c.outside = select(nearer2, height2, beside) > radius2;
     return c;
+}
+
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+fn steradian_capsule_in_units(end_a: vec3f, end_b: vec3f, radius: f32) -> SteradianCapsule {
+    let unit = inverseSqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).
@@ -3231,6 +3327,29 @@ fn steradian_moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, sh
     let n2 = dot(n, n);
     let inward = dot(n, v) * inverseSqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + select(0.0, inward * cosines, n2 > steradian_smallest_divisor());
+}
+
+// The two integrands over the part in front of a lobe of exponent n times the light's cosine, by quadrature: share's and cosines'.
+//
+//   level  1 where n is 0, the same for every lane: the integral of x^0 is the angle, and (1 - x^0)/(1 - x^2) is 0
+fn steradian_moment_foreshortened_front(edge: SteradianMomentEdge, n: f32, level: i32) -> SteradianMomentIntegrands {
+    var front: SteradianMomentIntegrands;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+
+// One edge's share of (n + 2) times the moment of a lobe times the light's cosine: z is the normal.
+//
+//   front    |s| times the integral of (1 - x^m)/(1 - x^2) with exponent n - 1, by any method
+//   cosines  the integral of x^n dphi over the part in front, by any method
+fn steradian_moment_foreshortened_share(edge: SteradianMomentEdge, a: vec3f, b: vec3f, r: vec3f, front: f32, cosines: f32) -> f32 {
+    return steradian_moment_double_axis_share(a, b, r, vec3f(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
 }
 
 // ======== ltc: linearly transformed cosines over polygons, textured ones too ========
@@ -4343,10 +4462,11 @@ fn steradian_ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
 //   ConicArc edge = ggx_edge(view, a, b);
-//   for j in 0 .. count - 1:
-//       p = half_vector_at(view, edge, half_vector_split_pole_mapped(edge, j / count)), q the next one
-//       sum of blinn_phong_arc or beckmann_arc, then half_vector_radiance; of ggx_arc, then ggx_draft
-//       and of the lobe at each half_vector_between times its solid angle
+//   HalfVectorWalk walk = half_vector_begin(view, edge);
+//   for j in 1 .. count:
+//       walk = half_vector_next(walk, view, edge, half_vector_split_pole_mapped(edge, j / count))
+//       sum of blinn_phong_arc or beckmann_arc from walk.a to walk.b, then half_vector_radiance; of ggx_arc, then ggx_draft
+//       and of the lobe at each half_vector_node times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 
@@ -4475,6 +4595,48 @@ fn steradian_half_vector_between(view: SteradianGgxView, edge: SteradianConicArc
     node.h = middle * shorter;
     node.solid_angle = select(0.0, -apart * sweep * (shorter * shorter * shorter), n2 > steradian_smallest_square());
     return node;
+}
+
+// A walk over the arcs of an edge.
+//   weight       half_vector_split_weight
+//   first, last  half_vector_split_end of the last arc's ends
+//   a, b         half_vector_at of the same
+struct SteradianHalfVectorWalk {
+    weight: f32,
+    first: SteradianConicNode,
+    last: SteradianConicNode,
+    a: vec3f,
+    b: vec3f,
+}
+
+// The walk before the first arc.
+fn steradian_half_vector_begin(view: SteradianGgxView, edge: SteradianConicArc) -> SteradianHalfVectorWalk {
+    var walk: SteradianHalfVectorWalk;
+    walk.weight = steradian_half_vector_split_weight(edge);
+    walk.last = steradian_half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = steradian_half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+
+// Goes on to the arc that ends at tau.
+fn steradian_half_vector_next(walk: SteradianHalfVectorWalk, view: SteradianGgxView, edge: SteradianConicArc, tau: f32) -> SteradianHalfVectorWalk {
+    var next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = steradian_half_vector_split_end(edge, tau, walk.weight);
+    next.b = steradian_half_vector_at(view, edge, tau);
+    return next;
+}
+
+// Number of nodes of an arc's sliver: three have four to ten times the error (docs/measured/accuracy.md, "Half vectors").
+fn steradian_half_vector_nodes() -> i32 { return 4; }
+
+// Node i of the last arc's sliver.
+fn steradian_half_vector_node(walk: SteradianHalfVectorWalk, view: SteradianGgxView, edge: SteradianConicArc, i: i32) -> SteradianHalfVectorNode {
+    let rule = steradian_gauss_legendre_node(steradian_half_vector_nodes(), i);
+    return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 
 // Blinn-Phong's lobe at a half vector, in the unit of blinn_phong_arc for each steradian of half vectors.
@@ -5193,6 +5355,71 @@ fn steradian_plane_slope(w: f32, t: f32, beyond: f32) -> f32 {
     return select(beyond, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), w > 1.0e-12);
 }
 
+// The slope from the centre's direction of a ray that passes a disk's centre at the signed distance x.
+fn steradian_plane_disk_slope(x: f32, d2: f32) -> f32 {
+    return x * inverseSqrt(max(d2 - x * x, 1.0e-12));
+}
+
+// The largest x of rays that reach a disk within the range, R = 1; 0 inside the disk.
+//
+// The near side leaves the range before the tangent does: law of cosines.
+fn steradian_plane_disk_reach(d2: f32, radius: f32) -> f32 {
+    let rho2 = radius * radius;
+    let leaves = d2 - rho2 > 1.0;
+    var reach = select(0.0, radius, d2 > rho2);
+    if (leaves) {
+        let along = 0.5 * (d2 + 1.0 - rho2);
+        reach = select(reach, min(sqrt(max(d2 - along * along, 0.0)), radius), leaves);
+    }
+    return reach;
+}
+
+// A place beyond all of a disk, on the side of a place.
+fn steradian_plane_beyond(place: f32) -> f32 {
+    return select(-1.0e6, 1.0e6, place > 0.0);
+}
+
+// The signed distance at which the ray from the eye through a vertex passes a disk's centre.
+//
+//   from_light, from_eye  of the vertex
+//   returns               -radius at the low tangent to radius at the high one; beyond all of the disk if the vertex is behind the eye
+fn steradian_plane_place_on_light(from_light: vec2f, from_eye: vec2f) -> f32 {
+    let across = from_light.y * from_eye.x - from_light.x * from_eye.y;
+    let ahead = dot(from_eye - from_light, from_eye);
+    let place = across * inverseSqrt(max(dot(from_eye, from_eye), steradian_smallest_divisor()));
+    return select(steradian_plane_beyond(across), place, ahead > 0.0);
+}
+
+// The same of the two tangents of a round blocker.
+struct SteradianPlaneRoundEnds {
+    begin: f32,
+    end: f32,
+    begins_ahead: bool,
+    ends_ahead: bool,
+}
+
+// The places on a disk between which a round blocker occludes it.
+//
+//   to_light, to_blocker  from the eye to both centres
+//   from_light            from the light's centre to the blocker's
+//   radius                the blocker's
+fn steradian_plane_round_ends(to_light: vec2f, to_blocker: vec2f, from_light: vec2f, radius: f32) -> SteradianPlaneRoundEnds {
+    let k2 = dot(to_blocker, to_blocker);
+    let t = steradian_plane_root(max(k2 - radius * radius, 0.0));
+    // cross(a, k) = cross(a, k - a): no cancellation if the blocker is far behind the light.
+    let across = to_light.x * from_light.y - to_light.y * from_light.x;
+    let ahead = dot(to_light, to_blocker);
+    let inverse = 1.0 / max(k2, steradian_smallest_divisor());
+    let begin = (t * across - radius * ahead) * inverse;
+    let end = (t * across + radius * ahead) * inverse;
+    var ends: SteradianPlaneRoundEnds;
+    ends.begins_ahead = t * ahead + radius * across > 0.0;
+    ends.ends_ahead = t * ahead - radius * across > 0.0;
+    ends.begin = select(steradian_plane_beyond(begin), begin, ends.begins_ahead);
+    ends.end = select(steradian_plane_beyond(end), end, ends.ends_ahead);
+    return ends;
+}
+
 // ======== indirect: one bounce from virtual lights ========
 
 // ==== indirect ====
@@ -5353,6 +5580,124 @@ fn steradian_indirect_kept(value: f32, reach: f32, xi: f32) -> f32 {
     return select(0.0, max(value, reach), value > xi * reach);
 }
 
+// The way from a receiver to a virtual light: the vector v, D, and 1 / |v|.
+struct SteradianIndirectWay {
+    v: vec3f,
+    d2: f32,
+    inverse: f32,
+}
+
+// The way from the point p; a light at the point is 1.0e-10 away.
+fn steradian_indirect_way(light: vec3f, p: vec3f) -> SteradianIndirectWay {
+    var way: SteradianIndirectWay;
+    way.v = light - p;
+    way.d2 = max(dot(way.v, way.v), 1.0e-20);
+    way.inverse = inverseSqrt(way.d2);
+    return way;
+}
+
+// A virtual light as a quad, for lobes so sharp that its middle does not stand for it.
+//   normal          unit, on the side away from the receiver
+//   edge_x, edge_y  half its sides
+//   inverse_area    one over its area
+//   size2           squared length of its longer edge
+struct SteradianIndirectQuad {
+    normal: vec3f,
+    edge_x: vec3f,
+    edge_y: vec3f,
+    inverse_area: f32,
+    size2: f32,
+}
+
+// Lobes of a smaller alpha see virtual lights as quads.
+fn steradian_indirect_sharp() -> f32 { return 0.1; }
+
+// True where the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: over a speck the lobe is nearly
+// constant. Also false where the quad is seen edge-on, to a thousandth: indirect_quad_half divides by that sine, and is off by 1.0e-7 of
+// the hemisphere.
+//
+//   kept, value  the light's half after culling and before
+fn steradian_indirect_quad_matters(lobe: SteradianIndirectLobe, quad: SteradianIndirectQuad, way: SteradianIndirectWay, kept: f32, value: f32) -> bool {
+    let w = steradian_indirect_under(lobe, way.v);
+    let facing = dot(quad.normal, way.v);
+    return kept > 0.0 && quad.size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > way.d2 * 1.0e-6;
+}
+
+// A walk around the quad in the lobe's own space.
+fn steradian_indirect_quad_walk(lobe: SteradianIndirectLobe, v: vec3f, ex: vec3f, ey: vec3f) -> SteradianPolygonWalk {
+    let a = steradian_polygon_direction(steradian_indirect_under(lobe, v + (-ex - ey)));
+    let b = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex - ey)));
+    let c = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ex + ey)));
+    let d = steradian_polygon_direction(steradian_indirect_under(lobe, v + (ey - ex)));
+    var walk = steradian_polygon_begin();
+    walk = steradian_polygon_add_edge(walk, a, b);
+    walk = steradian_polygon_add_edge(walk, b, c);
+    walk = steradian_polygon_add_edge(walk, c, d);
+    return steradian_polygon_add_edge(walk, d, a);
+}
+
+// The half of a glossy end, for scale 1, over the quad in place of its value at the middle.
+//
+//   rarity   by which the light stands for more: kept over value
+fn steradian_indirect_quad_half(lobe: SteradianIndirectLobe, quad: SteradianIndirectQuad, way: SteradianIndirectWay, wide2: f32, rarity: f32) -> f32 {
+    let grow = sqrt(rarity);
+    let ex = quad.edge_x * grow;
+    let ey = quad.edge_y * grow;
+    let reversed = dot(cross(ex, ey), way.v) < 0.0;
+    let integral = steradian_polygon_irradiance(steradian_indirect_quad_walk(lobe, way.v, ex, ey), reversed) * steradian_inverse_pi();
+    let facing = max(dot(quad.normal, way.v), 1.0e-12);
+    return integral * (way.d2 + wide2) * quad.inverse_area / (facing * lobe.scale * rarity);
+}
+
+// Conditions under which the filter takes two points for one surface.
+//   least_cosine  between the normals
+//   slope2        squared distance from the plane over squared distance
+//   widths        lobes whose alphas differ by more than this fraction have different glossy light
+struct SteradianIndirectLikeness {
+    least_cosine: f32,
+    slope2: f32,
+    widths: f32,
+}
+
+// The usual conditions: 26 degrees and a twentieth.
+fn steradian_indirect_alike() -> SteradianIndirectLikeness {
+    var like: SteradianIndirectLikeness;
+    like.least_cosine = 0.9;
+    like.slope2 = 0.0025;
+    like.widths = 0.2;
+    return like;
+}
+
+// Loose conditions, for places that find so little that the pattern would be visible, at edges.
+fn steradian_indirect_alike_loosely() -> SteradianIndirectLikeness {
+    var like: SteradianIndirectLikeness;
+    like.least_cosine = 0.3;
+    like.slope2 = 0.49;
+    like.widths = 0.5;
+    return like;
+}
+
+// True if a point is on the same surface as another, to a hundredth of a millimetre.
+//
+//   n, m     unit normals
+//   d        vector between the points [m]
+fn steradian_indirect_same_surface(like: SteradianIndirectLikeness, n: vec3f, m: vec3f, d: vec3f) -> bool {
+    let off = dot(n, d);
+    return dot(n, m) > like.least_cosine && off * off < dot(d, d) * like.slope2 + 1.0e-10;
+}
+
+// Fraction of the filter's weights that is enough.
+fn steradian_indirect_enough() -> f32 { return 0.6; }
+
+// The filter's mean of a weighted sum; zero weights give zero.
+fn steradian_indirect_over(sum: vec3f, weight: f32) -> vec3f { return sum * (1.0 / max(weight, 1.0e-12)); }
+
+// The same; where the weight is less than enough, others supply the rest.
+fn steradian_indirect_filtered(sum: vec3f, weight: f32, others: vec3f, others_weight: f32) -> vec3f {
+    let lack = max(steradian_indirect_enough() - weight, 0.0);
+    return steradian_indirect_over(sum + steradian_indirect_over(others, others_weight) * lack, weight + lack);
+}
+
 // The largest factor by which M stretches a vector: one over the least by which M^-1 does.
 fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
     // The 2 x 2 block's smaller singular value, from its trace and determinant; the larger divides, nothing cancels.
@@ -5363,6 +5708,10 @@ fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
     let least2 = determinant * determinant / max(larger2, steradian_smallest_square());
     return inverseSqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
+
+// The spheroid that holds the egg of range 1 (indirect_spheroid): the distance of its centre in front of the light, and its half axes
+// along that direction and across. A ball of the last holds it too.
+fn steradian_indirect_ball() -> vec3f { return vec3f(0.46, 0.54, 0.628); }
 
 // The region in which the irradiance of a virtual light can exceed a threshold: a ball of radius 1 about the origin of the result.
 //
@@ -5376,5 +5725,89 @@ fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
 fn steradian_indirect_spheroid(lobe: SteradianIndirectLobe, v: vec3f, range: f32) -> vec3f {
     let w = steradian_indirect_under(lobe, v);
     let inverse = 1.0 / range;
-    return vec3f(w.x * (inverse / 0.628), w.y * (inverse / 0.628), (w.z * inverse - 0.46) / 0.54);
+    let ball = steradian_indirect_ball();
+    return vec3f(w.x * (inverse / ball.z), w.y * (inverse / ball.z), (w.z * inverse - ball.x) / ball.y);
+}
+
+// Bounds of receivers: a box of their places, and of their normals.
+//   center, extent  the box' middle and half its sides
+//   normal, turn    the same of the normals
+struct SteradianIndirectBox {
+    center: vec3f,
+    extent: vec3f,
+    normal: vec3f,
+    turn: vec3f,
+}
+
+// Half the box' extent along a vector, times its length.
+fn steradian_indirect_box_reach(box: SteradianIndirectBox, along: vec3f) -> f32 {
+    return abs(along.x) * box.extent.x + abs(along.y) * box.extent.y + abs(along.z) * box.extent.z;
+}
+
+// Squared distance of a point from the box.
+fn steradian_indirect_box_distance2(box: SteradianIndirectBox, p: vec3f) -> f32 {
+    let d = vec3f(max(abs(box.center.x - p.x) - box.extent.x, 0.0), max(abs(box.center.y - p.y) - box.extent.y, 0.0),
+                  max(abs(box.center.z - p.z) - box.extent.z, 0.0));
+    return dot(d, d);
+}
+
+// The largest product of a coordinate of a normal and of a way, each within its bounds.
+fn steradian_indirect_most(normal: f32, turn: f32, way: f32, extent: f32) -> f32 {
+    return normal * way + abs(normal) * extent + turn * (abs(way) + extent);
+}
+
+// True if the egg of a diffuse virtual light may reach the box.
+//
+//   at, n    place and normal
+//   range    square root of bright / threshold
+//   offset   dot(n, p) of the light's plane
+//
+// Two bounds: d^3 <= range^2 h, with the least distance d and the greatest height h above the light's plane, culls boxes in the plane
+// itself; the ball that holds the egg is for large boxes. No light comes from below the horizons of all receivers: n.v is largest where
+// each of its three products is.
+fn steradian_indirect_egg_reaches(box: SteradianIndirectBox, at: vec3f, n: vec3f, range: f32, offset: f32) -> bool {
+    let height = dot(n, box.center) + abs(n.x) * box.extent.x + abs(n.y) * box.extent.y + abs(n.z) * box.extent.z - offset;
+    let v = at - box.center;
+    let above = steradian_indirect_most(box.normal.x, box.turn.x, v.x, box.extent.x) + steradian_indirect_most(box.normal.y, box.turn.y, v.y, box.extent.y)
+        + steradian_indirect_most(box.normal.z, box.turn.z, v.z, box.extent.z);
+    var reaches = height > 0.0 && above > 0.0;
+    if (reaches) {  // neighbours in the light's grid mostly agree
+        let ball = steradian_indirect_ball();
+        let range2 = range * range;
+        let d2 = steradian_indirect_box_distance2(box, at);
+        let reach = range2 * height;
+        let ball2 = steradian_indirect_box_distance2(box, at + n * (range * ball.x));
+        reaches = reaches && d2 * d2 * d2 <= reach * reach && ball2 <= range2 * (ball.z * ball.z);
+    }
+    return reaches;
+}
+
+// True if the spheroid of a glossy virtual light may reach the box.
+//
+//   x, y, z  rows of T
+//   g        the unit ball is that of q = g - T p
+//   n        the light's normal
+//   offset   dot(n, p) of the light's plane
+//
+// The ball is tested against the box under T, a parallelepiped. They are apart if the plane that touches the ball below the box' centre
+// separates them. They are also apart if the box' bounds along the lobe's axes miss the egg in the ball: |w|^3 <= w_z, w in units of the
+// range. A sharp and bright lobe's ball is so large that it contains everything near its light. The egg begins at the light, and extends
+// one way.
+fn steradian_indirect_spheroid_reaches(box: SteradianIndirectBox, x: vec3f, y: vec3f, z: vec3f, g: vec3f, n: vec3f, offset: f32) -> bool {
+    let ball = steradian_indirect_ball();
+    let qz = g.z - dot(z, box.center);
+    let wz = ball.y * qz + ball.x;
+    let deep = ball.y * steradian_indirect_box_reach(box, z);
+    let highest = wz + deep + 1.0e-6 * (abs(g.z) + 1.0);  // plus the rounding of a difference in float
+    var reaches = highest > 0.0 && dot(n, box.center) + steradian_indirect_box_reach(box, n) > offset;
+    if (reaches) {
+        let q = vec3f(g.x - dot(x, box.center), g.y - dot(y, box.center), qz);
+        let q2 = dot(q, q);
+        let gap = q2 - steradian_indirect_box_reach(box, x * q.x + y * q.y + z * q.z);  // T transposed times q
+        let least = vec3f(ball.z * max(abs(q.x) - steradian_indirect_box_reach(box, x), 0.0), ball.z * max(abs(q.y) - steradian_indirect_box_reach(box, y), 0.0),
+                          max(abs(wz) - deep, 0.0));
+        let w2 = dot(least, least);
+        reaches = reaches && !(gap > 0.0 && gap * gap > q2) && w2 * w2 * w2 <= highest * highest;
+    }
+    return reaches;
 }

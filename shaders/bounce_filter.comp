@@ -1,12 +1,9 @@
 // Filter that joins the results of a pattern's pixels, along rows (step 0), then along columns (step 1); a thread a pixel.
-// Mirrors source/render/bounce/receivers/filter_pack.cpp.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "bounce.glsl"
-
-const float kEnough = 0.6;     // fraction of the weights
-const float kRounding = 1e-5;  // a hundredth of a millimetre
+#include "bounce_kernels.glsl"
 
 float tap_weight(int kind, int tap) {
     int sets = parameter(kStride) * parameter(kStride);
@@ -26,14 +23,13 @@ struct Sums {
     float glossy_weight;
 };
 
-// Sums over the taps on the same surface. like holds the limits: least cosine of the normals, greatest distance from the plane over the
-// tap's distance, greatest relative difference of widths.
-Sums gather(int i, ivec2 pixel, vec3 like) {
+// Sums over the taps on the same surface.
+Sums gather(int i, ivec2 pixel, IndirectLikeness like) {
     vec3 n = normals[i].xyz;
     vec3 p = positions[i].xyz;
     float width = width_at(i);
     bool glossy = width > 0.0;
-    bool sharp = glossy && width < 0.1;
+    bool sharp = glossy && width < indirect_sharp();
     Sums s = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
     int low = -parameter(kReachLow);
     int high = parameter(kReachHigh);
@@ -41,26 +37,16 @@ Sums gather(int i, ivec2 pixel, vec3 like) {
         ivec2 at = pixel + (step == 0u ? ivec2(k, 0) : ivec2(0, k));
         if (at.x < 0 || at.y < 0 || at.x >= parameter(kWidth) || at.y >= parameter(kHeight)) continue;
         int j = index_of(at);
-        vec3 d = positions[j].xyz - p;
-        float off = dot(n, d);
-        bool same = dot(n, normals[j].xyz) > like.x && off * off < dot(d, d) * (like.y * like.y) + kRounding * kRounding;
-        if (!same) continue;
+        if (!indirect_same_surface(like, n, normals[j].xyz, positions[j].xyz - p)) continue;
         float weight = tap_weight(0, k);
         s.diffuse += (step == 0u ? diffuse_light[j].xyz : diffuse_rows[j].xyz) * weight;
         s.diffuse_weight += weight;
-        if (!glossy || !(abs(width_at(j) - width) < width * like.z)) continue;
+        if (!glossy || !(abs(width_at(j) - width) < width * like.widths)) continue;
         weight = tap_weight(sharp ? 2 : 1, k);
         s.glossy += (step == 0u ? glossy_light[j].xyz : glossy_rows[j].xyz) * weight;
         s.glossy_weight += weight;
     }
     return s;
-}
-
-vec3 over(vec3 sum, float weight) { return sum / max(weight, 1.0e-12); }
-// Mean of the sum. If its weight is less than kEnough, the others supply the rest.
-vec3 joined(vec3 sum, float weight, vec3 others, float others_weight) {
-    float lack = max(kEnough - weight, 0.0);
-    return over(sum + over(others, others_weight) * lack, weight + lack);
 }
 
 void main() {
@@ -71,13 +57,13 @@ void main() {
     vec3 glossy = vec3(0.0);
     if (n != vec3(0.0)) {
         ivec2 pixel = ivec2(i % parameter(kWidth), i / parameter(kWidth));
-        Sums same = gather(i, pixel, vec3(0.9, 0.05, 0.2));
+        Sums same = gather(i, pixel, indirect_alike());
         // Looser sums, for edges: there the strict ones find so little that the pattern would be visible.
         Sums loose = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
-        if (same.diffuse_weight < kEnough || (width_at(i) > 0.0 && same.glossy_weight < kEnough))
-            loose = gather(i, pixel, vec3(0.3, 0.7, 0.5));
-        diffuse = joined(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
-        glossy = joined(same.glossy, same.glossy_weight, loose.glossy, loose.glossy_weight);
+        if (same.diffuse_weight < indirect_enough() || (width_at(i) > 0.0 && same.glossy_weight < indirect_enough()))
+            loose = gather(i, pixel, indirect_alike_loosely());
+        diffuse = indirect_filtered(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
+        glossy = indirect_filtered(same.glossy, same.glossy_weight, loose.glossy, loose.glossy_weight);
     }
     if (step == 0u) {
         diffuse_rows[i] = vec4(diffuse, 0.0);

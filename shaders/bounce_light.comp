@@ -1,7 +1,5 @@
 // Algorithm 2 of Xia et al. 2023, second pass: light from virtual lights at each pixel. A thread handles a receiver and its block's lights.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-//
-// Mirrors source/render/bounce/lighting_pack.cpp, which runs on packs; light is demodulated as there.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "bounce.glsl"
@@ -15,7 +13,6 @@ layout(constant_id = 4) const int ANY_QUADS = 0;
 const bool GGX = GGX_LOBES == 1;
 const bool SHINES = ANY_GLOSSY == 1;
 const bool QUADS = ANY_QUADS == 1;
-const float kSharp = 0.1;
 
 struct Receiver {
     vec3 position;
@@ -33,45 +30,21 @@ struct Receiver {
 vec3 diffuse_sum;
 vec3 glossy_sum;
 
-// Integral over the quad, instead of the lobe's value at its middle.
-float quad_half(Receiver at, vec3 normal, vec3 edge_x, vec3 edge_y, float inverse_area, vec3 v, float d2, float soft, float rarity) {
-    float grow = sqrt(rarity);
-    vec3 ex = edge_x * grow;
-    vec3 ey = edge_y * grow;
-    vec3 a = polygon_direction(indirect_under(at.lobe, v - ex - ey));
-    vec3 b = polygon_direction(indirect_under(at.lobe, v + ex - ey));
-    vec3 c = polygon_direction(indirect_under(at.lobe, v + ex + ey));
-    vec3 d = polygon_direction(indirect_under(at.lobe, v - ex + ey));
-    PolygonWalk walk = polygon_begin();
-    walk = polygon_add_edge(walk, a, b);
-    walk = polygon_add_edge(walk, b, c);
-    walk = polygon_add_edge(walk, c, d);
-    walk = polygon_add_edge(walk, d, a);
-    bool reversed = dot(cross(ex, ey), v) < 0.0;
-    float integral = polygon_irradiance(walk, reversed) * inverse_pi();
-    float facing = max(dot(normal, v), 1.0e-12);
-    return integral * (d2 + soft) * inverse_area / (facing * at.lobe.scale * rarity);
-}
-
-void add_pair(Receiver at, vec3 v, float d2, float inverse, float kept, float value, vec3 bright, float soft, vec3 light_normal,
-              int edges, float inverse_area, float size2) {
-    float cosine = max(dot(at.normal, v), 0.0);
-    diffuse_sum += bright * (kept * cosine * (inverse * inverse));
+void add_pair(Receiver at, IndirectWay way, float kept, float value, vec3 bright, float soft, vec3 light_normal, int edges,
+              float inverse_area, float size2) {
+    float cosine = max(dot(at.normal, way.v), 0.0);
+    diffuse_sum += bright * (kept * cosine * (way.inverse * way.inverse));
     if (!SHINES || !at.glossy) return;
     if (GGX) {
-        IndirectGgx end = indirect_ggx(at.frame, at.view, at.alpha, v * inverse);
-        glossy_sum += bright * (at.f0 + at.grazing * end.grazing) * (kept * (end.lobe * inverse));
+        IndirectGgx end = indirect_ggx(at.frame, at.view, at.alpha, way.v * way.inverse);
+        glossy_sum += bright * (at.f0 + at.grazing * end.grazing) * (kept * (end.lobe * way.inverse));
         return;
     }
-    float through = indirect_glossy_half(at.lobe, v, d2, 0.0);
+    float through = indirect_glossy_half(at.lobe, way.v, way.d2, 0.0);
     if (QUADS && at.sharp) {
-        // Only if the quad is not tiny in the lobe's own space: over a tiny quad, the lobe is nearly constant. Also not if the quad is seen
-        // edge-on: lighting_pack.cpp.
-        vec3 w = indirect_under(at.lobe, v);
-        float facing = dot(light_normal, v);
-        if (size2 * kept > dot(w, w) * value * 0.02 && facing > 0.0 && facing * facing > d2 * 1.0e-6)
-            through = quad_half(at, light_normal, lights[edges].xyz, lights[edges + 1].xyz, inverse_area, v, d2, soft,
-                                kept / max(value, 1.0e-30));
+        IndirectQuad quad = IndirectQuad(light_normal, lights[edges].xyz, lights[edges + 1].xyz, inverse_area, size2);
+        if (indirect_quad_matters(at.lobe, quad, way, kept, value))
+            through = indirect_quad_half(at.lobe, quad, way, soft, kept / max(value, smallest_divisor()));
     }
     if (cosine > 0.0) glossy_sum += bright * (kept * through);
 }
@@ -80,13 +53,11 @@ void add_diffuse_light(Receiver at, int light) {
     vec4 place = lights[light];
     vec4 turned = lights[light + 1];
     vec4 bright = lights[light + 2];
-    vec3 v = place.xyz - at.position;
-    float d2 = max(dot(v, v), 1.0e-20);
-    float inverse = inversesqrt(d2);
-    float value = indirect_diffuse_half(turned.xyz, v, d2, bright.w);
-    float kept = indirect_kept(value, place.w * (d2 * inverse), turned.w);
+    IndirectWay way = indirect_way(place.xyz, at.position);
+    float value = indirect_diffuse_half(turned.xyz, way.v, way.d2, bright.w);
+    float kept = indirect_kept(value, place.w * (way.d2 * way.inverse), turned.w);
     if (kept > 0.0)
-        add_pair(at, v, d2, inverse, kept, value, bright.xyz, bright.w, turned.xyz, light + 3, lights[light + 3].w, lights[light + 4].w);
+        add_pair(at, way, kept, value, bright.xyz, bright.w, turned.xyz, light + 3, lights[light + 3].w, lights[light + 4].w);
 }
 
 void add_glossy_light(Receiver at, int light) {
@@ -97,22 +68,20 @@ void add_glossy_light(Receiver at, int light) {
     vec4 turned = lights[light + 4];
     vec4 colour = lights[light + 5];
     vec3 grazing = lights[light + 6].xyz;
-    vec3 v = place.xyz - at.position;
-    float d2 = max(dot(v, v), 1.0e-20);
-    float inverse = inversesqrt(d2);
+    IndirectWay way = indirect_way(place.xyz, at.position);
     vec3 bright = colour.xyz;
     float value = 0.0;
     if (GGX) {
-        IndirectGgx end = indirect_ggx(mat3(x.xyz, y.xyz, z.xyz), vec3(turned.w, 0.0, colour.w), z.w, v * -inverse);
-        value = end.lobe * inverse * d2 / (d2 + y.w);
+        IndirectGgx end = indirect_ggx(mat3(x.xyz, y.xyz, z.xyz), vec3(turned.w, 0.0, colour.w), z.w, way.v * -way.inverse);
+        value = end.lobe * way.inverse * way.d2 / (way.d2 + y.w);
         bright += grazing * end.grazing;
     } else {
         IndirectLobe lobe = IndirectLobe(x.xyz, y.xyz, z.xyz, 1.0);
-        if (dot(turned.xyz, v) > 0.0) value = indirect_glossy_half(lobe, v, d2, y.w);
-        if (z.w > 0.0) bright += grazing * indirect_grazing(lights[light + 7].xyz, v, d2);
+        if (dot(turned.xyz, way.v) > 0.0) value = indirect_glossy_half(lobe, way.v, way.d2, y.w);
+        if (z.w > 0.0) bright += grazing * indirect_grazing(lights[light + 7].xyz, way.v, way.d2);
     }
-    float kept = indirect_kept(value, place.w * (d2 * inverse), x.w);
-    if (kept > 0.0) add_pair(at, v, d2, inverse, kept, value, bright, y.w, turned.xyz, light + 8, turned.w, colour.w);
+    float kept = indirect_kept(value, place.w * (way.d2 * way.inverse), x.w);
+    if (kept > 0.0) add_pair(at, way, kept, value, bright, y.w, turned.xyz, light + 8, turned.w, colour.w);
 }
 
 void main() {
@@ -144,7 +113,7 @@ void main() {
             magnitude = look_up_magnitude(sqrt(at.alpha), at.view.z);
         } else {
             at.lobe = indirect_lobe(lobe_matrix(at.normal, view, at.frame, at.alpha), at.frame);
-            at.sharp = at.alpha < kSharp;
+            at.sharp = at.alpha < indirect_sharp();
         }
     }
     if (there) {

@@ -22,12 +22,10 @@ vec3 polygon_vector(Light light, Seen seen, mat3 frame, vec3 p) {
 // Irradiance vector from a light of radiance 1, in the frame; its z is the irradiance, in [0, pi].
 vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     vec3 e;
-    float least_distance2 = 500.0;
-    float roundings = 128.0;
+    LightElementsLimits limits = light_elements_along_arcs();
     if (KIND == kPolygon || by_pieces()) {
         e = polygon_vector(light, seen, frame, p);
-        least_distance2 = 4000.0;
-        roundings = 2.0;
+        limits = light_elements_along_edges();
     } else if (KIND == kCapsule) {
         e = capsule_irradiance_vector(capsule_in(light, frame, p));
     } else if (BALLS) {
@@ -37,9 +35,9 @@ vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     } else {
         e = ellipse_irradiance_vector(ellipse_in(light, frame, p));
     }
-    if (CAREFUL && may_be_small(light, p, least_distance2)) {
+    if (may_be_small(light, p, limits)) {
         LightElements elements = elements_in(light, seen, frame, p);
-        if (elements_serve(elements, light_elements_diffuse_sharpness(), roundings)) e = light_elements_irradiance_vector(elements);
+        if (elements_serve(elements, light_elements_diffuse_sharpness(), limits)) e = light_elements_irradiance_vector(elements);
     }
     return seen.lit ? e : vec3(0.0);
 }

@@ -1,5 +1,5 @@
-// Measured lamps as the host wrote them (source/device/direct/light_records.cpp): a head (type, numbers of vertical and horizontal angles),
-// then the angles in degrees and the measured values, four numbers a vector. Mirrors source/shapes/light_profile.cpp.
+// Measured lamps from the host (source/device/direct/light_records.cpp): a head (type, numbers of vertical and horizontal angles),
+// then the angles in degrees and the measured values, four numbers a vector.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 float profile_number(int first, int i) { return details[first + 1 + (i >> 2)][i & 3]; }

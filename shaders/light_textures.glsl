@@ -1,8 +1,8 @@
-// Textured lights as the host wrote them (source/device/direct/light_records.cpp): a head, the levels of blurred copies, the cells of the
-// tree. Mirrors filtered_texture.h and texture_tree.h of source/integrals/ltc; the parity of frames holds the two together.
+// Textured lights from the host (source/device/direct/light_records.cpp): a head, the levels of blurred copies, the cells of the
+// tree.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "integrals/textured/texture_rule.glsl"
-#include "integrals/textured/texture_cell.glsl"
+#include "integral/texture_cell.glsl"
 
 // Contents of the head, of a level and of a cell: kTextureHead, kTextureLevel and kTextureCell vectors.
 //   head   origin, deviation of the smallest cells; axis x, number of levels; axis y, where the cells begin; bounds; mean;

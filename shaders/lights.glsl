@@ -1,5 +1,4 @@
-// Lights as the host wrote them (source/device/direct/light_records.cpp), and how a point sees them. This text mirrors source/shapes for
-// packs; the parity of frames holds the two together.
+// Lights from the host (source/device/direct/light_records.cpp), and how a point sees them.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // One light.
@@ -44,20 +43,13 @@ EllipsoidOutline round_outline(Light light, vec3 p) {
     return ellipsoid_outline(light.r[2].xyz - p, axes, inverse_axes);
 }
 
-// The outline in units of its distance, so that squares of squares stay in the range of float.
 Ellipse ellipse_in(Light light, mat3 frame, vec3 p) {
     EllipsoidOutline outline = round_outline(light, p);
-    float size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
-    float unit = inversesqrt(max(size2, 1.0e-30));
-    return ellipse_prepare(transform_transposed(frame, outline.center) * unit, transform_transposed(frame, outline.axis_a) * unit,
-                           transform_transposed(frame, outline.axis_b) * unit);
+    return ellipse_in_units(frame, outline.center, outline.axis_a, outline.axis_b);
 }
 
 Capsule capsule_between(vec3 end_a, vec3 end_b, float radius, mat3 frame, vec3 p) {
-    vec3 a = transform_transposed(frame, end_a - p);
-    vec3 b = transform_transposed(frame, end_b - p);
-    float unit = inversesqrt(max(dot(a, a) + dot(b, b) + radius * radius, 1.0e-30));
-    return capsule_prepare(a * unit, b * unit, radius * unit);
+    return capsule_in_units(transform_transposed(frame, end_a - p), transform_transposed(frame, end_b - p), radius);
 }
 
 Capsule capsule_in(Light light, mat3 frame, vec3 p) {
@@ -100,29 +92,6 @@ float distance2_of(Light light, vec3 p) {
     return dot(to, to);
 }
 
-// Elements of a capsule: its strip, which is equally wide from everywhere across, and the half balls at its ends. Each has its second
-// moment along the axis. Mirrors source/shapes/capsule.h.
-LightElements capsule_elements(Light light, vec3 p) {
-    float radius = light.r[2].w;
-    float r2 = radius * radius;
-    vec3 axis = light.r[4].xyz * 2.0;
-    vec3 center = (light.r[2].xyz - p + (light.r[3].xyz - p)) * 0.5;
-    float length2 = dot(axis, axis);
-    vec3 along = axis * inversesqrt(max(length2, smallest_square()));
-    vec3 sight = center * inversesqrt(max(dot(center, center), smallest_square()));
-    vec3 across = sight - along * dot(along, sight);
-    vec3 aside = cross(along, sight);
-    float strip = 2.0 * radius * sqrt(length2);
-    float balls = pi() * r2;
-    float share = 2.0 / max(strip + balls, smallest_square());
-    LightElements e;
-    e.center = center;
-    e.area = -(across * (inversesqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
-    e.reach_a = along * sqrt(share * (strip * length2 / 12.0 + balls * (length2 + r2) * 0.25));
-    e.reach_b = aside * (inversesqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip / 3.0 + balls * 0.25)));
-    return e;
-}
-
 // Elements in the shading frame, of the visible side.
 LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     LightElements e;
@@ -137,7 +106,7 @@ LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
         e.reach_b = light.r[5].xyz;
         e.area = light.r[6].xyz * (seen.reversed ? -1.0 : 1.0);
     } else if (KIND == kCapsule) {
-        e = capsule_elements(light, p);
+        e = capsule_elements((light.r[2].xyz - p + (light.r[3].xyz - p)) * 0.5, light.r[4].xyz * 2.0, light.r[2].w);
     } else {
         EllipsoidOutline outline = round_outline(light, p);
         e = ellipse_elements(ellipse_prepare(outline.center, outline.axis_a, outline.axis_b));
@@ -149,9 +118,10 @@ LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     return e;
 }
 
-// Returns true if four elements serve in place of the outline. For roundings, bias and least_distance2 see source/shapes/small_light.h.
-bool elements_serve(LightElements e, float sharpness, float roundings, float bias) {
-    return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, roundings, bias);
+// Returns true if four elements serve in place of an outline whose integral has these limits.
+bool elements_serve(LightElements e, float sharpness, LightElementsLimits limits) {
+    return light_elements_serve(e, vec3(0.0, 0.0, 1.0), sharpness, limits.roundings, limits.bias);
 }
-bool elements_serve(LightElements e, float sharpness, float roundings) { return elements_serve(e, sharpness, roundings, 0.0); }
-bool may_be_small(Light light, vec3 p, float least_distance2) { return distance2_of(light, p) > deviation2_of(light) * least_distance2; }
+bool may_be_small(Light light, vec3 p, LightElementsLimits limits) {
+    return CAREFUL && distance2_of(light, p) > deviation2_of(light) * limits.least_distance2;
+}

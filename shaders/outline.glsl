@@ -61,30 +61,7 @@ Place outline_place(Light light, mat3 frame, vec3 p, int i) {
     return place;
 }
 
-// Edges above the horizon, including the arcs of the horizon that close them.
-vec3 edge_begins[EDGE_SPACE];
-vec3 edge_ends[EDGE_SPACE];
-int edge_count;
-
-void add_edge(vec3 a, vec3 b) {
-    vec3 chord = b - a;
-    if (dot(chord, chord) > smallest_divisor() && edge_count < EDGE_SPACE) {
-        edge_begins[edge_count] = a;
-        edge_ends[edge_count] = b;
-        ++edge_count;
-    }
-}
-
-void add_arc_of_horizon(HorizonClip clip, float facing) {
-    if (!clip.closes) return;
-    vec3 start = clip.arc_start;
-    if (dot(start, clip.arc_end) < -0.9999) {
-        vec3 middle = horizon_arc_middle(start, clip.arc_end, facing);
-        add_edge(start, middle);
-        start = middle;
-    }
-    add_edge(start, clip.arc_end);
-}
+#include "edges.glsl"
 
 // State of a walk that fills the edges until their space is used up.
 struct ClippedWalk {

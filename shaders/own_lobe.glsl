@@ -1,4 +1,4 @@
-// Lobes of extras.steradian, as the host stored them among the lights' details (source/device/direct/own_lobes.cpp).
+// Lobes of extras.steradian, which the host stored among the lights' details (source/device/direct/own_lobes.cpp).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 struct OwnLobe {

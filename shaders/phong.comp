@@ -30,30 +30,7 @@ layout(push_constant) uniform Push { uint count; };
 #include "integral/moment_cosine.glsl"
 #define PHONG_COMPARISON
 #include "phong_front.glsl"
-
-vec3 edge_begins[EDGE_SPACE];
-vec3 edge_ends[EDGE_SPACE];
-int edge_count;
-
-void add_edge(vec3 a, vec3 b) {
-    vec3 chord = b - a;
-    if (dot(chord, chord) > smallest_divisor() && edge_count < EDGE_SPACE) {
-        edge_begins[edge_count] = a;
-        edge_ends[edge_count] = b;
-        ++edge_count;
-    }
-}
-
-void add_arc(HorizonClip clip) {
-    if (!clip.closes) return;
-    vec3 start = clip.arc_start;
-    if (dot(start, clip.arc_end) < -0.9999) {
-        vec3 middle = horizon_arc_middle(start, clip.arc_end, 1.0);
-        add_edge(start, middle);
-        start = middle;
-    }
-    add_edge(start, clip.arc_end);
-}
+#include "edges.glsl"
 
 void main() {
     uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
@@ -70,11 +47,11 @@ void main() {
         vec3 here = polygon_direction(transform_transposed(frame, corners[k].xyz - p));
         clip = horizon_clip_edge(clip, previous, here);
         add_edge(clip.start, clip.end);
-        add_arc(clip);
+        add_arc_of_horizon(clip, 1.0);
         previous = here;
     }
     clip = horizon_clip_finish(clip);
-    add_arc(clip);
+    add_arc_of_horizon(clip, 1.0);
 
     vec3 axis = phong_mirror(view);
     float sum = 0.0;

@@ -1,5 +1,4 @@
-// Phong's lobe about the mirrored view, times the light's cosine where the material asks for it. Mirrors source/integrals/phong/phong.h and
-// foreshortened_phong.h.
+// Phong's lobe about the mirrored view, times the light's cosine where the material asks for it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #include "phong_front.glsl"
 
@@ -9,22 +8,17 @@ const bool FORESHORTENED = LOBE_FORM == 1;
 float phong_share(vec3 a, vec3 b, vec3 r, float n) {
     MomentEdge edge = moment_edge(a, b, r);
     if (!FORESHORTENED) return moment_edge_share(edge, phong_front(edge, n));
-    float front = 0.0;
+    float front;
     float cosines;
     if (METHOD == kPhongExact) {
-        if (n == 0.0) {
-            cosines = trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
-        } else {
-            MomentIntegrands q = moment_quadrature_front(edge, n - 1.0);
-            front = q.moment;
-            cosines = q.power;
-        }
+        MomentIntegrands q = moment_foreshortened_front(edge, n, int(n == 0.0));
+        front = q.moment;
+        cosines = q.power;
     } else {
         front = phong_front(edge, n - 1.0);
         cosines = moment_cosine_front(edge, n, LOW_EXPONENT > 0 ? 1 : 0);
     }
-    float share = moment_double_axis_share(a, b, r, vec3(0.0, 0.0, 1.0), moment_edge_share(edge, front), cosines);
-    return (n + 1.0) / (n + 2.0) * share;
+    return (n + 1.0) / (n + 2.0) * moment_foreshortened_share(edge, a, b, r, front, cosines);
 }
 
 struct PhongLobe {
@@ -47,10 +41,10 @@ float phong_over_outline(Light light, Seen seen, mat3 frame, vec3 p, PhongLobe l
     return moment_phong_radiance(sum, seen.reversed);
 }
 
-// Values of source/shapes/small_light.h.
+// Bias of the method. Elements miss the bend that a lobe of an exponent below 2 has at its end: they serve only where the lobe is tiny there.
 float phong_bias(PhongLobe lobe) {
     if (lobe.n < 2.0) return 0.0;
-    return METHOD == kPhongSeries ? 1.0 / 64.0 : METHOD == kPhongSeriesHigh ? 1.0 / 115.0 : 0.0;
+    return METHOD == kPhongSeries ? light_elements_series_bias() : METHOD == kPhongSeriesHigh ? light_elements_series_high_bias() : 0.0;
 }
 
 // Radiance towards the view from a light of radiance 1, for a lobe of colour 1.
@@ -66,12 +60,10 @@ float own_radiance(Light light, vec3 p, vec3 n, vec3 v, vec3 tangent, OwnLobe ow
     }
     if (has_corners()) fill_corners(light, frame, p, lobe.mirror, inversesqrt(lobe.n + 1.0));
     float sent = phong_over_outline(light, seen, frame, p, lobe);
-    float sharpness = 2.5 + sqrt(lobe.n);
-    float bias = phong_bias(lobe);
-    float least_distance2 = bias > 0.0 ? min(500.0, 4.0 * sharpness * sharpness) : 500.0;
-    if (CAREFUL && may_be_small(light, p, least_distance2)) {
+    LightElementsLimits limits = light_elements_along_power(lobe.n, phong_bias(lobe));
+    if (may_be_small(light, p, limits)) {
         LightElements e = elements_in(light, seen, frame, p);
-        if (elements_serve(e, sharpness, 128.0, bias)) {
+        if (elements_serve(e, light_elements_power_sharpness(lobe.n), limits)) {
             sent = 0.0;
             for (int i = 0; i < 4; i++) {
                 LightElement element = light_element_at(e, i);

@@ -1,8 +1,8 @@
 // Light in the plane. A thread handles a pixel and goes through its tile's lights. Closed forms integrate the visible part of each light.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 //
-// A shader handles one kind of lights: plane_disks.comp, plane_cuts.comp and plane_arcs.comp define it as KIND. This text mirrors the packs
-// of source/plane/frame; the parity of frames holds the two together.
+// A shader handles one kind of lights: plane_disks.comp, plane_cuts.comp and plane_arcs.comp define it as KIND. The parity of
+// frames holds it to the packs.
 #include "plane_layout.glsl"
 
 layout(local_size_x = 64) in;

@@ -30,7 +30,7 @@ struct Arc {
 // The place z = tan(beta / 2) in the direction of a slope. beta is the angle at which the ray hits the unit circle.
 float place_on_arc(Arc arc, vec2 axis, float m) {
     vec2 n = to_unit(arc.shape, axis + m * vec2(-axis.y, axis.x));
-    float s = clamp(cross2(n, arc.unit) * inversesqrt(max(dot(n, n), 1.0e-30)), -1.0, 1.0);
+    float s = clamp(cross2(n, arc.unit) * inversesqrt(max(dot(n, n), smallest_divisor())), -1.0, 1.0);
     return s / (1.0 + sqrt(max(1.0 - s * s, 0.0)));
 }
 
@@ -50,7 +50,7 @@ vec2 arc_node(Arc arc, float z) {
     float weight = 2.0 * over * c * arc.det / (root * m2);
     if (arc.profile == 1) {
         vec2 normal = hit.x * arc.shape.axis_y - hit.y * arc.shape.axis_x;
-        weight *= c * arc.det * inversesqrt(max(dot(normal, normal) * m2, 1.0e-30));
+        weight *= c * arc.det * inversesqrt(max(dot(normal, normal) * m2, smallest_divisor()));
     }
     if (arc.profile == 2) weight *= inversesqrt(max(t * t * m2, 1.0e-24));
     if (arc.inverse_range > 0.0) {
@@ -124,7 +124,7 @@ vec3 arc_light(uint at) {
     vec2 p = tangent_direction(arc.shape, arc.unit, 1.0);
     vec2 q = tangent_direction(arc.shape, arc.unit, -1.0);
     vec2 axis = pair_of_numbers(at + uint(kLightX)) - eye;
-    if (lists[own + 12u] == 1u) axis = p * inversesqrt(max(dot(p, p), 1.0e-30)) + q * inversesqrt(max(dot(q, q), 1.0e-30));
+    if (lists[own + 12u] == 1u) axis = p * inversesqrt(max(dot(p, p), smallest_divisor())) + q * inversesqrt(max(dot(q, q), smallest_divisor()));
     vec2 along_p = along_axis(axis, p);
     vec2 along_q = along_axis(axis, q);
     float from = slope(along_p.x, along_p.y, -kBeyond);
@@ -155,5 +155,5 @@ vec3 arc_light(uint at) {
         }
         from = after_gap(k, from);
     }
-    return (colour_at(at + uint(kLightColour)) * sum.x + colour_at(at + uint(kLightSlope)) * sum.y) * kInverseTurn;
+    return (colour_at(at + uint(kLightColour)) * sum.x + colour_at(at + uint(kLightSlope)) * sum.y) * inverse_two_pi();
 }

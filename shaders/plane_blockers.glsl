@@ -71,7 +71,7 @@ vec2 tangent_direction(Round r, vec2 unit, float side) {
 // A line runs from the eye through a point, which is at fraction 1. Returns the fraction at which it enters the ellipse.
 float entry_before(Round r, vec2 unit, vec2 v) {
     vec2 n = to_unit(r, v);
-    return min(max(outside2(unit), 0.0) / max(dot(n, n), 1.0e-30), 1.0);
+    return min(max(outside2(unit), 0.0) / max(dot(n, n), smallest_divisor()), 1.0);
 }
 
 // A round blocker that overlaps the light. The nearer one of the two changes only at a crossing that is visible on both.

@@ -19,19 +19,16 @@ DiskView disk_view(vec2 center, float radius, float inverse_range) {
     view.d2 = dot(to, to);
     float rho = radius * unit;
     view.rho2 = rho * rho;
+    // Without a range, the reach is that of a tangent.
     float reach = view.d2 > view.rho2 ? rho : 0.0;
-    if (inverse_range > 0.0 && view.d2 - view.rho2 > 1.0) {
-        // The near side leaves the range before the tangent does: law of cosines.
-        float along = 0.5 * (view.d2 + 1.0 - view.rho2);
-        reach = min(sqrt(max(view.d2 - along * along, 0.0)), rho);
-    }
+    if (inverse_range > 0.0) reach = plane_disk_reach(view.d2, rho);
     view.reach = reach / unit;
     return view;
 }
 
 float disk_slope(DiskView view, float x) {
     if (view.scale > 0.0) x *= view.scale;
-    return x * inversesqrt(max(view.d2 - x * x, 1.0e-12));
+    return plane_disk_slope(x, view.d2);
 }
 
 // Light between two rays, which are given by their slopes from the centre's direction.

@@ -13,7 +13,7 @@ vec3 disk_light(uint at) {
         if (to > from) sum += disk_share(view, from, to);
         from = after_gap(k, from);
     }
-    return colour_at(at + uint(kLightColour)) * (max(sum, 0.0) * kInverseTurn);
+    return colour_at(at + uint(kLightColour)) * (max(sum, 0.0) * inverse_two_pi());
 }
 
 // An edge as the pixel sees it. Slopes are from its perpendicular, and run along it.
@@ -40,7 +40,7 @@ Edge edge_of(vec2 point, vec2 normal, float begin, float inverse_range) {
 
 float slope_along(Edge e, float place) { return clamp((place - e.foot) * e.inverse_d, -kBeyond, kBeyond); }
 
-float reach_of(Edge e) { return sqrt(max(1.0 / max(e.q, 1.0e-30) - 1.0, 0.0)); }
+float reach_of(Edge e) { return sqrt(max(1.0 / max(e.q, smallest_divisor()) - 1.0, 0.0)); }
 
 // Emission of an edge.
 struct Emission {
@@ -92,7 +92,7 @@ vec2 small_sums(vec2 a, vec2 b) {
 float share_at(float m, vec2 begin, vec2 end) {
     float g0 = m * begin.x - begin.y;
     float g1 = m * end.x - end.y;
-    return clamp(g0 / max(g0 - g1, 1.0e-30), 0.0, 1.0);
+    return clamp(g0 / max(g0 - g1, smallest_divisor()), 0.0, 1.0);
 }
 
 vec3 small_part_light(uint part, vec2 run_axis, bool whole) {
@@ -110,7 +110,7 @@ vec3 small_part_light(uint part, vec2 run_axis, bool whole) {
         if (to > from && last > first) sum += small_sums(begin + first * (end - begin), begin + last * (end - begin));
         from = after_gap(k, from);
     }
-    sum *= kInverseTurn;
+    sum *= inverse_two_pi();
     // The direction towards the edge is against its normal; the direction along the edge is (y, -x) of that.
     float foot = cross2(normal, begin);
     float d = -dot(normal, begin);
@@ -147,7 +147,7 @@ vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range
         }
         from = after_gap(k, from);
     }
-    sum *= kInverseTurn;
+    sum *= inverse_two_pi();
     if (emission.profile == 2) sum *= e.inverse_d;
     return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * ((e.foot - e.begin) * sum.x + sum.y * e.d);
 }
@@ -205,5 +205,5 @@ vec3 edge_light(uint at) {
         if (to > from) sum += trig_atan2_unwrapped(to - from, 1.0 + from * to);
         from = after_gap(k, from);
     }
-    return colour_at(at + uint(kLightColour)) * (sum * kInverseTurn);
+    return colour_at(at + uint(kLightColour)) * (sum * inverse_two_pi());
 }

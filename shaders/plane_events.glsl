@@ -12,37 +12,11 @@ vec2 vertex_at(uint number, vec4 center) {
     return vec2((v.x - center.x) + (v.y - center.y), (v.z - center.z) + (v.w - center.w));
 }
 
-// Place on the light: where the ray through a vertex passes its centre. If the vertex is behind the pixel, it is beyond all of the light.
-float place_on_light(vec2 from_light, vec2 from_eye) {
-    float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
-    float ahead = dot(from_eye - from_light, from_eye);
-    if (ahead > 0.0) return across * inversesqrt(max(dot(from_eye, from_eye), 1.0e-30));
-    return across > 0.0 ? 1.0e6 : -1.0e6;
+// The ends of a pair's round blocker; its centre is the vertex `first`.
+PlaneRoundEnds round_ends(uint pair, uint first, vec2 p, vec2 light, vec4 center) {
+    vec2 from_light = vertex_at(first, center) - light;
+    return plane_round_ends(-p, from_light - p, from_light, uintBitsToFloat(pairs[pair + uint(kPairRadius)]));
 }
-
-struct RoundEnds {
-    float begin;
-    float end;
-    bool begins_ahead;
-    bool ends_ahead;
-};
-
-RoundEnds round_ends(vec2 to_light, vec2 from_light, float s) {
-    vec2 k = from_light + to_light;
-    float k2 = dot(k, k);
-    float t = plane_root(max(k2 - s * s, 0.0));
-    float across = cross2(to_light, from_light);
-    float ahead = dot(to_light, k);
-    float inverse = 1.0 / max(k2, 1.0e-30);
-    RoundEnds e;
-    e.begin = (t * across - s * ahead) * inverse;
-    e.end = (t * across + s * ahead) * inverse;
-    e.begins_ahead = t * ahead + s * across > 0.0;
-    e.ends_ahead = t * ahead - s * across > 0.0;
-    return e;
-}
-
-float beyond_light(float place) { return place > 0.0 ? 1.0e6 : -1.0e6; }
 
 // A blocker within the light, or one for which no line decides.
 void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
@@ -50,7 +24,7 @@ void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
     uint first = pairs[pair + uint(kPairFirst)];
     uint kind = pairs[pair + uint(kPairKind)];
     if ((kind & 255u) == 1u) {
-        RoundEnds e = round_ends(-p, vertex_at(first, center) - light, uintBitsToFloat(pairs[pair + uint(kPairRadius)]));
+        PlaneRoundEnds e = round_ends(pair, first, p, light, center);
         if (e.begins_ahead || e.ends_ahead) take(e.begins_ahead ? e.begin : -1.0e6, e.ends_ahead ? e.end : 1.0e6);
         return;
     }
@@ -66,8 +40,8 @@ void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
         vec2 from_eye = v - eye;
         vec2 from_light = v - light;
         float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
-        float place = across * inversesqrt(max(dot(from_eye, from_eye), 1.0e-30));
-        if (!(dot(p, from_eye) < 0.0)) place = cross2(near, from_eye) > 0.0 ? 1.0e6 : -1.0e6;
+        float place = across * inversesqrt(max(dot(from_eye, from_eye), smallest_divisor()));
+        if (!(dot(p, from_eye) < 0.0)) place = plane_beyond(cross2(near, from_eye));
         from = min(from, place);
         to = max(to, place);
     }
@@ -79,11 +53,11 @@ void take_end(uint pair, bool from_low, vec2 p, vec2 light, vec4 center) {
     uint first = pairs[pair + uint(kPairFirst)];
     uint kind = pairs[pair + uint(kPairKind)];
     if ((kind & 255u) == 1u) {
-        RoundEnds e = round_ends(-p, vertex_at(first, center) - light, uintBitsToFloat(pairs[pair + uint(kPairRadius)]));
+        PlaneRoundEnds e = round_ends(pair, first, p, light, center);
         if (from_low)
-            low = max(low, e.ends_ahead ? e.end : beyond_light(e.end));
+            low = max(low, e.end);
         else
-            high = min(high, e.begins_ahead ? e.begin : beyond_light(e.begin));
+            high = min(high, e.begin);
         return;
     }
     uint chain = pairs[pair + uint(kPairChain)] >> (from_low ? 0 : 16);
@@ -93,7 +67,7 @@ void take_end(uint pair, bool from_low, vec2 p, vec2 light, vec4 center) {
     turns += int(more);
     for (; more > 0u; more--) {
         vec2 v = vertex_at(first + k, center);
-        float place = place_on_light(v - light, v - eye);
+        float place = plane_place_on_light(v - light, v - eye);
         low = from_low ? max(low, place) : low;
         high = from_low ? high : min(high, place);
         k = k + 1u < count ? k + 1u : 0u;
@@ -127,7 +101,7 @@ float share_left(DiskView view) {
         from = after_gap(k, from);
     }
     turns += taken + 1;
-    return max(sum, 0.0) * kInverseTurn;
+    return max(sum, 0.0) * inverse_two_pi();
 }
 
 #if KIND == PLANE_DISKS

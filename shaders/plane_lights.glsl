@@ -2,8 +2,6 @@
 // lists that the device computes, `masks`.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-const float kInverseTurn = 0.159154943091895336;  // 1 / (2 pi)
-
 float number(uint at) { return uintBitsToFloat(lists[at]); }
 vec2 pair_of_numbers(uint at) { return vec2(number(at), number(at + 1u)); }
 vec3 colour_at(uint at) { return vec3(number(at), number(at + 1u), number(at + 2u)); }

@@ -1,5 +1,5 @@
 // Decides if a pair of a round light and a blocker matters to a square of pixels, and if it occludes the light from all of it.
-// Mirrors source/plane/frame/events/event_pack.cpp. Needs `lists`, `pairs` and `number`.
+// Needs `lists`, `pairs` and `number`.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 float line_at(uint line, vec2 p) {

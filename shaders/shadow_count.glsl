@@ -1,5 +1,4 @@
-// The counts along all segments, and the pieces at the lowest count: steps 5 and 6 of docs/shadows.md. Mirrors arrange() of
-// source/shadow/region/arrangement.cpp, and lanes_cut_pack.cpp.
+// The counts along all segments, and the pieces at the lowest count: steps 5 and 6 of docs/shadows.md.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Terms of order 0, 1 and 2 of f x (p - scale f.a) in the infinitely small displacement. p, shift: a vertex, or twice a midpoint.

@@ -1,4 +1,4 @@
-// Signs of integers of 64 bits, and the displacements that break ties. Mirrors source/shadow/region/arrangement.cpp and cell_of.
+// Signs of integers of 64 bits, and the displacements that break ties.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 struct Long {

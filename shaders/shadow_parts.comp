@@ -155,7 +155,7 @@ void main() {
     int flags = int(groups[at].w);
     int base = kHidden * (flags / kBase);
     Eye eye = eye_at(at, header, turned);
-    View view = View(eye, uintBitsToFloat(groups[at + 1u].xyz), eye.box * kCellSize);
+    View view = View(eye, uintBitsToFloat(groups[at + 1u].xyz), eye.box / shadow_cells());
 
     segment_count = 0;
     piece_count = 0;
@@ -172,7 +172,7 @@ void main() {
         cut_segments(base);
         bool wide = !too_much && piece_count > 0 && region_is_wide();
         if (wide) place = place_inside(base);
-        if (too_much || (piece_count > 0 && !(place.z > kLeastRoom))) {
+        if (too_much || (piece_count > 0 && !(place.z > shadow_cells() / 8192.0))) {
             sees = uint(kAskHost);
         } else if (piece_count == 0) {
             sees = uint(kSeesNone);

@@ -1,10 +1,7 @@
-// The region that the pieces bound: tests if it is thin, and finds a place well inside it. Mirrors source/shadow/lanes/lanes_region_pack.cpp.
+// The region that the pieces bound: tests if it is thin, and finds a place well inside it.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-const float kCellSize = 1.0 / 4194304.0;      // in half sides of the box
 const float kThin = 1.0 / 4096.0;
-const float kRoomEnough = 4194304.0 / 1024.0;
-const float kLeastRoom = 4194304.0 / 8192.0;
 const int kTrials = 4;
 const int kNoPiece = 2147483647;
 
@@ -12,7 +9,7 @@ bool region_is_wide() {
     float twice = 0.0;
     float perimeter = 0.0;
     for (int i = int(LANE); i < piece_count; i += int(LANES)) {
-        vec4 p = piece_ends(i) * kCellSize;
+        vec4 p = piece_ends(i) / shadow_cells();
         vec2 d = p.zw - p.xy;
         twice += p.x * d.y - p.y * d.x;
         perimeter += length(d);
@@ -95,7 +92,7 @@ vec3 place_inside(int base) {
         vec2 q = middle + 0.5 * distance * n;
         float room = room_at(q, base);
         if (room > best.z) best = vec3(q, room);
-        if (best.z > kRoomEnough) break;
+        if (best.z > shadow_cells() / 1024.0) break;
     }
     return best;
 }

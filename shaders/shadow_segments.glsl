@@ -1,5 +1,4 @@
-// A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells. Mirrors
-// source/shadow/edges/edge_arrays.cpp and lanes_see_pack.cpp.
+// A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 shared ivec4 cells[SEGMENT_SPACE];  // start, end
@@ -91,7 +90,7 @@ End look_at(Eye eye, vec3 v) {
 }
 
 // Distance from a side, with the sign that `outside` has, so that all edges of a vertex agree.
-float side_distance(float d, int outside, int bit) { return (outside & bit) != 0 ? min(d, 0.0) : max(d, 1.0e-30); }
+float side_distance(float d, int outside, int bit) { return (outside & bit) != 0 ? min(d, 0.0) : max(d, smallest_divisor()); }
 
 // clip_name: name of the segment's ends at the box.
 void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight) {

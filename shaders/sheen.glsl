@@ -1,4 +1,4 @@
-// Sheen, Charlie's lobe, by its cubature. Mirrors source/integrals/ggx/charlie.h.
+// Sheen, Charlie's lobe, by its cubature.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Walks over the edges twice. If the edges exceed their space, the second turn clips the outline again.
@@ -37,9 +37,9 @@ float sheen_radiance(Light light, vec3 p, vec3 n, vec3 v, float alpha) {
     // Corners gather about the normal, widely: the lobe has no peak about which they should.
     if (has_corners()) fill_corners(light, frame, p, vec3(0.0, 0.0, 1.0), 1.0);
     float sent = sheen_over_outline(light, seen, frame, p, lobe);
-    if (CAREFUL && may_be_small(light, p, 2000.0)) {
+    if (may_be_small(light, p, light_elements_transformed())) {
         LightElements e = elements_in(light, seen, frame, p);
-        if (elements_serve(e, light_elements_half_vector_sharpness(sqrt(alpha), view.z), 8.0)) {
+        if (elements_serve(e, light_elements_half_vector_sharpness(sqrt(alpha), view.z), light_elements_transformed())) {
             sent = 0.0;
             for (int i = 0; i < 4; i++) {
                 LightElement element = light_element_at(e, i);

@@ -1,5 +1,5 @@
 // The specular lobe, GGX, by each of its methods. Results are radiance at the view from a light of radiance 1, x with F = 1, y with
-// F = (1 - v.h)^5. The walk of each method along the outline is that of its file in source/integrals.
+// F = (1 - v.h)^5.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The lobe at one point.
@@ -40,7 +40,7 @@ LtcLobe ltc_lobe_at(int first, float roughness, vec3 view) {
 
 // Uses the light's elements instead of the outline where they are better.
 float ltc_small_or(float outline, LightElements e, LtcMatrix m) {
-    if (!elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), 8.0)) return outline;
+    if (!elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), light_elements_transformed())) return outline;
     float sum = 0.0;
     for (int k = 0; k < 4; k++) {
         LightElement element = light_element_at(e, k);
@@ -64,7 +64,7 @@ vec2 clipless(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha
         ++i;
     } while (i < count);
     float integral = ltc_clipless_integral(sum, seen.reversed);
-    if (CAREFUL && may_be_small(light, p, 2000.0))
+    if (may_be_small(light, p, light_elements_transformed()))
         integral = ltc_small_or(integral, elements_in(light, seen, frame, p), lobe.matrix);
     return vec2(lobe.n_a, lobe.f_a) * integral;
 }
@@ -100,10 +100,10 @@ LtcAnswer ltc_walked(Light light, Seen seen, mat3 frame, vec3 p, LtcMatrix m) {
     LtcAnswer answer;
     answer.irradiance = polygon_irradiance_vector(diffuse, seen.reversed);
     answer.specular = ltc_integral(walk, seen.reversed);
-    if (CAREFUL && may_be_small(light, p, 2000.0)) {
+    if (may_be_small(light, p, light_elements_transformed())) {
         LightElements e = elements_in(light, seen, frame, p);
         answer.specular = ltc_small_or(answer.specular, e, m);
-        if (elements_serve(e, light_elements_diffuse_sharpness(), 2.0)) answer.irradiance = light_elements_irradiance_vector(e);
+        if (elements_serve(e, light_elements_diffuse_sharpness(), light_elements_along_edges())) answer.irradiance = light_elements_irradiance_vector(e);
     }
     if (!seen.lit) answer.irradiance = vec3(0.0);
     if (!seen.lit) answer.specular = 0.0;
@@ -127,9 +127,10 @@ Answer ltc_answer(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float a
 #endif
 #else
 // Uses the light's elements instead of the outline where they are better.
-vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView view, float deviation, float roundings) {
+vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView view, float deviation,
+              LightElementsLimits limits) {
     LightElements e = elements_in(light, seen, frame, p);
-    if (!elements_serve(e, light_elements_half_vector_sharpness(deviation, view.v.z), roundings)) return outline;
+    if (!elements_serve(e, light_elements_half_vector_sharpness(deviation, view.v.z), limits)) return outline;
     vec2 sum = vec2(0.0);
     for (int i = 0; i < 4; i++) {
         LightElement element = light_element_at(e, i);
@@ -161,12 +162,24 @@ const bool DRAFT = false;
 const bool EXACT = false;
 const int EXTRA_NODES = 0;
 
-#define ARC_SUM vec3
-vec3 share_of_arc(GgxView view, vec3 a, vec3 b) { return ggx_arc(view, a, b); }
-vec3 share_at(GgxView view, vec3 h) { return ggx_at_half_vector(view, h); }
-#include "arcs.glsl"
+const int ARCS = QUALITY == 2 ? 8 : 3 + QUALITY;  // of an edge
 
-vec3 vector_of(GgxView view, ConicArc edge) { return sum_over_arcs(view, edge); }
+vec3 vector_of(GgxView view, ConicArc edge) {
+    vec3 sum = vec3(0.0);
+    if (!(edge.end > edge.begin)) return sum;
+    HalfVectorWalk walk = half_vector_begin(view, edge);
+    for (int j = 1; j <= ARCS; j++) {
+        float tau = edge.end;
+        if (j < ARCS) tau = half_vector_split_pole_mapped(edge, float(j) / float(ARCS));
+        walk = half_vector_next(walk, view, edge, tau);
+        sum += ggx_arc(view, walk.a, walk.b);
+        for (int i = 0; i < half_vector_nodes(); i++) {
+            HalfVectorNode node = half_vector_node(walk, view, edge, i);
+            sum += ggx_at_half_vector(view, node.h) * node.solid_angle;
+        }
+    }
+    return sum;
+}
 #endif
 
 // A light that nothing cuts: its edges are the outline's own.
@@ -307,15 +320,14 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
     if (has_corners()) fill_corners(light, frame, p, phong_mirror(view), 2.0 * max(lobe.ax, lobe.ay));
 #if LOBE == LOBE_REPRESENTATIVE_POINT
     answer.specular = representative_point(light, seen, frame, p, view, lobe.ax);
-    float roundings = 8.0;
-    float least_distance2 = 2000.0;
+    LightElementsLimits limits = light_elements_transformed();
 #else
     answer.specular = by_arcs(light, seen, frame, p, prepared);
-    float roundings = 128.0;
-    float least_distance2 = LOBE == LOBE_CLOSED_FORM ? 500.0 : 30.0;
+    LightElementsLimits limits = light_elements_along_arcs();
+    if (LOBE == LOBE_HALF_VECTOR) limits = light_elements_along_half_vectors(0.0);
 #endif
-    if (CAREFUL && may_be_small(light, p, least_distance2))
-        answer.specular = small_or(answer.specular, light, seen, frame, p, prepared, 0.5 * min(lobe.ax, lobe.ay), roundings);
+    if (may_be_small(light, p, limits))
+        answer.specular = small_or(answer.specular, light, seen, frame, p, prepared, 0.5 * min(lobe.ax, lobe.ay), limits);
     return answer;
 #endif
 }

@@ -1,5 +1,5 @@
-// Mean radiance of a textured light, as a lobe sees it: over cells of it, as in source/integrals/textured/texture_mean.h. If the lobe is too
-// narrow for cells, it is a look-up in blurred copies, as in source/integrals/textured/textured_light.cpp.
+// Mean radiance of a textured light, as a lobe sees it: over cells of it (texture_cell.glsl). If the lobe is too narrow for cells,
+// it is a look-up in blurred copies.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The surface's lobe: 0 the diffuse one, 1 the base's, 2 the coat's, 3 one of extras.steradian.
@@ -110,7 +110,7 @@ vec3 mean_by_look_up(Light light, LightTexture t, LtcTextureCellView view, mat3 
         ltc_texture_axes(vec2(dot(f.axis_a, view.x), dot(f.axis_a, view.y)), vec2(dot(f.axis_b, view.x), dot(f.axis_b, view.y)));
     vec3 from_origin = f.center - view.origin;
     vec2 hit = vec2(dot(from_origin, view.x), dot(from_origin, view.y));
-    float z = max(ltc_transform(view.transform_inverse, f.center).z, 1.0e-30);
+    float z = max(ltc_transform(view.transform_inverse, f.center).z, smallest_divisor());
     vec2 slope = vec2(ltc_transform(view.transform_inverse, view.x).z, ltc_transform(view.transform_inverse, view.y).z) / z;
     float widest = kTextureWidest * sqrt(t.covariance.x + t.covariance.z);
     vec4 sum = vec4(0.0);

@@ -10,7 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parent.parent / "tools"))
-from kernel_text import CASE, FOLDERS, KERNELS, OUTSIDE, ROOT, case_files, kernel_files, needs, tokenize, topics, with_needs  # noqa: E402
+from kernel_text import CASE, FOLDERS, KERNELS, ROOT, case_files, kernel_files, needs, tokenize, topics, with_needs  # noqa: E402
 from reserved_words import RESERVED  # noqa: E402
 
 VECTORS = {"vec2": 2, "vec3": 3, "vec4": 4, "mat3": 3}
@@ -381,7 +381,7 @@ def upward_needs(path):
 
 def main():
     cache, bad = {}, 0
-    files = kernel_files() + OUTSIDE + [CASE] + case_files()
+    files = kernel_files() + [CASE] + case_files()
     owner = {}
     for path in files:
         for needed in upward_needs(path):

@@ -13,8 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 KERNELS = ROOT / "kernels"
-FOLDERS = ("math", "surface", "outline", "lobe", "integral", "comparison", "plane", "indirect")
-OUTSIDE = [ROOT / "source" / "integrals" / "textured" / "texture_cell.glsl"]  # in the dialect, and no kernels: the programs' own
+FOLDERS = ("math", "surface", "outline", "lobe", "integral", "comparison", "plane", "indirect", "shadow")
 CASE = ROOT / "tests" / "parity" / "case.glsl"  # what every file of cases needs
 
 Token = namedtuple("Token", "kind text line")  # kind: name, number, op, comment, directive, error
@@ -88,9 +87,8 @@ def kernel_files():
 
 
 def case_files():
-    """Every file of cases, folder by folder, then those outside."""
-    return ([p for folder in FOLDERS for p in sorted((KERNELS / folder).glob("*_cases.glsl"))]
-            + [p.with_name(p.stem + "_cases.glsl") for p in OUTSIDE])
+    """Every file of cases, folder by folder."""
+    return [p for folder in FOLDERS for p in sorted((KERNELS / folder).glob("*_cases.glsl"))]
 
 
 def functions(text):

@@ -195,3 +195,68 @@ float steradian_plane_disk_window_whole(float m, float d2, float rho2) {
 float steradian_plane_slope(float w, float t, float beyond) {
     return steradian_select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
 }
+
+// The slope from the centre's direction of a ray that passes a disk's centre at the signed distance x.
+float steradian_plane_disk_slope(float x, float d2) {
+    return x * inversesqrt(max(d2 - x * x, 1.0e-12));
+}
+
+// The largest x of rays that reach a disk within the range, R = 1; 0 inside the disk.
+//
+// The near side leaves the range before the tangent does: law of cosines.
+float steradian_plane_disk_reach(float d2, float radius) {
+    float rho2 = radius * radius;
+    bool leaves = d2 - rho2 > 1.0;
+    float reach = steradian_select(d2 > rho2, radius, 0.0);
+    if (leaves) {
+        float along = 0.5 * (d2 + 1.0 - rho2);
+        reach = steradian_select(leaves, min(sqrt(max(d2 - along * along, 0.0)), radius), reach);
+    }
+    return reach;
+}
+
+// A place beyond all of a disk, on the side of a place.
+float steradian_plane_beyond(float place) {
+    return steradian_select(place > 0.0, 1.0e6, -1.0e6);
+}
+
+// The signed distance at which the ray from the eye through a vertex passes a disk's centre.
+//
+//   from_light, from_eye  of the vertex
+//   returns               -radius at the low tangent to radius at the high one; beyond all of the disk if the vertex is behind the eye
+float steradian_plane_place_on_light(vec2 from_light, vec2 from_eye) {
+    float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
+    float ahead = dot(from_eye - from_light, from_eye);
+    float place = across * inversesqrt(max(dot(from_eye, from_eye), steradian_smallest_divisor()));
+    return steradian_select(ahead > 0.0, place, steradian_plane_beyond(across));
+}
+
+// The same of the two tangents of a round blocker.
+struct SteradianPlaneRoundEnds {
+    float begin;
+    float end;
+    bool begins_ahead;
+    bool ends_ahead;
+};
+
+// The places on a disk between which a round blocker occludes it.
+//
+//   to_light, to_blocker  from the eye to both centres
+//   from_light            from the light's centre to the blocker's
+//   radius                the blocker's
+SteradianPlaneRoundEnds steradian_plane_round_ends(vec2 to_light, vec2 to_blocker, vec2 from_light, float radius) {
+    float k2 = dot(to_blocker, to_blocker);
+    float t = steradian_plane_root(max(k2 - radius * radius, 0.0));
+    // cross(a, k) = cross(a, k - a): no cancellation if the blocker is far behind the light.
+    float across = to_light.x * from_light.y - to_light.y * from_light.x;
+    float ahead = dot(to_light, to_blocker);
+    float inverse = 1.0 / max(k2, steradian_smallest_divisor());
+    float begin = (t * across - radius * ahead) * inverse;
+    float end = (t * across + radius * ahead) * inverse;
+    SteradianPlaneRoundEnds ends;
+    ends.begins_ahead = t * ahead + radius * across > 0.0;
+    ends.ends_ahead = t * ahead - radius * across > 0.0;
+    ends.begin = steradian_select(ends.begins_ahead, begin, steradian_plane_beyond(begin));
+    ends.end = steradian_select(ends.ends_ahead, end, steradian_plane_beyond(end));
+    return ends;
+}

@@ -571,3 +571,26 @@ float steradian_moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float s
     float inward = dot(n, v) * inversesqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + steradian_select(n2 > steradian_smallest_divisor(), inward * cosines, 0.0);
 }
+
+// The two integrands over the part in front of a lobe of exponent n times the light's cosine, by quadrature: share's and cosines'.
+//
+//   level  1 where n is 0, the same for every lane: the integral of x^0 is the angle, and (1 - x^0)/(1 - x^2) is 0
+SteradianMomentIntegrands steradian_moment_foreshortened_front(SteradianMomentEdge edge, float n, int level) {
+    SteradianMomentIntegrands front;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+
+// One edge's share of (n + 2) times the moment of a lobe times the light's cosine: z is the normal.
+//
+//   front    |s| times the integral of (1 - x^m)/(1 - x^2) with exponent n - 1, by any method
+//   cosines  the integral of x^n dphi over the part in front, by any method
+float steradian_moment_foreshortened_share(SteradianMomentEdge edge, vec3 a, vec3 b, vec3 r, float front, float cosines) {
+    return steradian_moment_double_axis_share(a, b, r, vec3(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
+}

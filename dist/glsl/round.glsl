@@ -96,13 +96,67 @@ float steradian_light_elements_half_vector_sharpness(float deviation, float view
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
+// Sharpness of a power n of a cosine, whose deviation is 1 / sqrt(n).
+float steradian_light_elements_power_sharpness(float n) {
+    return steradian_light_elements_diffuse_sharpness() + sqrt(n);
+}
+
+// Limits of an integral along the outline, beyond which the elements are better.
+//   roundings        how many roundings of a unit direction the integral makes, relative to the light's solid angle times
+//                    its distance over its size
+//   least_distance2  squared distance in the light's mean square deviations below which elements never serve: there t^3 / 8
+//                    of the least sharpness exceeds the rounding of float
+//   bias             error of the integral that is none of rounding, as the share that t^3 / 8 bounds
+struct SteradianLightElementsLimits {
+    float roundings;
+    float least_distance2;
+    float bias;
+};
+
+// Limits from their three numbers.
+SteradianLightElementsLimits steradian_light_elements_limits(float roundings, float least_distance2, float bias) {
+    SteradianLightElementsLimits limits;
+    limits.roundings = roundings;
+    limits.least_distance2 = least_distance2;
+    limits.bias = bias;
+    return limits;
+}
+
+// Lambert's edges: few roundings, since they add up vectors of the light's size.
+SteradianLightElementsLimits steradian_light_elements_along_edges() { return steradian_light_elements_limits(2.0, 4000.0, 0.0); }
+
+// Transformed cosines, cubatures without arcs, and a light's point that stands for it.
+SteradianLightElementsLimits steradian_light_elements_transformed() { return steradian_light_elements_limits(8.0, 2000.0, 0.0); }
+
+// Arcs: an edge subtracts numbers of the order of 1.
+SteradianLightElementsLimits steradian_light_elements_along_arcs() { return steradian_light_elements_limits(128.0, 500.0, 0.0); }
+
+// Arcs of half vectors: their bias makes the elements better from much nearer on.
+SteradianLightElementsLimits steradian_light_elements_along_half_vectors(float bias) { return steradian_light_elements_limits(128.0, 30.0, bias); }
+
+// Edges of a power n of a cosine: t^3 / 8 falls below the bias at a distance that depends on the lobe.
+SteradianLightElementsLimits steradian_light_elements_along_power(float n, float bias) {
+    float sharpness = steradian_light_elements_power_sharpness(n);
+    return steradian_light_elements_limits(128.0, steradian_select(bias > 0.0, min(500.0, 4.0 * sharpness * sharpness), 500.0), bias);
+}
+
+// Bias of the cosine series: t^3 / 8 where the elements' error is as large.
+//
+// The series' error is that fraction of the full lobe for each half of an edge (moment_series.glsl). Over a light that is
+// small against the lobe, it is that fraction of the light.
+float steradian_light_elements_series_bias() { return 0.015625; }
+
+// Bias of the longer cosine series.
+float steradian_light_elements_series_high_bias() { return 0.008695652173913044; }
+
+// Bias of Beckmann's arcs.
+float steradian_light_elements_beckmann_bias() { return 0.005; }
+
 // True where the elements are better than an integral along the outline.
 //
-//   normal     the surface's, unit
-//   sharpness  of the lobe
-//   roundings  how many roundings of a unit direction the other integral makes, relative to the light's solid angle
-//              times its distance over its size
-//   bias       error of the other integral that is none of rounding, as the share that t^3 / 8 bounds
+//   normal           the surface's, unit
+//   sharpness        of the lobe
+//   roundings, bias  SteradianLightElementsLimits
 //
 // A light across the horizon is cut only by whole elements: there the outline serves as long as rounding leaves it a digit.
 bool steradian_light_elements_serve(SteradianLightElements e, vec3 normal, float sharpness, float roundings, float bias) {
@@ -393,6 +447,14 @@ SteradianEllipse steradian_ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b
     bool reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
     e.axis_b = steradian_select(reversed, -axis_b, axis_b);
     return e;
+}
+
+// The same in the shading frame and in units of the distance, for any unit: squares of squares stay in the range of float.
+SteradianEllipse steradian_ellipse_in_units(mat3 frame, vec3 center, vec3 axis_a, vec3 axis_b) {
+    float size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    float unit = inversesqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
 }
 
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
@@ -724,6 +786,31 @@ vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
 // cap within the other, it sees a sphere.
 // Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
 
+// The capsule as four elements, for where it is small: the strip of its cylinder, which is equally wide from all directions
+// across, and the half balls at its ends. Each has its second moment along the axis.
+//
+//   center   its middle, from the shading point
+//   axis     from one end to the other
+//
+// Degenerate: ends that meet make a sphere.
+SteradianLightElements steradian_capsule_elements(vec3 center, vec3 axis, float radius) {
+    float r2 = radius * radius;
+    float length2 = dot(axis, axis);
+    vec3 along = axis * inversesqrt(max(length2, steradian_smallest_square()));
+    vec3 sight = center * inversesqrt(max(dot(center, center), steradian_smallest_square()));
+    vec3 across = sight - along * dot(along, sight);
+    vec3 aside = cross(along, sight);
+    float strip = 2.0 * radius * sqrt(length2);
+    float balls = steradian_pi() * r2;
+    float share = 2.0 / max(strip + balls, steradian_smallest_square());
+    SteradianLightElements e;
+    e.center = center;
+    e.area = -(across * (inversesqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 * 0.0833333333333333333 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (inversesqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip * 0.333333333333333333 + balls * 0.25)));
+    return e;
+}
+
 // A capsule, seen from the shading point. Where the point sees a sphere, both ends are the nearer one and `along` is any
 // direction across: half of the sphere's outline belongs to each.
 //   end_a, end_b  centres of the end balls
@@ -783,6 +870,12 @@ SteradianCapsule steradian_capsule_prepare(vec3 end_a, vec3 end_b, float radius)
     c.radius = radius;
     c.outside = steradian_select(beside, height2, nearer2) > radius2;
     return c;
+}
+
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+SteradianCapsule steradian_capsule_in_units(vec3 end_a, vec3 end_b, float radius) {
+    float unit = inversesqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).

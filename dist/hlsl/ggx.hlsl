@@ -444,10 +444,11 @@ float steradian_ggx_radiance(float2 r, float f0, float f90) {
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
 //   SteradianConicArc edge = steradian_ggx_edge(view, a, b);
-//   for j in 0 .. count - 1:
-//       p = steradian_half_vector_at(view, edge, steradian_half_vector_split_pole_mapped(edge, j / count)), q the next one
-//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
-//       and of the lobe at each steradian_half_vector_between times its solid angle
+//   SteradianHalfVectorWalk walk = steradian_half_vector_begin(view, edge);
+//   for j in 1 .. count:
+//       walk = steradian_half_vector_next(walk, view, edge, steradian_half_vector_split_pole_mapped(edge, j / count))
+//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc from walk.a to walk.b, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
+//       and of the lobe at each steradian_half_vector_node times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 
@@ -576,6 +577,48 @@ SteradianHalfVectorNode steradian_half_vector_between(SteradianGgxView view, Ste
     node.h = middle * shorter;
     node.solid_angle = steradian_select(n2 > steradian_smallest_square(), -apart * sweep * (shorter * shorter * shorter), 0.0);
     return node;
+}
+
+// A walk over the arcs of an edge.
+//   weight       steradian_half_vector_split_weight
+//   first, last  steradian_half_vector_split_end of the last arc's ends
+//   a, b         steradian_half_vector_at of the same
+struct SteradianHalfVectorWalk {
+    float weight;
+    SteradianConicNode first;
+    SteradianConicNode last;
+    float3 a;
+    float3 b;
+};
+
+// The walk before the first arc.
+SteradianHalfVectorWalk steradian_half_vector_begin(SteradianGgxView view, SteradianConicArc edge) {
+    SteradianHalfVectorWalk walk;
+    walk.weight = steradian_half_vector_split_weight(edge);
+    walk.last = steradian_half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = steradian_half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+
+// Goes on to the arc that ends at tau.
+SteradianHalfVectorWalk steradian_half_vector_next(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, float tau) {
+    SteradianHalfVectorWalk next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = steradian_half_vector_split_end(edge, tau, walk.weight);
+    next.b = steradian_half_vector_at(view, edge, tau);
+    return next;
+}
+
+// Number of nodes of an arc's sliver: three have four to ten times the error (docs/measured/accuracy.md, "Half vectors").
+int steradian_half_vector_nodes() { return 4; }
+
+// Node i of the last arc's sliver.
+SteradianHalfVectorNode steradian_half_vector_node(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, int i) {
+    float2 rule = steradian_gauss_legendre_node(steradian_half_vector_nodes(), i);
+    return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 
 // Blinn-Phong's lobe at a half vector, in the unit of steradian_blinn_phong_arc for each steradian of half vectors.

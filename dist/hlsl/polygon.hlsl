@@ -195,7 +195,7 @@ float steradian_solid_angle_finish(SteradianSolidAngleWalk walk, bool reversed) 
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = steradian_horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-// each arc in two where it may be nearly half the horizon (steradian_horizon_arc_middle)
+// each arc in two where it is wide (steradian_horizon_arc_wide, steradian_horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (steradian_polygon_direction) in walk order.
 
@@ -240,6 +240,9 @@ float3 steradian_horizon_crossing(float3 a, float3 b) {
     p = p * rsqrt(max(dot(p, p), steradian_smallest_square()));
     return float3(p.x, p.y, 0.0);
 }
+
+// True where an arc from a to b may be nearly half the horizon: integrals take it in two.
+bool steradian_horizon_arc_wide(float3 a, float3 b) { return dot(a, b) < -0.9999; }
 
 // A direction between the ends of an arc of the horizon that is wider than a right angle.
 //

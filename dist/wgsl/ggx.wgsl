@@ -444,10 +444,11 @@ fn steradian_ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
 //   ConicArc edge = ggx_edge(view, a, b);
-//   for j in 0 .. count - 1:
-//       p = half_vector_at(view, edge, half_vector_split_pole_mapped(edge, j / count)), q the next one
-//       sum of blinn_phong_arc or beckmann_arc, then half_vector_radiance; of ggx_arc, then ggx_draft
-//       and of the lobe at each half_vector_between times its solid angle
+//   HalfVectorWalk walk = half_vector_begin(view, edge);
+//   for j in 1 .. count:
+//       walk = half_vector_next(walk, view, edge, half_vector_split_pole_mapped(edge, j / count))
+//       sum of blinn_phong_arc or beckmann_arc from walk.a to walk.b, then half_vector_radiance; of ggx_arc, then ggx_draft
+//       and of the lobe at each half_vector_node times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 
@@ -576,6 +577,48 @@ fn steradian_half_vector_between(view: SteradianGgxView, edge: SteradianConicArc
     node.h = middle * shorter;
     node.solid_angle = select(0.0, -apart * sweep * (shorter * shorter * shorter), n2 > steradian_smallest_square());
     return node;
+}
+
+// A walk over the arcs of an edge.
+//   weight       half_vector_split_weight
+//   first, last  half_vector_split_end of the last arc's ends
+//   a, b         half_vector_at of the same
+struct SteradianHalfVectorWalk {
+    weight: f32,
+    first: SteradianConicNode,
+    last: SteradianConicNode,
+    a: vec3f,
+    b: vec3f,
+}
+
+// The walk before the first arc.
+fn steradian_half_vector_begin(view: SteradianGgxView, edge: SteradianConicArc) -> SteradianHalfVectorWalk {
+    var walk: SteradianHalfVectorWalk;
+    walk.weight = steradian_half_vector_split_weight(edge);
+    walk.last = steradian_half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = steradian_half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+
+// Goes on to the arc that ends at tau.
+fn steradian_half_vector_next(walk: SteradianHalfVectorWalk, view: SteradianGgxView, edge: SteradianConicArc, tau: f32) -> SteradianHalfVectorWalk {
+    var next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = steradian_half_vector_split_end(edge, tau, walk.weight);
+    next.b = steradian_half_vector_at(view, edge, tau);
+    return next;
+}
+
+// Number of nodes of an arc's sliver: three have four to ten times the error (docs/measured/accuracy.md, "Half vectors").
+fn steradian_half_vector_nodes() -> i32 { return 4; }
+
+// Node i of the last arc's sliver.
+fn steradian_half_vector_node(walk: SteradianHalfVectorWalk, view: SteradianGgxView, edge: SteradianConicArc, i: i32) -> SteradianHalfVectorNode {
+    let rule = steradian_gauss_legendre_node(steradian_half_vector_nodes(), i);
+    return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 
 // Blinn-Phong's lobe at a half vector, in the unit of blinn_phong_arc for each steradian of half vectors.

@@ -571,3 +571,26 @@ fn steradian_moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, sh
     let inward = dot(n, v) * inverseSqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + select(0.0, inward * cosines, n2 > steradian_smallest_divisor());
 }
+
+// The two integrands over the part in front of a lobe of exponent n times the light's cosine, by quadrature: share's and cosines'.
+//
+//   level  1 where n is 0, the same for every lane: the integral of x^0 is the angle, and (1 - x^0)/(1 - x^2) is 0
+fn steradian_moment_foreshortened_front(edge: SteradianMomentEdge, n: f32, level: i32) -> SteradianMomentIntegrands {
+    var front: SteradianMomentIntegrands;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+
+// One edge's share of (n + 2) times the moment of a lobe times the light's cosine: z is the normal.
+//
+//   front    |s| times the integral of (1 - x^m)/(1 - x^2) with exponent n - 1, by any method
+//   cosines  the integral of x^n dphi over the part in front, by any method
+fn steradian_moment_foreshortened_share(edge: SteradianMomentEdge, a: vec3f, b: vec3f, r: vec3f, front: f32, cosines: f32) -> f32 {
+    return steradian_moment_double_axis_share(a, b, r, vec3f(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
+}

@@ -195,3 +195,68 @@ fn steradian_plane_disk_window_whole(m: f32, d2: f32, rho2: f32) -> f32 {
 fn steradian_plane_slope(w: f32, t: f32, beyond: f32) -> f32 {
     return select(beyond, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), w > 1.0e-12);
 }
+
+// The slope from the centre's direction of a ray that passes a disk's centre at the signed distance x.
+fn steradian_plane_disk_slope(x: f32, d2: f32) -> f32 {
+    return x * inverseSqrt(max(d2 - x * x, 1.0e-12));
+}
+
+// The largest x of rays that reach a disk within the range, R = 1; 0 inside the disk.
+//
+// The near side leaves the range before the tangent does: law of cosines.
+fn steradian_plane_disk_reach(d2: f32, radius: f32) -> f32 {
+    let rho2 = radius * radius;
+    let leaves = d2 - rho2 > 1.0;
+    var reach = select(0.0, radius, d2 > rho2);
+    if (leaves) {
+        let along = 0.5 * (d2 + 1.0 - rho2);
+        reach = select(reach, min(sqrt(max(d2 - along * along, 0.0)), radius), leaves);
+    }
+    return reach;
+}
+
+// A place beyond all of a disk, on the side of a place.
+fn steradian_plane_beyond(place: f32) -> f32 {
+    return select(-1.0e6, 1.0e6, place > 0.0);
+}
+
+// The signed distance at which the ray from the eye through a vertex passes a disk's centre.
+//
+//   from_light, from_eye  of the vertex
+//   returns               -radius at the low tangent to radius at the high one; beyond all of the disk if the vertex is behind the eye
+fn steradian_plane_place_on_light(from_light: vec2f, from_eye: vec2f) -> f32 {
+    let across = from_light.y * from_eye.x - from_light.x * from_eye.y;
+    let ahead = dot(from_eye - from_light, from_eye);
+    let place = across * inverseSqrt(max(dot(from_eye, from_eye), steradian_smallest_divisor()));
+    return select(steradian_plane_beyond(across), place, ahead > 0.0);
+}
+
+// The same of the two tangents of a round blocker.
+struct SteradianPlaneRoundEnds {
+    begin: f32,
+    end: f32,
+    begins_ahead: bool,
+    ends_ahead: bool,
+}
+
+// The places on a disk between which a round blocker occludes it.
+//
+//   to_light, to_blocker  from the eye to both centres
+//   from_light            from the light's centre to the blocker's
+//   radius                the blocker's
+fn steradian_plane_round_ends(to_light: vec2f, to_blocker: vec2f, from_light: vec2f, radius: f32) -> SteradianPlaneRoundEnds {
+    let k2 = dot(to_blocker, to_blocker);
+    let t = steradian_plane_root(max(k2 - radius * radius, 0.0));
+    // cross(a, k) = cross(a, k - a): no cancellation if the blocker is far behind the light.
+    let across = to_light.x * from_light.y - to_light.y * from_light.x;
+    let ahead = dot(to_light, to_blocker);
+    let inverse = 1.0 / max(k2, steradian_smallest_divisor());
+    let begin = (t * across - radius * ahead) * inverse;
+    let end = (t * across + radius * ahead) * inverse;
+    var ends: SteradianPlaneRoundEnds;
+    ends.begins_ahead = t * ahead + radius * across > 0.0;
+    ends.ends_ahead = t * ahead - radius * across > 0.0;
+    ends.begin = select(steradian_plane_beyond(begin), begin, ends.begins_ahead);
+    ends.end = select(steradian_plane_beyond(end), end, ends.ends_ahead);
+    return ends;
+}

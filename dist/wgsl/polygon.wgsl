@@ -195,7 +195,7 @@ fn steradian_solid_angle_finish(walk: SteradianSolidAngleWalk, reversed: bool) -
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-// each arc in two where it may be nearly half the horizon (horizon_arc_middle)
+// each arc in two where it is wide (horizon_arc_wide, horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (polygon_direction) in walk order.
 
@@ -240,6 +240,9 @@ fn steradian_horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
     p = p * inverseSqrt(max(dot(p, p), steradian_smallest_square()));
     return vec3f(p.x, p.y, 0.0);
 }
+
+// True where an arc from a to b may be nearly half the horizon: integrals take it in two.
+fn steradian_horizon_arc_wide(a: vec3f, b: vec3f) -> bool { return dot(a, b) < -0.9999; }
 
 // A direction between the ends of an arc of the horizon that is wider than a right angle.
 //

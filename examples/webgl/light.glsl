@@ -107,7 +107,7 @@ void add_edge(vec3 a, vec3 b) {
 void add_arc_of_horizon(SteradianHorizonClip clip) {
     if (!clip.closes) return;
     vec3 start = clip.arc_start;
-    if (dot(start, clip.arc_end) < -0.9999) {
+    if (steradian_horizon_arc_wide(start, clip.arc_end)) {
         vec3 middle = steradian_horizon_arc_middle(start, clip.arc_end, 1.0);
         add_edge(start, middle);
         start = middle;

@@ -64,6 +64,7 @@ struct Kernels {
 #include "integral/half_vector.glsl"
 #include "integral/ltc.glsl"
 #include "integral/ltc_texture.glsl"
+#include "integral/texture_cell.glsl"
 
 #include "comparison/ltc_clipless.glsl"
 #include "comparison/moment_arvo.glsl"
@@ -73,6 +74,8 @@ struct Kernels {
 #include "plane/plane.glsl"
 
 #include "indirect/indirect.glsl"
+
+#include "shadow/shadow.glsl"
 // clang-format on
 
 // Custom kernels in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.

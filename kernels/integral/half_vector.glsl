@@ -6,10 +6,11 @@
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
 //   ConicArc edge = ggx_edge(view, a, b);
-//   for j in 0 .. count - 1:
-//       p = half_vector_at(view, edge, half_vector_split_pole_mapped(edge, j / count)), q the next one
-//       sum of blinn_phong_arc or beckmann_arc, then half_vector_radiance; of ggx_arc, then ggx_draft
-//       and of the lobe at each half_vector_between times its solid angle
+//   HalfVectorWalk walk = half_vector_begin(view, edge);
+//   for j in 1 .. count:
+//       walk = half_vector_next(walk, view, edge, half_vector_split_pole_mapped(edge, j / count))
+//       sum of blinn_phong_arc or beckmann_arc from walk.a to walk.b, then half_vector_radiance; of ggx_arc, then ggx_draft
+//       and of the lobe at each half_vector_node times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 // Needs: constants.glsl inverse_trig.glsl complex.glsl quartic.glsl gauss_legendre.glsl conic.glsl microfacet.glsl phong.glsl moment.glsl moment_quadrature.glsl moment_series.glsl moment_cosine.glsl polygon.glsl ggx_closed_form.glsl
@@ -144,6 +145,48 @@ HalfVectorNode half_vector_between(GgxView view, ConicArc edge, ConicNode first,
     node.h = middle * shorter;
     node.solid_angle = select(n2 > smallest_square(), -apart * sweep * (shorter * shorter * shorter), 0.0);
     return node;
+}
+
+// A walk over the arcs of an edge.
+//   weight       half_vector_split_weight
+//   first, last  half_vector_split_end of the last arc's ends
+//   a, b         half_vector_at of the same
+struct HalfVectorWalk {
+    real weight;
+    ConicNode first;
+    ConicNode last;
+    vec3 a;
+    vec3 b;
+};
+
+// The walk before the first arc.
+HalfVectorWalk half_vector_begin(GgxView view, ConicArc edge) {
+    HalfVectorWalk walk;
+    walk.weight = half_vector_split_weight(edge);
+    walk.last = half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+
+// Goes on to the arc that ends at tau.
+HalfVectorWalk half_vector_next(HalfVectorWalk walk, GgxView view, ConicArc edge, real tau) {
+    HalfVectorWalk next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = half_vector_split_end(edge, tau, walk.weight);
+    next.b = half_vector_at(view, edge, tau);
+    return next;
+}
+
+// Number of nodes of an arc's sliver: three have four to ten times the error (docs/measured/accuracy.md, "Half vectors").
+int half_vector_nodes() { return 4; }
+
+// Node i of the last arc's sliver.
+HalfVectorNode half_vector_node(HalfVectorWalk walk, GgxView view, ConicArc edge, int i) {
+    vec2 rule = gauss_legendre_node(half_vector_nodes(), i);
+    return half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 
 // Blinn-Phong's lobe at a half vector, in the unit of blinn_phong_arc for each steradian of half vectors.

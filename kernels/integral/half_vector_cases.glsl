@@ -19,7 +19,7 @@ vec4 case_half_vector_splits(CaseInput i) {
     return vec4(half_vector_split_uniform(arc, i.d.w), half_vector_split_pole_mapped(arc, i.d.w), 0.0, 0.0);
 }
 
-// half vector, node of the sliver between an arc and its image, and its place
+// half vector, nodes of the sliver between an arc and its image, and their places
 //   a.x    range(-0.5, -0.1)
 //   a.y    range(0.6, 1)
 //   b.x    range(0.1, 0.5)
@@ -33,10 +33,11 @@ vec4 case_half_vector_splits(CaseInput i) {
 vec4 case_half_vector_between(CaseInput i) {
     ConicArc arc = case_arc(i);
     GgxView view = ggx_view(vec3(0.48, 0.36, 0.8), 0.5, 0.7);
-    real weight = half_vector_split_weight(arc);
-    HalfVectorNode node = half_vector_between(
-        view, arc, half_vector_split_end(arc, arc.begin, weight), half_vector_split_end(arc, arc.end, weight),
-        half_vector_at(view, arc, arc.begin), half_vector_at(view, arc, arc.end), vec2(i.d.w, 1.0));
+    HalfVectorWalk walk = half_vector_next(half_vector_begin(view, arc), view, arc, arc.end);
+    HalfVectorNode node = half_vector_between(view, arc, walk.first, walk.last, walk.a, walk.b, vec2(i.d.w, 1.0));
+    HalfVectorNode second = half_vector_node(walk, view, arc, 1);
+    node.h = node.h + second.h;
+    node.solid_angle = node.solid_angle + second.solid_angle;
     return vec4(node.h.x, node.h.y, node.h.z, node.solid_angle);
 }
 

@@ -4,7 +4,7 @@
 // exp(-(n + 1/2) v^2/2) (1 - v^4/48 ...): an error function and one correction. For n < 8 two steps of the recurrence
 // over n lead to where that is close.
 // Source: this project (docs/theory/moments.md); the double-axis moment: Arvo 1995, sec. 5.
-// Needs: constants.glsl, moment_series.glsl, phong.glsl
+// Needs: constants.glsl, inverse_trig.glsl, moment_quadrature.glsl, moment_series.glsl, phong.glsl
 // Topics: moment
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -79,4 +79,27 @@ real moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, real share, real c
     real n2 = dot(n, n);
     real inward = dot(n, v) * inversesqrt(max(n2, smallest_divisor()));
     return dot(r, v) * share + select(n2 > smallest_divisor(), inward * cosines, 0.0);
+}
+
+// The two integrands over the part in front of a lobe of exponent n times the light's cosine, by quadrature: share's and cosines'.
+//
+//   level  1 where n is 0, the same for every lane: the integral of x^0 is the angle, and (1 - x^0)/(1 - x^2) is 0
+MomentIntegrands moment_foreshortened_front(MomentEdge edge, real n, int level) {
+    MomentIntegrands front;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+
+// One edge's share of (n + 2) times the moment of a lobe times the light's cosine: z is the normal.
+//
+//   front    |s| times the integral of (1 - x^m)/(1 - x^2) with exponent n - 1, by any method
+//   cosines  the integral of x^n dphi over the part in front, by any method
+real moment_foreshortened_share(MomentEdge edge, vec3 a, vec3 b, vec3 r, real front, real cosines) {
+    return moment_double_axis_share(a, b, r, vec3(0.0, 0.0, 1.0), moment_edge_share(edge, front), cosines);
 }

@@ -6,9 +6,34 @@
 // antiderivatives in elementary functions: the irradiance needs no more than four arc tangents. Where the point sees one
 // cap within the other, it sees a sphere.
 // Frame: z the surface normal; origin at the shading point. Any unit of length, but float wants distances near 1.
-// Needs: constants.glsl inverse_trig.glsl frame.glsl polygon.glsl complex.glsl ellipse.glsl
+// Needs: constants.glsl inverse_trig.glsl frame.glsl polygon.glsl light_elements.glsl complex.glsl ellipse.glsl
 // Topics: capsule, line
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// The capsule as four elements, for where it is small: the strip of its cylinder, which is equally wide from all directions
+// across, and the half balls at its ends. Each has its second moment along the axis.
+//
+//   center   its middle, from the shading point
+//   axis     from one end to the other
+//
+// Degenerate: ends that meet make a sphere.
+LightElements capsule_elements(vec3 center, vec3 axis, real radius) {
+    real r2 = radius * radius;
+    real length2 = dot(axis, axis);
+    vec3 along = axis * inversesqrt(max(length2, smallest_square()));
+    vec3 sight = center * inversesqrt(max(dot(center, center), smallest_square()));
+    vec3 across = sight - along * dot(along, sight);
+    vec3 aside = cross(along, sight);
+    real strip = 2.0 * radius * sqrt(length2);
+    real balls = pi() * r2;
+    real share = 2.0 / max(strip + balls, smallest_square());
+    LightElements e;
+    e.center = center;
+    e.area = -(across * (inversesqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 * 0.0833333333333333333 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (inversesqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip * 0.333333333333333333 + balls * 0.25)));
+    return e;
+}
 
 // A capsule, seen from the shading point. Where the point sees a sphere, both ends are the nearer one and `along` is any
 // direction across: half of the sphere's outline belongs to each.
@@ -69,6 +94,12 @@ Capsule capsule_prepare(vec3 end_a, vec3 end_b, real radius) {
     c.radius = radius;
     c.outside = select(beside, height2, nearer2) > radius2;
     return c;
+}
+
+// The same in units of the distance, for ends in any unit: squares of squares stay in the range of float.
+Capsule capsule_in_units(vec3 end_a, vec3 end_b, real radius) {
+    real unit = inversesqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, smallest_divisor()));
+    return capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 
 // Distance of the two touching planes' lines of touch from the point: sqrt(height^2 - radius^2).

@@ -10,7 +10,7 @@
 // Values: 3
 // Bound: statistical
 vec4 case_capsule_irradiance(CaseInput i) {
-    return case_of_vec3(capsule_irradiance_vector(capsule_prepare(case_xyz(i.a), case_xyz(i.b), i.c.x)));
+    return case_of_vec3(capsule_irradiance_vector(capsule_in_units(case_xyz(i.a), case_xyz(i.b), i.c.x)));
 }
 
 // line, irradiance vector
@@ -36,4 +36,14 @@ vec4 case_capsule_corner(CaseInput i) {
     fan.a.corners = 5.0;
     fan.b.corners = 7.0;
     return case_of_vec3(capsule_fan_corner(fan, 1) + capsule_fan_corner(fan, 7));
+}
+
+// capsule, its elements
+//   a.xyz  vector(1, 5)
+//   b.xyz  vector(0.01, 1)
+//   c.x    log(0.01, 0.5)
+// Values: 3
+vec4 case_capsule_elements(CaseInput i) {
+    LightElements e = capsule_elements(case_xyz(i.a), case_xyz(i.b), i.c.x);
+    return case_of_vec3(e.area + e.reach_a + e.reach_b);
 }

@@ -26,6 +26,14 @@ Ellipse ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b) {
     return e;
 }
 
+// The same in the shading frame and in units of the distance, for any unit: squares of squares stay in the range of float.
+Ellipse ellipse_in_units(mat3 frame, vec3 center, vec3 axis_a, vec3 axis_b) {
+    real size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    real unit = inversesqrt(max(size2, smallest_divisor()));
+    return ellipse_prepare(transform_transposed(frame, center) * unit, transform_transposed(frame, axis_a) * unit,
+                           transform_transposed(frame, axis_b) * unit);
+}
+
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
 //
 //   e        of ellipse_prepare

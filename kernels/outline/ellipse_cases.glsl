@@ -21,7 +21,8 @@ vec4 case_ellipse_irradiance(CaseInput i) {
 // Values: 3
 // Bound: statistical
 vec4 case_ellipse_whole_irradiance(CaseInput i) {
-    return case_of_vec3(ellipse_whole_irradiance_vector(ellipse_prepare(case_xyz(i.a), case_xyz(i.b), case_xyz(i.c))));
+    mat3 frame = mat3(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
+    return case_of_vec3(ellipse_whole_irradiance_vector(ellipse_in_units(frame, case_xyz(i.a), case_xyz(i.b), case_xyz(i.c))));
 }
 
 // ellipse, corners of a polygon about it

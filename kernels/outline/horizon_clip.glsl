@@ -14,7 +14,7 @@
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
 //   clip = horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-// each arc in two where it may be nearly half the horizon (horizon_arc_middle)
+// each arc in two where it is wide (horizon_arc_wide, horizon_arc_middle)
 //
 // Frame: z the surface normal; unit directions (polygon_direction) in walk order.
 // Needs: constants.glsl
@@ -62,6 +62,9 @@ vec3 horizon_crossing(vec3 a, vec3 b) {
     p = p * inversesqrt(max(dot(p, p), smallest_square()));
     return vec3(p.x, p.y, 0.0);
 }
+
+// True where an arc from a to b may be nearly half the horizon: integrals take it in two.
+mask horizon_arc_wide(vec3 a, vec3 b) { return dot(a, b) < -0.9999; }
 
 // A direction between the ends of an arc of the horizon that is wider than a right angle.
 //

@@ -64,13 +64,15 @@ vec4 case_horizon_clip(CaseInput i) {
     return case_of_vec3(sum);
 }
 
-// horizon clip, the middle of an arc
+// horizon clip, the middle of an arc, and whether it is wide
 //   a.x    range(-3, 3)
 //   a.y    range(0.5, 3)
-// Values: 2
+// Values: 3
 vec4 case_horizon_arc_middle(CaseInput i) {
     vec2 a = complex_unit(i.a.x);
     vec2 b = complex_product(a, complex_unit(i.a.y));
-    vec3 middle = horizon_arc_middle(vec3(a.x, a.y, 0.0), vec3(b.x, b.y, 0.0), 1.0);
-    return vec4(middle.x, middle.y, 0.0, 0.0);
+    vec3 start = vec3(a.x, a.y, 0.0);
+    vec3 end = vec3(b.x, b.y, 0.0);
+    vec3 middle = horizon_arc_middle(start, end, 1.0);
+    return vec4(middle.x, middle.y, select(horizon_arc_wide(start, end), 1.0, 0.0), 0.0);
 }

@@ -69,13 +69,67 @@ real light_elements_half_vector_sharpness(real deviation, real view_z) {
     return light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
 
+// Sharpness of a power n of a cosine, whose deviation is 1 / sqrt(n).
+real light_elements_power_sharpness(real n) {
+    return light_elements_diffuse_sharpness() + sqrt(n);
+}
+
+// Limits of an integral along the outline, beyond which the elements are better.
+//   roundings        how many roundings of a unit direction the integral makes, relative to the light's solid angle times
+//                    its distance over its size
+//   least_distance2  squared distance in the light's mean square deviations below which elements never serve: there t^3 / 8
+//                    of the least sharpness exceeds the rounding of float
+//   bias             error of the integral that is none of rounding, as the share that t^3 / 8 bounds
+struct LightElementsLimits {
+    real roundings;
+    real least_distance2;
+    real bias;
+};
+
+// Limits from their three numbers.
+LightElementsLimits light_elements_limits(real roundings, real least_distance2, real bias) {
+    LightElementsLimits limits;
+    limits.roundings = roundings;
+    limits.least_distance2 = least_distance2;
+    limits.bias = bias;
+    return limits;
+}
+
+// Lambert's edges: few roundings, since they add up vectors of the light's size.
+LightElementsLimits light_elements_along_edges() { return light_elements_limits(2.0, 4000.0, 0.0); }
+
+// Transformed cosines, cubatures without arcs, and a light's point that stands for it.
+LightElementsLimits light_elements_transformed() { return light_elements_limits(8.0, 2000.0, 0.0); }
+
+// Arcs: an edge subtracts numbers of the order of 1.
+LightElementsLimits light_elements_along_arcs() { return light_elements_limits(128.0, 500.0, 0.0); }
+
+// Arcs of half vectors: their bias makes the elements better from much nearer on.
+LightElementsLimits light_elements_along_half_vectors(real bias) { return light_elements_limits(128.0, 30.0, bias); }
+
+// Edges of a power n of a cosine: t^3 / 8 falls below the bias at a distance that depends on the lobe.
+LightElementsLimits light_elements_along_power(real n, real bias) {
+    real sharpness = light_elements_power_sharpness(n);
+    return light_elements_limits(128.0, select(bias > 0.0, min(500.0, 4.0 * sharpness * sharpness), 500.0), bias);
+}
+
+// Bias of the cosine series: t^3 / 8 where the elements' error is as large.
+//
+// The series' error is that fraction of the full lobe for each half of an edge (moment_series.glsl). Over a light that is
+// small against the lobe, it is that fraction of the light.
+real light_elements_series_bias() { return 0.015625; }
+
+// Bias of the longer cosine series.
+real light_elements_series_high_bias() { return 0.008695652173913044; }
+
+// Bias of Beckmann's arcs.
+real light_elements_beckmann_bias() { return 0.005; }
+
 // True where the elements are better than an integral along the outline.
 //
-//   normal     the surface's, unit
-//   sharpness  of the lobe
-//   roundings  how many roundings of a unit direction the other integral makes, relative to the light's solid angle
-//              times its distance over its size
-//   bias       error of the other integral that is none of rounding, as the share that t^3 / 8 bounds
+//   normal           the surface's, unit
+//   sharpness        of the lobe
+//   roundings, bias  LightElementsLimits
 //
 // A light across the horizon is cut only by whole elements: there the outline serves as long as rounding leaves it a digit.
 mask light_elements_serve(LightElements e, vec3 normal, real sharpness, real roundings, real bias) {

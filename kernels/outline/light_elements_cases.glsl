@@ -39,3 +39,17 @@ vec4 case_light_elements(CaseInput i) {
     vec3 around = light_elements_irradiance_vector(e);
     return vec4(around.z, select(serve, 1.0, 0.0), 0.0, 0.0);
 }
+
+// Sum of a set of limits.
+real case_sum_of_limits(LightElementsLimits l) { return l.roundings + l.least_distance2 + l.bias; }
+
+// light elements, limits of integrals
+//   a.x  log(0.1, 1000)
+// Error: relative
+// Values: 2
+vec4 case_light_elements_limits(CaseInput i) {
+    real bias = light_elements_series_bias() + light_elements_series_high_bias() + light_elements_beckmann_bias();
+    real fixed_limits = case_sum_of_limits(light_elements_along_edges()) + case_sum_of_limits(light_elements_transformed())
+        + case_sum_of_limits(light_elements_along_arcs()) + case_sum_of_limits(light_elements_along_half_vectors(bias));
+    return vec4(fixed_limits, case_sum_of_limits(light_elements_along_power(i.a.x, bias)), 0.0, 0.0);
+}

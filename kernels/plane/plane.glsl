@@ -170,3 +170,68 @@ real plane_disk_window_whole(real m, real d2, real rho2) {
 real plane_slope(real w, real t, real beyond) {
     return select(w > 1.0e-12, clamp(t / max(w, 1.0e-12), -1.0e9, 1.0e9), beyond);
 }
+
+// The slope from the centre's direction of a ray that passes a disk's centre at the signed distance x.
+real plane_disk_slope(real x, real d2) {
+    return x * inversesqrt(max(d2 - x * x, 1.0e-12));
+}
+
+// The largest x of rays that reach a disk within the range, R = 1; 0 inside the disk.
+//
+// The near side leaves the range before the tangent does: law of cosines.
+real plane_disk_reach(real d2, real radius) {
+    real rho2 = radius * radius;
+    mask leaves = d2 - rho2 > 1.0;
+    real reach = select(d2 > rho2, radius, 0.0);
+    if (any_lane(leaves)) {
+        real along = 0.5 * (d2 + 1.0 - rho2);
+        reach = select(leaves, min(sqrt(max(d2 - along * along, 0.0)), radius), reach);
+    }
+    return reach;
+}
+
+// A place beyond all of a disk, on the side of a place.
+real plane_beyond(real place) {
+    return select(place > 0.0, 1.0e6, -1.0e6);
+}
+
+// The signed distance at which the ray from the eye through a vertex passes a disk's centre.
+//
+//   from_light, from_eye  of the vertex
+//   returns               -radius at the low tangent to radius at the high one; beyond all of the disk if the vertex is behind the eye
+real plane_place_on_light(vec2 from_light, vec2 from_eye) {
+    real across = from_light.y * from_eye.x - from_light.x * from_eye.y;
+    real ahead = dot(from_eye - from_light, from_eye);
+    real place = across * inversesqrt(max(dot(from_eye, from_eye), smallest_divisor()));
+    return select(ahead > 0.0, place, plane_beyond(across));
+}
+
+// The same of the two tangents of a round blocker.
+struct PlaneRoundEnds {
+    real begin;
+    real end;
+    mask begins_ahead;
+    mask ends_ahead;
+};
+
+// The places on a disk between which a round blocker occludes it.
+//
+//   to_light, to_blocker  from the eye to both centres
+//   from_light            from the light's centre to the blocker's
+//   radius                the blocker's
+PlaneRoundEnds plane_round_ends(vec2 to_light, vec2 to_blocker, vec2 from_light, real radius) {
+    real k2 = dot(to_blocker, to_blocker);
+    real t = plane_root(max(k2 - radius * radius, 0.0));
+    // cross(a, k) = cross(a, k - a): no cancellation if the blocker is far behind the light.
+    real across = to_light.x * from_light.y - to_light.y * from_light.x;
+    real ahead = dot(to_light, to_blocker);
+    real inverse = 1.0 / max(k2, smallest_divisor());
+    real begin = (t * across - radius * ahead) * inverse;
+    real end = (t * across + radius * ahead) * inverse;
+    PlaneRoundEnds ends;
+    ends.begins_ahead = t * ahead + radius * across > 0.0;
+    ends.ends_ahead = t * ahead - radius * across > 0.0;
+    ends.begin = select(ends.begins_ahead, begin, plane_beyond(begin));
+    ends.end = select(ends.ends_ahead, end, plane_beyond(end));
+    return ends;
+}

@@ -58,3 +58,33 @@ vec4 case_plane_disk_window_whole(CaseInput i) {
 //   a.y    signed_log(0.001, 1000)
 // Error: relative
 vec4 case_plane_slope(CaseInput i) { return case_of_real(plane_slope(i.a.x, i.a.y, 1.0e9)); }
+
+// plane, rays to a disk: slope, reach within the range
+//   a.x    range(-0.9, 0.9)
+//   b.x    range(0.9, 1.2)
+//   b.y    range(0.01, 0.9)
+// Values: 2
+vec4 case_plane_disk_rays(CaseInput i) {
+    return vec4(plane_disk_slope(i.a.x * i.b.y, i.b.x), plane_disk_reach(i.b.x, i.b.y), 0.0, 0.0);
+}
+
+// plane, place on a disk of a vertex in front of the eye
+//   a.x    range(0.3, 3)
+//   a.y    range(-1, 1)
+vec4 case_plane_place_on_light(CaseInput i) {
+    vec2 to_light = vec2(4.0, 0.0);
+    vec2 from_eye = vec2(i.a.x, i.a.y);
+    return case_of_real(plane_place_on_light(from_eye - to_light, from_eye));
+}
+
+// plane, ends of a round blocker on a disk
+//   a.x    range(1, 3)
+//   a.y    range(-1, 1)
+//   b.x    range(0.01, 0.5)
+// Values: 2
+vec4 case_plane_round_ends(CaseInput i) {
+    vec2 to_light = vec2(4.0, 0.0);
+    vec2 to_blocker = vec2(i.a.x, i.a.y);
+    PlaneRoundEnds ends = plane_round_ends(to_light, to_blocker, to_blocker - to_light, i.b.x);
+    return vec4(ends.begin, ends.end, 0.0, 0.0);
+}

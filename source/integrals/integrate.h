@@ -12,8 +12,6 @@
 // Each is in a file of its own beside this one. It manages memory that it reuses from light to light itself.
 #pragma once
 
-#include <algorithm>
-
 #include "shapes/outline.h"
 #include "shapes/small_light.h"
 
@@ -114,7 +112,7 @@ struct Together {
   STERADIAN_INLINE auto finish(M reversed) {
     return Pair<decltype(first.finish(reversed)), decltype(second.finish(reversed))>{first.finish(reversed), second.finish(reversed)};
   }
-  double least_distance2() const { return std::min(first.least_distance2(), second.least_distance2()); }
+  auto least_distance2() const { return min(first.least_distance2(), second.least_distance2()); }
   template <class V>
   auto small_light(const V& center) const {
     return BothSmall<decltype(first.small_light(center)), decltype(second.small_light(center))>{first.small_light(center),
@@ -136,7 +134,7 @@ STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& 
     auto clip = k.horizon_clip_begin();
     const auto close = [&] {
       if (!any_lane(clip.closes)) return;
-      const auto wide = dot(clip.arc_start, clip.arc_end) < Real<S>(-0.9999);
+      const auto wide = k.horizon_arc_wide(clip.arc_start, clip.arc_end);
       auto start = clip.arc_start;
       if (any_lane(wide)) {
         const auto middle = k.horizon_arc_middle(start, clip.arc_end, select(shading.reversed, Real<S>(-1.0), Real<S>(1.0)));
@@ -188,7 +186,7 @@ STERADIAN_INLINE auto integrate(const Outline& outline, const Shading<S>& shadin
                   outline.elements();
                   integral.least_distance2();
                 }) {
-    const auto beyond = outline.distance2() > outline.deviation2() * Real<S>(integral.least_distance2());
+    const auto beyond = outline.distance2() > outline.deviation2() * integral.least_distance2();
     if (any_lane(lit && beyond)) return integrate_small(outline, shading, integral, lit);
   }
   return select(lit, integrate_edges(outline, shading, integral), nothing);

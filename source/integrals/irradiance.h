@@ -21,8 +21,10 @@ class Irradiance {
   STERADIAN_INLINE void add(const vec3& a, const vec3& b) { walk_ = Kernels<S>().polygon_add_edge(walk_, a, b); }
   STERADIAN_INLINE vec3 finish(Mask<S> reversed) { return Kernels<S>().polygon_irradiance_vector(walk_, reversed); }
 
-  STERADIAN_INLINE double least_distance2() const { return kAlongEdges.least_distance2; }
-  SmallLight<S> small_light(const vec3&) const { return {Kernels<S>().light_elements_diffuse_sharpness(), kAlongEdges.roundings}; }
+  STERADIAN_INLINE Real<S> least_distance2() const { return Kernels<S>().light_elements_along_edges().least_distance2; }
+  SmallLight<S> small_light(const vec3&) const {
+    return {Kernels<S>().light_elements_diffuse_sharpness(), Kernels<S>().light_elements_along_edges()};
+  }
   vec3 at(const vec3& u) const { return u; }
 
  private:

@@ -233,12 +233,12 @@ auto ggx_integral(const Material& m, Quality quality) {
 
 auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, Quality quality) {
   // The series' bias is a smooth function of the outline. Over a light that is small against the lobe, its derivative is a multiple of the
-  // light's. There quadrature is used, where elements replace the light's value (shapes/small_light.h: t^3 / 8 below the bias).
+  // light's. There quadrature is used, where elements replace the light's value (light_elements.glsl: t^3 / 8 below the bias).
   const LightQuarters& q = light.quarters;
   const Vec3d to = q.center - at.position;
   const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
   const double bias = integrals::bias_of(m.exponent, {Method::series, quality});
-  const bool small = (2.5 + std::sqrt(m.exponent)) * deviation < std::cbrt(8 * bias);
+  const bool small = Kernels<double>().light_elements_power_sharpness(m.exponent).v * deviation < std::cbrt(8 * bias);
   return [&m, quality, small]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
     const integrals::PhongLobe<S> lobe(m.exponent);
     // Only two methods appear here: all of them in dual numbers would exceed the compiler's budget for inlining.

@@ -16,7 +16,7 @@
 #include "shadow/region/round_light.h"
 #include "shadow/region/visible.h"
 #include "shadow/region/visible_part.h"
-#include "shadow/shadow_kernels.h"
+#include "steradian/kernels.h"
 #include "steradian/kernels.h"
 #include "support/rays_integral.h"
 #include "support/shadow_families.h"
@@ -446,10 +446,10 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
 // A vertex lies inside by less than a rounding. Its edge must stay, with the event of the side that cut it. Otherwise counts to its left
 // would be off by its weight (a black pixel).
 TEST(SoftShadow, KeepsAnEdgeThatEndsARoundingInside) {
-  ShadowKernels<float> k;
+  Kernels<float> k;
   const float inside = std::nextafter(-1.0f, 0.0f);
   for (const bool out_first : {true, false}) {
-    const ShadowKernels<float>::vec3 out(-1000.0, 0.0, 1.0), in(static_cast<double>(inside), 0.25, 1.0);
+    const Kernels<float>::vec3 out(-1000.0, 0.0, 1.0), in(static_cast<double>(inside), 0.25, 1.0);
     const auto s = out_first ? k.shadow_clip(out, in, {1.0, 1.0}) : k.shadow_clip(in, out, {1.0, 1.0});
     EXPECT_TRUE(s.inside.m);
     EXPECT_EQ((out_first ? s.sides.x : s.sides.y).v, 1.0f);

@@ -45,9 +45,7 @@ template <class S>
 STERADIAN_INLINE auto capsule_in(const packed::Capsule& light, const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p) {
   const auto a = transform_transposed(frame, to_kernel<S>(light.end_a) - p);
   const auto b = transform_transposed(frame, to_kernel<S>(light.end_b) - p);
-  const Real<S> radius(static_cast<double>(light.radius));
-  const Real<S> unit = inversesqrt(max(dot(a, a) + dot(b, b) + radius * radius, Real<S>(1.0e-30)));
-  return Kernels<S>().capsule_prepare(a * unit, b * unit, radius * unit);
+  return Kernels<S>().capsule_in_units(a, b, static_cast<double>(light.radius));
 }
 
 // These are functions of their own: inlined, they would take registers from the walks of polygons.
@@ -72,25 +70,11 @@ Real<S> deviation2(const packed::Capsule& light) {
   return static_cast<double>(dot(light.half_axis, light.half_axis) + light.radius * light.radius);
 }
 
-// Elements of the strip of the cylinder, which is equally wide from all directions across, and of the half balls at its ends. Each has its
-// second moment along the axis.
 template <class S>
 typename Kernels<S>::LightElements elements(const packed::Capsule& light, const typename Kernels<S>::vec3& p) {
-  using R = Real<S>;
-  const R least(1.0e-36), r(static_cast<double>(light.radius)), r2 = r * r;
   const auto a = to_kernel<S>(light.end_a) - p, b = to_kernel<S>(light.end_b) - p;
-  const auto axis = to_kernel<S>(light.half_axis) * R(2.0), center = (a + b) * R(0.5);
-  const R length2 = dot(axis, axis), span = sqrt(length2);
-  const auto along = axis * inversesqrt(max(length2, least)), sight = center * inversesqrt(max(dot(center, center), least));
-  const auto across = sight - along * dot(along, sight), aside = cross(along, sight);
-  const R strip = R(2.0) * r * span, balls = R(3.14159265358979324) * r2;
-  const R share = R(2.0) / max(strip + balls, least);
-  typename Kernels<S>::LightElements e;
-  e.center = center;
-  e.area = -(across * (inversesqrt(max(dot(across, across), R(1.0e-12))) * strip) + sight * balls);
-  e.reach_a = along * sqrt(share * (strip * length2 * R(1.0 / 12) + balls * (length2 + r2) * R(0.25)));
-  e.reach_b = aside * (inversesqrt(max(dot(aside, aside), R(1.0e-12))) * sqrt(share * r2 * (strip * R(1.0 / 3) + balls * R(0.25))));
-  return e;
+  return Kernels<S>().capsule_elements((a + b) * Real<S>(0.5), to_kernel<S>(light.half_axis) * Real<S>(2.0),
+                                       static_cast<double>(light.radius));
 }
 
 // Irradiance by the outline alone, which float loses where the capsule is small: ellipse.h has the complete function.

@@ -103,11 +103,7 @@ STERADIAN_INLINE Seen<S> see(const packed::Ellipsoid& light, const typename Kern
 template <class S, class Round>
 STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::mat3& frame, const typename Kernels<S>::vec3& p) {
   const auto outline = outline_from<S>(light, p);
-  const Real<S> size2 = dot(outline.center, outline.center) + dot(outline.axis_a, outline.axis_a) + dot(outline.axis_b, outline.axis_b);
-  const Real<S> unit = inversesqrt(max(size2, Real<S>(1.0e-30)));
-  return Kernels<S>().ellipse_prepare(transform_transposed(frame, outline.center) * unit,
-                                      transform_transposed(frame, outline.axis_a) * unit,
-                                      transform_transposed(frame, outline.axis_b) * unit);
+  return Kernels<S>().ellipse_in_units(frame, outline.center, outline.axis_a, outline.axis_b);
 }
 
 // Mean squares of the lights' extents; an ellipsoid's is an upper bound.
@@ -160,9 +156,9 @@ template <class S, class Round>
 STERADIAN_INLINE auto by_elements_where_small(typename Kernels<S>::vec3 e, const Round& light, const typename Kernels<S>::mat3& frame,
                                               const typename Kernels<S>::vec3& p) {
   Kernels<S> k;
-  if (any_lane(distance2<S>(light, p) > deviation2<S>(light) * Real<S>(integrals::kAlongArcs.least_distance2))) {
+  if (any_lane(distance2<S>(light, p) > deviation2<S>(light) * k.light_elements_along_arcs().least_distance2)) {
     const auto elements = elements_in<S>(light, frame, p);
-    const auto serve = integrals::elements_serve<S>(elements, {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings});
+    const auto serve = integrals::elements_serve<S>(elements, {k.light_elements_diffuse_sharpness(), k.light_elements_along_arcs()});
     e = select(serve, k.light_elements_irradiance_vector(elements), e);
   }
   return e;

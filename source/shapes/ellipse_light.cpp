@@ -30,7 +30,7 @@ S irradiance(const Ellipse& ellipse, Vec3d position, Vec3d normal) {
   Kernels<S> k;
   const auto seen = seen_from<S>(scaled, position, Frame::from_normal(normal));
   const auto elements = k.ellipse_elements(seen);
-  const integrals::SmallLight<S> small = {k.light_elements_diffuse_sharpness(), integrals::kAlongArcs.roundings};
+  const integrals::SmallLight<S> small = {k.light_elements_diffuse_sharpness(), k.light_elements_along_arcs()};
   if (any_lane(integrals::elements_serve<S>(elements, small))) return k.light_elements_irradiance_vector(elements).z.v;
   return k.ellipse_irradiance_vector(seen).z.v;
 }

@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "dist")]
 import make_dist  # noqa: E402
-from kernel_text import CASE, KERNELS, OUTSIDE, calls, case_files, functions, in_order, is_cases, kernel_files  # noqa: E402
+from kernel_text import CASE, KERNELS, calls, case_files, functions, in_order, is_cases, kernel_files  # noqa: E402
 
 MEMBERS = {f"{v}.{c}": 4 * "abcd".index(v) + "xyzw".index(c) for v in "abcd" for c in "xyzw"}
 MEMBERS.update({f"{v}.xyz": 4 * "abcd".index(v) for v in "abcd"})
@@ -80,9 +80,8 @@ def table():
 
 def includes():
     for path in in_order(case_files()):
-        if path == CASE or path in OUTSIDE or is_cases(path):
-            root = CASE.parent if path == CASE else KERNELS if path.is_relative_to(KERNELS) else ROOT / "source"
-            print(f'#include "{path.relative_to(root)}"')
+        if path == CASE or is_cases(path):
+            print(f'#include "{path.relative_to(CASE.parent if path == CASE else KERNELS)}"')
 
 
 GLSL = """
@@ -184,7 +183,7 @@ def reached():
     graph = call_graph()
     seen = reached_from(graph, ["case_" + case["name"] for case in cases()])
     wrong = 0
-    for part in kernel_files() + OUTSIDE:
+    for part in kernel_files():
         for name, _ in functions(part.read_text()):
             if name not in seen:
                 wrong += 1

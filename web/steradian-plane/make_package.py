@@ -62,7 +62,8 @@ def as_es(path, library):
             end = closing(text, found.end())
             text = f"{text[:found.start()]}{name}_at(uint({text[found.end():end - 1]})){text[end:]}"
     text = text.replace("findLSB(", "findLSB_of(")
-    text = re.sub(r"\b((?:plane|trig)_\w+)(?=\()", lambda m: "steradian_" + m[1] if f"steradian_{m[1]}(" in library else m[1], text)
+    text = re.sub(r"\b((?:plane|trig)_\w+|inverse_two_pi|smallest_divisor)(?=\()", lambda m: "steradian_" + m[1] if f"steradian_{m[1]}(" in library else m[1], text)
+    text = re.sub(r"\bPlane[A-Z]\w*", lambda m: "Steradian" + m[0] if f"struct Steradian{m[0]} " in library else m[0], text)
     return re.sub(r"\n\s*\n+", "\n", text).strip() + "\n"
 
 

@@ -242,6 +242,7 @@ void Bounce::upload_lights(const std::vector<LightSet>& sets, const indirect::Bo
 std::vector<ComputeProgram::Dispatch> Bounce::light_tiles(const FrameSurfaces& s, const Layout& layout,
                                                           const indirect::BounceSettings& settings) {
   enum Kind : std::uint8_t { kEmpty, kDull, kShiny, kSharp };
+  const float sharp_alpha = Kernels<float>().indirect_sharp().v;
   const auto tiles = static_cast<std::size_t>(layout.tiles());
   std::vector<std::uint8_t> kinds(static_cast<std::size_t>(layout.sets()) * tiles, kEmpty);
   // One thread handles a row of tiles of all sets.
@@ -252,7 +253,7 @@ std::vector<ComputeProgram::Dispatch> Bounce::light_tiles(const FrameSurfaces& s
         const std::size_t i = s.raster.at(x, y);
         if (!(dot(s.normal[i], s.normal[i]) > 0)) continue;
         const bool shiny = indirect::largest(s.f0[i]) + indirect::largest(s.f90[i]) > 0;
-        const bool sharp = shiny && settings.quads && settings.mode == IndirectMode::ltc && s.alpha[i] < indirect::kSharp;
+        const bool sharp = shiny && settings.quads && settings.mode == IndirectMode::ltc && s.alpha[i] < sharp_alpha;
         const std::uint8_t kind = sharp ? kSharp : shiny ? kShiny : kDull;
         const auto set = static_cast<std::size_t>(y % layout.stride * layout.stride + x % layout.stride);
         std::uint8_t& of = kinds[set * tiles + static_cast<std::size_t>(row * layout.tiles_x + x / side)];

@@ -7,7 +7,6 @@
 #include "device/vulkan/shaders.h"
 #include "render/direct/ltc_tables.h"
 #include "render/lights/light_bounds.h"
-#include "shapes/small_light.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -235,13 +234,16 @@ bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) c
 
 // Least squared distance for a lobe's integral, in the light's mean square deviations.
 double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
-  switch (pass.procedure) {
-    case Procedure::diffuse: return light.kind == kPolygon ? integrals::kAlongEdges.least_distance2 : integrals::kAlongArcs.least_distance2;
-    case Procedure::closed_form: return integrals::kAlongArcs.least_distance2;
-    case Procedure::phong_lobe: return pass.own->least_distance2;
-    case Procedure::half_vector: return integrals::kHalfVectorsLeastDistance2;
-    default: return integrals::kTransformed.least_distance2;
-  }
+  Kernels<double> k;
+  const auto limits = [&] {
+    switch (pass.procedure) {
+      case Procedure::diffuse: return light.kind == kPolygon ? k.light_elements_along_edges() : k.light_elements_along_arcs();
+      case Procedure::closed_form: return k.light_elements_along_arcs();
+      case Procedure::half_vector: return k.light_elements_along_half_vectors(0.0);
+      default: return k.light_elements_transformed();
+    }
+  };
+  return pass.procedure == Procedure::phong_lobe ? pass.own->least_distance2 : limits().least_distance2.v;
 }
 
 // Returns true if some point of a box may see the light as small, or may be near its rim. Otherwise the shaders skip both tests.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "integrals/ggx/half_vector.h"
-#include "shapes/small_light.h"
+#include "integrals/phong/phong.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
@@ -23,7 +23,8 @@ OwnLobes::Lobe lobe_by(const Material& m, Method method, Quality quality, std::s
     lobe.form = m.foreshortening ? 1 : 0;
     lobe.low = m.foreshortening ? integrals::cosine_series_range(m.exponent) : m.exponent < 1 ? 2 : 0;
     lobe.by_points = m.foreshortening;
-    lobe.least_distance2 = integrals::least_distance2_of_power(m.exponent, method == Method::series && m.exponent >= 2);
+    lobe.least_distance2 =
+        Kernels<double>().light_elements_along_power(m.exponent, integrals::bias_of(m.exponent, {method, quality})).least_distance2.v;
   }
   if (m.brdf == Brdf::ggx) lobe.form = method == Method::exact ? 2 : m.shadowing ? 0 : 1;
   return lobe;

@@ -39,10 +39,10 @@ class Charlie {
   }
 
   // There are fewer roundings than along arcs: the lobe may have a bend about its dark middle.
-  STERADIAN_INLINE double least_distance2() const { return kTransformed.least_distance2; }
+  STERADIAN_INLINE Real<S> least_distance2() const { return K().light_elements_transformed().least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
     const Real<S> deviation = sqrt(alpha);  // deviation of a power 1 / alpha of a sine
-    return {K().light_elements_half_vector_sharpness(deviation, lobe_.view.z), kTransformed.roundings};
+    return {K().light_elements_half_vector_sharpness(deviation, lobe_.view.z), K().light_elements_transformed()};
   }
   Part<S> at(const vec3& u) const { return {K().charlie_lobe(lobe_, u), Real<S>(0.0)}; }
 

@@ -29,10 +29,10 @@ class GgxArcs {
   STERADIAN_INLINE vec3 end(const vec3& u) const { return select(lit_, u, vec3(0.0, 0.0, 0.0)); }
   STERADIAN_INLINE void add(const vec3& a, const vec3& b) { edges_.push_back({a, b}); }
 
-  STERADIAN_INLINE double least_distance2() const { return kAlongArcs.least_distance2; }
+  STERADIAN_INLINE Real<S> least_distance2() const { return K().light_elements_along_arcs().least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
     const Real<S> deviation = Real<S>(0.5) * min(alpha_x, alpha_y);
-    return {K().light_elements_half_vector_sharpness(deviation, view_.v.z), kAlongArcs.roundings};
+    return {K().light_elements_half_vector_sharpness(deviation, view_.v.z), K().light_elements_along_arcs()};
   }
 
  protected:

@@ -33,36 +33,29 @@ class HalfVector {
     const auto edge = k.ggx_edge(view_, a, b);
     if (!any_lane(edge.end > edge.begin)) return;
     edges_.push_back(edge);
-    const Real<S> weight = k.half_vector_split_weight(edge);
-    auto first = k.half_vector_split_end(edge, edge.begin, weight);
-    auto p = k.half_vector_at(view_, edge, edge.begin);
+    auto walk = k.half_vector_begin(view_, edge);
     for (int j = 1; j <= options_.arcs; ++j) {
       const Real<S> share(static_cast<double>(j) / options_.arcs);
       const auto tau = j == options_.arcs                    ? edge.end
                        : options_.split == ArcSplit::uniform ? k.half_vector_split_uniform(edge, share)
                                                              : k.half_vector_split_pole_mapped(edge, share);
-      const auto q = k.half_vector_at(view_, edge, tau);
-      const auto last = k.half_vector_split_end(edge, tau, weight);
-      sum_ = sum_ + lobe_.arc(view_, p, q);
-      for (int i = 0; i < kSliverNodes; ++i) {
-        const auto node = k.half_vector_between(view_, edge, first, last, p, q, k.gauss_legendre_node(kSliverNodes, i));
+      walk = k.half_vector_next(walk, view_, edge, tau);
+      sum_ = sum_ + lobe_.arc(view_, walk.a, walk.b);
+      for (int i = 0; i < k.half_vector_nodes(); ++i) {
+        const auto node = k.half_vector_node(walk, view_, edge, i);
         sum_ = sum_ + lobe_.at_half_vector(view_, node.h) * node.solid_angle;
       }
-      p = q;
-      first = last;
     }
   }
   Part<S> finish(Mask<S> reversed) { return lobe_.finish(view_, edges_, sum_, select(reversed, Real<S>(-1.0), Real<S>(1.0))); }
 
-  double least_distance2() const { return kHalfVectorsLeastDistance2; }
+  Real<S> least_distance2() const { return K().light_elements_along_half_vectors(lobe_.bias()).least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
-    return {K().light_elements_half_vector_sharpness(lobe_.deviation(), view_.v.z), kAlongArcs.roundings, lobe_.bias()};
+    return {K().light_elements_half_vector_sharpness(lobe_.deviation(), view_.v.z), K().light_elements_along_half_vectors(lobe_.bias())};
   }
   Part<S> at(const vec3& u) const { return lobe_.at(view_, u); }
 
  private:
-  static constexpr int kSliverNodes = 4;  // three have four to ten times the error (docs/measured/accuracy.md, "Half vectors")
-
   Lobe lobe_;
   HalfVectorOptions options_;
   typename K::GgxView view_;
@@ -83,7 +76,7 @@ class BlinnPhongArcs {
   Real<S> alpha_x() const { return K().blinn_phong_alpha(n_); }
   Real<S> alpha_y() const { return alpha_x(); }
   Real<S> deviation() const { return inversesqrt(max(n_, Real<S>(1.0e-12))); }
-  double bias() const { return std::is_same_v<S, double> ? kUnbiased : kSeriesBias; }
+  Real<S> bias() const { return std::is_same_v<S, double> ? Real<S>(0.0) : K().light_elements_series_bias(); }
   template <class View, class V>
   Part<S> at(const View& view, const V& u) const {
     K k;
@@ -122,7 +115,7 @@ struct BeckmannArcs {
   Real<S> alpha_x() const { return ax; }
   Real<S> alpha_y() const { return ay; }
   Real<S> deviation() const { return Real<S>(0.707106781186547524) * min(ax, ay); }
-  double bias() const { return kBeckmannBias; }
+  Real<S> bias() const { return K().light_elements_beckmann_bias(); }
   template <class View, class V>
   Part<S> at(const View& view, const V& u) const {
     K k;
@@ -153,7 +146,7 @@ struct GgxHalfVectorArcs {
   Real<S> alpha_x() const { return ax; }
   Real<S> alpha_y() const { return ay; }
   Real<S> deviation() const { return Real<S>(0.5) * min(ax, ay); }
-  double bias() const { return kUnbiased; }  // chords of short edges are as exact as their arcs
+  Real<S> bias() const { return 0.0; }  // chords of short edges are as exact as their arcs
   template <class View, class V>
   Part<S> at(const View& view, const V& u) const {
     return K().ggx_lobe_and_fresnel(view, u, smith);

@@ -17,7 +17,7 @@ struct LtcLobe {
 template <class S>
 SmallLight<S> small_light_under(const LtcLobe<S>& lobe, const typename Kernels<S>::vec3& center) {
   Kernels<S> k;
-  return {k.light_elements_diffuse_sharpness() + k.ltc_sharpness(lobe.matrix, center), kTransformed.roundings};
+  return {k.light_elements_diffuse_sharpness() + k.ltc_sharpness(lobe.matrix, center), k.light_elements_transformed()};
 }
 
 template <class S>
@@ -53,7 +53,7 @@ class Ltc {
     return value_of(lobe_, select(above_, K().ltc_integral(walk_, reversed), Real<S>(0.0)));
   }
 
-  STERADIAN_INLINE double least_distance2() const { return kTransformed.least_distance2; }
+  STERADIAN_INLINE Real<S> least_distance2() const { return K().light_elements_transformed().least_distance2; }
   SmallLight<S> small_light(const vec3& center) const { return small_light_under(lobe_, center); }
   Part<S> at(const vec3& u) const { return value_of(lobe_, select(above_, K().ltc_lobe(lobe_.matrix, u), Real<S>(0.0))); }
 
@@ -91,7 +91,7 @@ class CliplessLtc {
   void add(const vec3& a, const vec3& b) { sum_ = K().ltc_clipless_add_edge(sum_, a, b); }
   Part<S> finish(Mask<S> reversed) { return value_of(lobe_, K().ltc_clipless_integral(sum_, reversed)); }
 
-  double least_distance2() const { return kTransformed.least_distance2; }
+  Real<S> least_distance2() const { return K().light_elements_transformed().least_distance2; }
   SmallLight<S> small_light(const vec3& center) const { return small_light_under(lobe_, center); }
   Part<S> at(const vec3& u) const { return value_of(lobe_, K().ltc_lobe(lobe_.matrix, u)); }
 

@@ -46,9 +46,9 @@ class RepresentativePoint {
   }
 
   // Every point of a small light represents it.
-  double least_distance2() const { return kTransformed.least_distance2; }
+  Real<S> least_distance2() const { return K().light_elements_transformed().least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
-    return {K().light_elements_half_vector_sharpness(Real<S>(0.5) * alpha_, view_.z), kTransformed.roundings};
+    return {K().light_elements_half_vector_sharpness(Real<S>(0.5) * alpha_, view_.z), K().light_elements_transformed()};
   }
   Part<S> at(const vec3& u) const { return K().ggx_lobe_and_fresnel(K().ggx_view(view_, alpha_, alpha_), u, 1.0); }
 

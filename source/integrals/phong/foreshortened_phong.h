@@ -19,7 +19,7 @@ class ForeshortenedLobe {
   ForeshortenedLobe(double exponent, double precision)
       : n_(exponent),
         factor_((exponent + 1) / (exponent + 2)),
-        flat_(exponent == 0),
+        level_(exponent == 0),
         low_(exponent < 8 ? 1 : 0),
         lower_(exponent - 1, PhongOptions{.relative_precision = precision}) {}
 
@@ -30,30 +30,19 @@ class ForeshortenedLobe {
     const auto edge = k.moment_edge(a, b, r);
     Real<S> front(0.0), cosines(0.0);
     if constexpr (method == Method::exact || method == Method::arvo) {
-      if (flat_) {  // x^0: the angle; and (1 - x^0)/(1 - x^2) is 0
-        cosines = k.trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
-      } else {
-        const auto q = k.moment_quadrature_front(edge, n_ - 1.0);
-        front = method == Method::exact ? q.moment : lower_.template front<method, quality>(edge);
-        cosines = q.power;
-      }
+      const auto q = k.moment_foreshortened_front(edge, n_, level_);
+      front = method == Method::exact || level_ ? q.moment : lower_.template front<method, quality>(edge);
+      cosines = q.power;
     } else {
       front = lower_.template front<method, quality>(edge);
       cosines = k.moment_cosine_front(edge, n_, low_);
     }
-    return factor_ * double_axis_share(edge, a, b, r, front, cosines);
-  }
-
-  // Contribution by the two integrals over the part in front: of (1 - x^n)/(1 - x^2), times |s|, and of x^n.
-  static Real<S> double_axis_share(const typename K::MomentEdge& edge, typename K::vec3 a, typename K::vec3 b, typename K::vec3 r,
-                                   Real<S> front, Real<S> cosines) {
-    K k;
-    return k.moment_double_axis_share(a, b, r, typename K::vec3(0.0, 0.0, 1.0), k.moment_edge_share(edge, front), cosines);
+    return factor_ * k.moment_foreshortened_share(edge, a, b, r, front, cosines);
   }
 
  private:
   Real<S> n_, factor_;
-  bool flat_;
+  bool level_;
   int low_;
   PhongLobe<S> lower_;  // of exponent n - 1
 };

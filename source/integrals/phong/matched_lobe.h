@@ -24,7 +24,7 @@ class MatchedLobe {
   MatchedLobe(double exponent, double axis_exponent, const vec3& axis, Quality quality)
       : n1_(exponent),
         n2_(axis_exponent),
-        exponents_(exponent + axis_exponent),
+        small_(small_light_of_power<S>(exponent + axis_exponent, Kernels<double>().light_elements_series_bias())),
         bends_(exponent < 2 || axis_exponent < 2),
         axis_(axis),
         peaked_(exponent + axis_exponent > 0),
@@ -53,9 +53,11 @@ class MatchedLobe {
   }
 
   // Small lights use the product itself, without the bias of the one lobe.
-  double least_distance2() const { return least_distance2_of_power(exponents_, true); }
+  Real<S> least_distance2() const { return small_.limits.least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
-    return {Real<S>(sharpness_of_power(exponents_)), kAlongArcs.roundings, bends_ ? kUnbiased : kSeriesBias};
+    auto small = small_;
+    if (bends_) small.limits.bias = 0.0;
+    return small;
   }
   Part<S> at(const vec3& u) const {
     K k;
@@ -71,7 +73,7 @@ class MatchedLobe {
   }
 
   Real<S> n1_, n2_;
-  double exponents_;
+  SmallLight<S> small_;
   bool bends_;  // where a factor ends
   vec3 axis_, mirror_;
   bool peaked_;

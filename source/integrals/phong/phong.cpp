@@ -44,7 +44,7 @@ double exact_foreshortened_share(const auto& a, const auto& b, const auto& axis,
   Kernels<double> k;
   const auto edge = k.moment_edge(a, b, axis);
   const auto front = integrate_front(edge, std::max(n, kNearlyFlat) - 1);
-  return (n + 1) / (n + 2) * integrals::ForeshortenedLobe<double>::double_axis_share(edge, a, b, axis, front.moment, front.power).v;
+  return (n + 1) / (n + 2) * k.moment_foreshortened_share(edge, a, b, axis, front.moment, front.power).v;
 }
 
 // Radiance of albedo 1 under radiance 1.

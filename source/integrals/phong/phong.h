@@ -80,8 +80,9 @@ struct PhongLobe {
 // Bias of a method over lights that are small against the lobe. Below an exponent of 2 the lobe has a bend at its end, which elements miss:
 // they serve only where the lobe is tiny there.
 inline double bias_of(double exponent, const PhongOptions& options) {
-  if (options.method != Method::series || exponent < 2) return kUnbiased;
-  return options.quality == Quality::high ? kHighSeriesBias : kSeriesBias;
+  Kernels<double> k;
+  if (options.method != Method::series || exponent < 2) return 0.0;
+  return (options.quality == Quality::high ? k.light_elements_series_high_bias() : k.light_elements_series_bias()).v;
 }
 
 // x: radiance of albedo 1, in [0, 1]. share(a, b, axis): one edge's contribution to (n + 1) times the moment, by the options' method.
@@ -94,7 +95,7 @@ class Phong {
   bool foreshortened = false;  // the shares are those of the lobe times the light's cosine
 
   STERADIAN_INLINE Phong(Share share, double exponent, const PhongOptions& options)
-      : exponent_(exponent), bias_(bias_of(exponent, options)), share_(share) {}
+      : exponent_(exponent), small_(small_light_of_power<S>(exponent, bias_of(exponent, options))), share_(share) {}
   STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
     axis_ = Kernels<S>().phong_mirror(shading.view);
     sum_ = 0.0;
@@ -105,8 +106,8 @@ class Phong {
   void add(const vec3& a, const vec3& b) { sum_ += share_(a, b, axis_); }
   STERADIAN_INLINE Part<S> finish(Mask<S> reversed) { return {Kernels<S>().moment_phong_radiance(sum_, reversed), Real<S>(0.0)}; }
 
-  STERADIAN_INLINE double least_distance2() const { return least_distance2_of_power(exponent_, bias_ > 0); }
-  SmallLight<S> small_light(const vec3&) const { return {Real<S>(sharpness_of_power(exponent_)), kAlongArcs.roundings, bias_}; }
+  STERADIAN_INLINE Real<S> least_distance2() const { return small_.limits.least_distance2; }
+  SmallLight<S> small_light(const vec3&) const { return small_; }
   Part<S> at(const vec3& u) const {
     const auto in_front = dot(u, axis_) > Real<S>(0.0);
     const Real<S> lobe = Kernels<S>().phong_lobe(u, axis_, Real<S>(exponent_));
@@ -114,7 +115,8 @@ class Phong {
   }
 
  private:
-  double exponent_, bias_;
+  double exponent_;
+  SmallLight<S> small_;
   Share share_;
   vec3 axis_;
   Real<S> sum_{0.0};

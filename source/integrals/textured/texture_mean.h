@@ -8,28 +8,6 @@
 
 STERADIAN_BEGIN_ISA
 
-// The kernels of this folder, together with all others.
-template <class S>
-struct TextureKernels : Kernels<S> {
-  using typename Kernels<S>::real;
-  using typename Kernels<S>::mask;
-  using typename Kernels<S>::vec2;
-  using typename Kernels<S>::vec3;
-  using typename Kernels<S>::vec4;
-  using typename Kernels<S>::LtcMatrix;
-  using typename Kernels<S>::GgxView;
-  using Kernels<S>::smallest_square;
-  using Kernels<S>::smallest_length;
-  using Kernels<S>::inverse_pi;
-  using Kernels<S>::light_elements_diffuse_sharpness;
-  using Kernels<S>::ltc_lobe;
-  using Kernels<S>::ltc_sharpness;
-  using Kernels<S>::ltc_transform;
-  using Kernels<S>::ltc_texture_transform_back;
-  using Kernels<S>::ggx_lobe_and_fresnel;
-#include "integrals/textured/texture_cell.glsl"
-};
-
 //   found  false if the lobe is too narrow for the cells: it then covers a part of the texture larger than its texels, and a
 //          look-up serves
 template <class S>
@@ -44,7 +22,7 @@ struct TextureMean {
 template <class S>
 class TextureCells {
  public:
-  using K = TextureKernels<S>;
+  using K = Kernels<S>;
   using real = Real<S>;
   using vec3 = typename K::vec3;
   using View = typename K::LtcTextureCellView;

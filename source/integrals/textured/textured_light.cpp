@@ -21,9 +21,9 @@ struct Seeing {
 // Mean over the texture's cells.
 TextureMean<double> over_cells(const FilteredTexture& texture, const TextureTree& tree, const ShadingPoint& at, const Seeing& s) {
   const auto turned = [&](Vec3d v) { return transform_transposed(s.frame, integrals::to_kernel<double>(v)); };
-  const auto view = TextureKernels<double>().ltc_texture_cell_view(s.m, s.ggx != nullptr ? 1 : 0, s.ggx != nullptr ? *s.ggx : K::GgxView{},
-                                                                   turned(texture.origin() - at.position), turned(texture.axis_x()),
-                                                                   turned(texture.axis_y()));
+  const auto view =
+      Kernels<double>().ltc_texture_cell_view(s.m, s.ggx != nullptr ? 1 : 0, s.ggx != nullptr ? *s.ggx : K::GgxView{},
+                                              turned(texture.origin() - at.position), turned(texture.axis_x()), turned(texture.axis_y()));
   return TextureCells<double>(tree, texture.finest(), view).mean(K::mask(true));
 }
 

@@ -14,9 +14,6 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-// Constants of the spheroid that holds a light's egg (kernels/indirect/indirect.glsl, indirect_spheroid).
-constexpr float kCenter = kBallCenter, kAlong = kBallAlong, kAcross = kBallRadius;
-
 constexpr float kEverywhere = 1e15f;  // a range that covers any scene; its square stays a float
 
 // Schlick's Fresnel averaged over the lobe.
@@ -113,11 +110,12 @@ class SetMaker {
     if (options_.mode == IndirectMode::ggx) add_ggx(set, i, light);
 
     const float r = range(light.reach, xi, lobes_.stretch[i]);
-    const float across = 1 / (kAcross * r), along = 1 / (kAlong * r);
+    const auto ball = Kernels<float>().indirect_ball();
+    const float across = 1 / (ball.z.v * r), along = 1 / (ball.y.v * r);
     push(set.spheroids.x, light.row_x * across);
     push(set.spheroids.y, light.row_y * across);
     push(set.spheroids.z, light.row_z * along);
-    push(set.spheroids.g, {dot(light.row_x, p) * across, dot(light.row_y, p) * across, dot(light.row_z, p) * along - kCenter / kAlong});
+    push(set.spheroids.g, {dot(light.row_x, p) * across, dot(light.row_y, p) * across, dot(light.row_z, p) * along - ball.x.v / ball.y.v});
     push(set.spheroids.normal, n);
     set.spheroids.offset.push_back(dot(n, p));
   }

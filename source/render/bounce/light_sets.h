@@ -55,9 +55,6 @@ struct EggArrays {
   VectorArray position, normal;      // normal: away from the surface
   std::vector<float> range, offset;  // offset: that of the surface's plane
 };
-// The ball that holds an egg of range 1: its distance in front of the light, and its radius.
-inline constexpr float kBallCenter = 0.46f, kBallRadius = 0.628f;
-inline constexpr float kBallAlong = 0.54f;  // the spheroid's half axis
 struct SpheroidArrays {
   VectorArray x, y, z;  // rows of T
   VectorArray g;

@@ -5,8 +5,6 @@
 
 namespace steradian::indirect {
 
-inline constexpr float kSharp = 0.1f;  // receivers with a smaller alpha see virtual lights as quads
-
 // A light of the set for each of a block's receivers: its index among the diffuse lights, or, after these, among the glossy ones; -1 if no
 // light arrives.
 struct PickedLights {

@@ -44,33 +44,12 @@ struct Receiver {
   K::mask sharp;
 };
 
-// The vector v to a light, its square, and one over its length.
-struct Way {
-  PackVec3 v;
-  PackReal d2, inverse;
-  STERADIAN_INLINE Way(const Vec3f& light, const PackVec3& p) : v(broadcast(light) - p) {
-    d2 = max(dot(v, v), PackReal(1.0e-20));
-    inverse = inversesqrt(d2);
-  }
-};
+using Way = K::IndirectWay;
+STERADIAN_INLINE Way way_to(const Vec3f& light, const PackVec3& p) { return K().indirect_way(broadcast(light), p); }
 
-// Light of a virtual quad light in the receiver's lobe, as a half: the integral over the quad in place of its value at the middle.
-__attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const Vec3f& normal, const QuadLight& quad, const Way& way,
-                                                      PackReal soft, PackReal rarity) {
-  K k;
-  const PackReal grow = sqrt(rarity);
-  const PackVec3 ex = broadcast(quad.edge_x) * grow, ey = broadcast(quad.edge_y) * grow;
-  const auto corner = [&](const PackVec3& e) { return k.polygon_direction(k.indirect_under(at.lobe, way.v + e)); };
-  const PackVec3 a = corner(-ex - ey), b = corner(ex - ey), c = corner(ex + ey), d = corner(ey - ex);
-  auto walk = k.polygon_begin();
-  walk = k.polygon_add_edge(walk, a, b);
-  walk = k.polygon_add_edge(walk, b, c);
-  walk = k.polygon_add_edge(walk, c, d);
-  walk = k.polygon_add_edge(walk, d, a);
-  const auto reversed = dot(cross(ex, ey), way.v) < PackReal(0.0);
-  const PackReal integral = k.polygon_irradiance(walk, reversed) * PackReal(0.318309886183790672);
-  const PackReal facing = max(dot(broadcast(normal), way.v), PackReal(1.0e-12));
-  return integral * (way.d2 + soft) * broadcast(quad.inverse_area) / (facing * at.lobe.scale * rarity);
+__attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const K::IndirectQuad& quad, const Way& way, PackReal soft,
+                                                      PackReal rarity) {
+  return K().indirect_quad_half(at.lobe, quad, way, soft, rarity);
 }
 
 // Adds the light of a pair; `kept` is the light's half after culling, `bright` its colour.
@@ -84,13 +63,10 @@ STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept
   if constexpr (glossy) {
     PackReal half = k.indirect_glossy_half(at.lobe, way.v, way.d2, PackReal(0.0));
     if constexpr (quads) {
-      // Integrates only if the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: the lobe is nearly constant over
-      // a speck. Also skips quads seen edge-on, to a thousandth: the integral is divided by that sine, and off by 1e-7 of the hemisphere.
-      const PackVec3 w = k.indirect_under(at.lobe, way.v);
-      const PackReal facing = dot(broadcast(light_normal), way.v);
-      const auto wide = at.sharp && kept > PackReal(0.0) && broadcast(quad->size2) * kept > dot(w, w) * value * PackReal(0.02) &&
-                        facing > PackReal(0.0) && facing * facing > way.d2 * PackReal(1.0e-6);
-      if (any_lane(wide)) half = select(wide, quad_half(at, light_normal, *quad, way, soft, kept / max(value, PackReal(1.0e-30))), half);
+      const K::IndirectQuad wide = {broadcast(light_normal), broadcast(quad->edge_x), broadcast(quad->edge_y),
+                                    broadcast(quad->inverse_area), broadcast(quad->size2)};
+      const auto matters = at.sharp && k.indirect_quad_matters(at.lobe, wide, way, kept, value);
+      if (any_lane(matters)) half = select(matters, quad_half(at, wide, way, soft, kept / max(value, PackReal(1.0e-30))), half);
     }
     sums.add_glossy(bright * select(cosine > PackReal(0.0), kept * half, PackReal(0.0)), id);
   }
@@ -101,7 +77,7 @@ STERADIAN_INLINE void add_diffuse_lights(const LightSet& set, const TileLists::L
   K k;
   for (std::size_t j = 0; j < list.count; ++j) {
     const DiffuseLight& light = set.diffuse[list.begin[j]];
-    const Way way(light.position, at.position);
+    const Way way = way_to(light.position, at.position);
     const PackReal soft = broadcast(light.soft);
     const PackReal value = k.indirect_diffuse_half(broadcast(light.normal), way.v, way.d2, soft);
     const PackReal kept = k.indirect_kept(value, broadcast(light.reach) * (way.d2 * way.inverse), broadcast(light.xi));
@@ -116,7 +92,7 @@ STERADIAN_INLINE void add_glossy_lights(const LightSet& set, const TileLists::Li
   K k;
   for (std::size_t j = 0; j < list.count; ++j) {
     const GlossyLight& light = set.glossy[list.begin[j]];
-    const Way way(light.position, at.position);
+    const Way way = way_to(light.position, at.position);
     const PackReal soft = broadcast(light.soft);
     K::IndirectLobe lobe;
     lobe.x = broadcast(light.row_x);
@@ -166,7 +142,7 @@ STERADIAN_INLINE Prepared prepare(const indirect::Receivers& receivers, std::siz
     const PackVec3 view = load_vector(receivers.view, i);
     const SeenLobe seen = look_up_lobe(tables, p.at.normal, view, alpha);
     p.at.lobe = k.indirect_lobe(seen.matrix, seen.frame);
-    p.at.sharp = p.glossy && alpha < PackReal(static_cast<double>(indirect::kSharp));
+    p.at.sharp = p.glossy && alpha < k.indirect_sharp();
     p.facing = p.glossy && dot(p.at.normal, view) > PackReal(0.0);
   }
   return p;
@@ -239,7 +215,7 @@ __attribute__((flatten, noinline)) void add_ggx_lights(const LightSet& set, cons
   const GgxReceiver at = receiver;
   for (std::size_t j = 0; j < diffuse.count; ++j) {
     const DiffuseLight& light = set.diffuse[diffuse.begin[j]];
-    const Way way(light.position, at.position);
+    const Way way = way_to(light.position, at.position);
     const PackReal value = k.indirect_diffuse_half(broadcast(light.normal), way.v, way.d2, broadcast(light.soft));
     const PackReal kept = k.indirect_kept(value, broadcast(light.reach) * (way.d2 * way.inverse), broadcast(light.xi));
     if (!any_lane(kept > PackReal(0.0))) continue;
@@ -247,7 +223,7 @@ __attribute__((flatten, noinline)) void add_ggx_lights(const LightSet& set, cons
   }
   for (std::size_t j = 0; j < shiny.count; ++j) {
     const GgxLight& light = set.ggx[shiny.begin[j]];
-    const Way way(light.position, at.position);
+    const Way way = way_to(light.position, at.position);
     const K::mat3 frame(broadcast(light.frame_x), broadcast(light.frame_y), broadcast(light.normal));
     const PackVec3 view(broadcast(light.view_x), PackReal(0.0), broadcast(light.view_z));
     const auto end = k.indirect_ggx(frame, view, broadcast(light.alpha), way.v * -way.inverse);

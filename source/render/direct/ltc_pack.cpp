@@ -66,7 +66,7 @@ __attribute__((flatten, noinline)) void run(const PackLight& light, const Points
       const PolygonOutline polygon = {{seen, frame, p}};
       both = light.is_round()    ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
              : light.is_pieces() ? integrate_pieces<with_diffuse>(seen, frame, view, lobe)
-             : polygon.may_be_small(integrals::kTransformed.least_distance2)
+             : polygon.may_be_small(PackKernels().light_elements_transformed().least_distance2)
                  ? integrate_polygon<with_diffuse>(polygon, view, lobe)
                  : integrate_polygon<with_diffuse>(PolygonEdges{seen, frame, p}, view, lobe);
       if (tables.fresnel_matrix.size > 0) {

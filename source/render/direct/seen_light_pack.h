@@ -76,8 +76,8 @@ struct PolygonOutline : PolygonEdges {
   PackKernels::LightElements elements() const { return elements_in(seen, frame, p); }
   STERADIAN_INLINE PackReal deviation2() const { return shapes::deviation2<Pack>(polygon()); }
   STERADIAN_INLINE PackReal distance2() const { return shapes::distance2<Pack>(polygon(), p); }
-  STERADIAN_INLINE bool may_be_small(double least_distance2) const {
-    return any_lane(seen.lit && distance2() > deviation2() * PackReal(least_distance2));
+  STERADIAN_INLINE bool may_be_small(PackReal least_distance2) const {
+    return any_lane(seen.lit && distance2() > deviation2() * least_distance2);
   }
 };
 

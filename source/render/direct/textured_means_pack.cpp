@@ -25,9 +25,9 @@ STERADIAN_INLINE void run(const TexturedLight& light, const Points& points, cons
     if (any_lane(mean.found)) {
       const Lobe lobe = lobe_at(i);
       const auto turned = [&](const PackVec3& v) { return transform_transposed(lobe.frame, v); };
-      const auto view = TextureKernels<Pack>().ltc_texture_cell_view(lobe.matrix, lobe.by_ggx, lobe.half_vectors,
-                                                                     turned(of(texture.origin()) - load(points.position, i)),
-                                                                     turned(of(texture.axis_x())), turned(of(texture.axis_y())));
+      const auto view = Kernels<Pack>().ltc_texture_cell_view(lobe.matrix, lobe.by_ggx, lobe.half_vectors,
+                                                              turned(of(texture.origin()) - load(points.position, i)),
+                                                              turned(of(texture.axis_x())), turned(of(texture.axis_y())));
       mean = TextureCells<Pack>(light.tree(), texture.finest(), view).mean(mean.found);
     }
     store(means.r + i, mean.radiance.x);

@@ -7,7 +7,7 @@
 
 namespace steradian {
 
-// Closer than ten half diagonals, no integral uses a light's elements (least_distance2 of shapes/small_light.h).
+// Closer than ten half diagonals, no integral uses a light's elements (least_distance2 of kernels/outline/light_elements.glsl).
 inline constexpr double kNeverSmall = 100;
 
 // Occluders of lights, found by rays.

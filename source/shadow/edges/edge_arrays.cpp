@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "shadow/edges/gather.h"
-#include "shadow/shadow_kernels.h"
+#include "steradian/kernels.h"
 
 namespace steradian::shadow {
 namespace {
@@ -38,7 +38,7 @@ thread_local Renumbering vertices_seen, planes_seen;
 
 Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
-using K = ShadowKernels<float>;
+using K = Kernels<float>;
 
 // An end of an edge as seen from the point.
 struct End {

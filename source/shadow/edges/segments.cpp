@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "shadow/edges/gather.h"
-#include "shadow/shadow_kernels.h"
+#include "steradian/kernels.h"
 
 namespace steradian::shadow {
 namespace {
@@ -29,9 +29,9 @@ std::int32_t to_cell(double x, double box) {
 
 // Clips an edge and adds it.
 template <class S>
-void add_clipped(const LightFrame& frame, typename ShadowKernels<S>::vec3 a, typename ShadowKernels<S>::vec3 b, std::uint64_t id_a,
-                 std::uint64_t id_b, std::int32_t weight, Source source, std::uint32_t index, SegmentSet& result) {
-  ShadowKernels<S> k;
+void add_clipped(const LightFrame& frame, typename Kernels<S>::vec3 a, typename Kernels<S>::vec3 b, std::uint64_t id_a, std::uint64_t id_b,
+                 std::int32_t weight, Source source, std::uint32_t index, SegmentSet& result) {
+  Kernels<S> k;
   const auto clipped = k.shadow_clip(a, b, {static_cast<S>(frame.box_x), static_cast<S>(frame.box_y)});
   if (!clipped.inside.m) return;
   const auto cell = [](const auto& v) { return static_cast<std::int32_t>(v.v); };
@@ -186,7 +186,7 @@ void LocalEdges<S>::assign_all(const EdgeMesh& mesh, const LightFrame& frame) {
 
 template <class S>
 void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
-  using K = ShadowKernels<S>;
+  using K = Kernels<S>;
   using vec3 = typename K::vec3;
   K k;
   result.clear();

@@ -3,11 +3,10 @@
 
 #include "core/pack_bits.h"
 #include "shadow/lanes/lanes.h"
-#include "shadow/shadow_kernels.h"
+#include "steradian/kernels.h"
 
 STERADIAN_BEGIN_ISA
 
-using ShadowPack = ShadowKernels<Pack>;
 using PackMask = PackKernels::mask;
 
 // Calls use(i) for the first lane of each pack.

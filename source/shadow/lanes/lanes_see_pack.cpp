@@ -7,7 +7,7 @@ STERADIAN_BEGIN_ISA
 namespace {
 
 using namespace shadow;
-using K = ShadowPack;
+using K = PackKernels;
 
 // An end of an edge as seen from the lanes.
 struct Ends {

@@ -1,12 +1,12 @@
 #include "core/pack_bits.h"
 #include "shadow/lanes/packs.h"
-#include "shadow/shadow_kernels.h"
+#include "steradian/kernels.h"
 
 STERADIAN_BEGIN_ISA
 namespace {
 
 using namespace shadow;
-using K = ShadowKernels<Pack>;
+using K = PackKernels;
 using IntPack = xsimd::batch<std::int32_t, PackArch>;
 using PackMask = PackKernels::mask;
 

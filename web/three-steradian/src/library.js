@@ -303,6 +303,7 @@ vec3 steradian_horizon_crossing(vec3 a, vec3 b) {
     p = p * inversesqrt(max(dot(p, p), steradian_smallest_square()));
     return vec3(p.x, p.y, 0.0);
 }
+bool steradian_horizon_arc_wide(vec3 a, vec3 b) { return dot(a, b) < -0.9999; }
 vec3 steradian_horizon_arc_middle(vec3 a, vec3 b, float facing) {
     float unsure = 1.0e-6;
     vec2 across = vec2(b.y - a.y, a.x - b.x) * facing;
@@ -601,6 +602,32 @@ float steradian_light_elements_sharpness(float deviation) {
 float steradian_light_elements_half_vector_sharpness(float deviation, float view_z) {
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
+float steradian_light_elements_power_sharpness(float n) {
+    return steradian_light_elements_diffuse_sharpness() + sqrt(n);
+}
+struct SteradianLightElementsLimits {
+    float roundings;
+    float least_distance2;
+    float bias;
+};
+SteradianLightElementsLimits steradian_light_elements_limits(float roundings, float least_distance2, float bias) {
+    SteradianLightElementsLimits limits;
+    limits.roundings = roundings;
+    limits.least_distance2 = least_distance2;
+    limits.bias = bias;
+    return limits;
+}
+SteradianLightElementsLimits steradian_light_elements_along_edges() { return steradian_light_elements_limits(2.0, 4000.0, 0.0); }
+SteradianLightElementsLimits steradian_light_elements_transformed() { return steradian_light_elements_limits(8.0, 2000.0, 0.0); }
+SteradianLightElementsLimits steradian_light_elements_along_arcs() { return steradian_light_elements_limits(128.0, 500.0, 0.0); }
+SteradianLightElementsLimits steradian_light_elements_along_half_vectors(float bias) { return steradian_light_elements_limits(128.0, 30.0, bias); }
+SteradianLightElementsLimits steradian_light_elements_along_power(float n, float bias) {
+    float sharpness = steradian_light_elements_power_sharpness(n);
+    return steradian_light_elements_limits(128.0, steradian_select(bias > 0.0, min(500.0, 4.0 * sharpness * sharpness), 500.0), bias);
+}
+float steradian_light_elements_series_bias() { return 0.015625; }
+float steradian_light_elements_series_high_bias() { return 0.008695652173913044; }
+float steradian_light_elements_beckmann_bias() { return 0.005; }
 bool steradian_light_elements_serve(SteradianLightElements e, vec3 normal, float sharpness, float roundings, float bias) {
     float unit = 6.0e-8;
     float inverse = inversesqrt(max(dot(e.center, e.center), steradian_smallest_square()));
@@ -791,6 +818,12 @@ SteradianEllipse steradian_ellipse_prepare(vec3 center, vec3 axis_a, vec3 axis_b
     bool reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
     e.axis_b = steradian_select(reversed, -axis_b, axis_b);
     return e;
+}
+SteradianEllipse steradian_ellipse_in_units(mat3 frame, vec3 center, vec3 axis_a, vec3 axis_b) {
+    float size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    float unit = inversesqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
 }
 SteradianLightElements steradian_ellipse_elements(SteradianEllipse e) {
     SteradianLightElements elements;
@@ -1014,6 +1047,23 @@ vec3 steradian_ellipse_pushed_corner(SteradianEllipseFan fan, vec2 before, vec2 
 vec3 steradian_ellipse_fan_corner(SteradianEllipseFan fan, int k, int count) {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
+SteradianLightElements steradian_capsule_elements(vec3 center, vec3 axis, float radius) {
+    float r2 = radius * radius;
+    float length2 = dot(axis, axis);
+    vec3 along = axis * inversesqrt(max(length2, steradian_smallest_square()));
+    vec3 sight = center * inversesqrt(max(dot(center, center), steradian_smallest_square()));
+    vec3 across = sight - along * dot(along, sight);
+    vec3 aside = cross(along, sight);
+    float strip = 2.0 * radius * sqrt(length2);
+    float balls = steradian_pi() * r2;
+    float share = 2.0 / max(strip + balls, steradian_smallest_square());
+    SteradianLightElements e;
+    e.center = center;
+    e.area = -(across * (inversesqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 * 0.0833333333333333333 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (inversesqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip * 0.333333333333333333 + balls * 0.25)));
+    return e;
+}
 struct SteradianCapsule {
     vec3 end_a;
     vec3 end_b;
@@ -1056,6 +1106,10 @@ SteradianCapsule steradian_capsule_prepare(vec3 end_a, vec3 end_b, float radius)
     c.radius = radius;
     c.outside = steradian_select(beside, height2, nearer2) > radius2;
     return c;
+}
+SteradianCapsule steradian_capsule_in_units(vec3 end_a, vec3 end_b, float radius) {
+    float unit = inversesqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 float steradian_capsule_touch(SteradianCapsule c) {
     return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
@@ -1747,6 +1801,20 @@ float steradian_moment_double_axis_share(vec3 a, vec3 b, vec3 r, vec3 v, float s
     float n2 = dot(n, n);
     float inward = dot(n, v) * inversesqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + steradian_select(n2 > steradian_smallest_divisor(), inward * cosines, 0.0);
+}
+SteradianMomentIntegrands steradian_moment_foreshortened_front(SteradianMomentEdge edge, float n, int level) {
+    SteradianMomentIntegrands front;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+float steradian_moment_foreshortened_share(SteradianMomentEdge edge, vec3 a, vec3 b, vec3 r, float front, float cosines) {
+    return steradian_moment_double_axis_share(a, b, r, vec3(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
 }
 struct SteradianLtcMatrix {
     float xx;
@@ -2592,6 +2660,35 @@ SteradianHalfVectorNode steradian_half_vector_between(SteradianGgxView view, Ste
     node.h = middle * shorter;
     node.solid_angle = steradian_select(n2 > steradian_smallest_square(), -apart * sweep * (shorter * shorter * shorter), 0.0);
     return node;
+}
+struct SteradianHalfVectorWalk {
+    float weight;
+    SteradianConicNode first;
+    SteradianConicNode last;
+    vec3 a;
+    vec3 b;
+};
+SteradianHalfVectorWalk steradian_half_vector_begin(SteradianGgxView view, SteradianConicArc edge) {
+    SteradianHalfVectorWalk walk;
+    walk.weight = steradian_half_vector_split_weight(edge);
+    walk.last = steradian_half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = steradian_half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+SteradianHalfVectorWalk steradian_half_vector_next(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, float tau) {
+    SteradianHalfVectorWalk next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = steradian_half_vector_split_end(edge, tau, walk.weight);
+    next.b = steradian_half_vector_at(view, edge, tau);
+    return next;
+}
+int steradian_half_vector_nodes() { return 4; }
+SteradianHalfVectorNode steradian_half_vector_node(SteradianHalfVectorWalk walk, SteradianGgxView view, SteradianConicArc edge, int i) {
+    vec2 rule = steradian_gauss_legendre_node(steradian_half_vector_nodes(), i);
+    return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 float steradian_blinn_phong_at_half_vector(vec3 h, vec3 v, float n) {
     return 2.0 * steradian_pi() * steradian_blinn_phong_distribution(h, n) * max(dot(h, v), 0.0);

@@ -301,6 +301,7 @@ fn steradian_horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
     p = p * inverseSqrt(max(dot(p, p), steradian_smallest_square()));
     return vec3f(p.x, p.y, 0.0);
 }
+fn steradian_horizon_arc_wide(a: vec3f, b: vec3f) -> bool { return dot(a, b) < -0.9999; }
 fn steradian_horizon_arc_middle(a: vec3f, b: vec3f, facing: f32) -> vec3f {
     let unsure = 1.0e-6;
     var across = vec2f(b.y - a.y, a.x - b.x) * facing;
@@ -599,6 +600,32 @@ fn steradian_light_elements_sharpness(deviation: f32) -> f32 {
 fn steradian_light_elements_half_vector_sharpness(deviation: f32, view_z: f32) -> f32 {
     return steradian_light_elements_sharpness(2.0 * deviation * max(view_z, 1.0e-6));
 }
+fn steradian_light_elements_power_sharpness(n: f32) -> f32 {
+    return steradian_light_elements_diffuse_sharpness() + sqrt(n);
+}
+struct SteradianLightElementsLimits {
+    roundings: f32,
+    least_distance2: f32,
+    bias: f32,
+}
+fn steradian_light_elements_limits(roundings: f32, least_distance2: f32, bias: f32) -> SteradianLightElementsLimits {
+    var limits: SteradianLightElementsLimits;
+    limits.roundings = roundings;
+    limits.least_distance2 = least_distance2;
+    limits.bias = bias;
+    return limits;
+}
+fn steradian_light_elements_along_edges() -> SteradianLightElementsLimits { return steradian_light_elements_limits(2.0, 4000.0, 0.0); }
+fn steradian_light_elements_transformed() -> SteradianLightElementsLimits { return steradian_light_elements_limits(8.0, 2000.0, 0.0); }
+fn steradian_light_elements_along_arcs() -> SteradianLightElementsLimits { return steradian_light_elements_limits(128.0, 500.0, 0.0); }
+fn steradian_light_elements_along_half_vectors(bias: f32) -> SteradianLightElementsLimits { return steradian_light_elements_limits(128.0, 30.0, bias); }
+fn steradian_light_elements_along_power(n: f32, bias: f32) -> SteradianLightElementsLimits {
+    let sharpness = steradian_light_elements_power_sharpness(n);
+    return steradian_light_elements_limits(128.0, select(500.0, min(500.0, 4.0 * sharpness * sharpness), bias > 0.0), bias);
+}
+fn steradian_light_elements_series_bias() -> f32 { return 0.015625; }
+fn steradian_light_elements_series_high_bias() -> f32 { return 0.008695652173913044; }
+fn steradian_light_elements_beckmann_bias() -> f32 { return 0.005; }
 fn steradian_light_elements_serve(e: SteradianLightElements, normal: vec3f, sharpness: f32, roundings: f32, bias: f32) -> bool {
     let unit = 6.0e-8;
     let inverse = inverseSqrt(max(dot(e.center, e.center), steradian_smallest_square()));
@@ -789,6 +816,12 @@ fn steradian_ellipse_prepare(center: vec3f, axis_a: vec3f, axis_b: vec3f) -> Ste
     let reversed = dot(center, cross(axis_a, axis_b)) < 0.0;
     e.axis_b = select(axis_b, -axis_b, reversed);
     return e;
+}
+fn steradian_ellipse_in_units(frame: mat3x3f, center: vec3f, axis_a: vec3f, axis_b: vec3f) -> SteradianEllipse {
+    let size2 = dot(center, center) + dot(axis_a, axis_a) + dot(axis_b, axis_b);
+    let unit = inverseSqrt(max(size2, steradian_smallest_divisor()));
+    return steradian_ellipse_prepare(steradian_transform_transposed(frame, center) * unit, steradian_transform_transposed(frame, axis_a) * unit,
+                           steradian_transform_transposed(frame, axis_b) * unit);
 }
 fn steradian_ellipse_elements(e: SteradianEllipse) -> SteradianLightElements {
     var elements: SteradianLightElements;
@@ -1012,6 +1045,23 @@ fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here
 fn steradian_ellipse_fan_corner(fan: SteradianEllipseFan, k: i32, count: i32) -> vec3f {
     return steradian_ellipse_pushed_corner(fan, steradian_ellipse_corner(fan, k - 1, count), steradian_ellipse_corner(fan, k, count), steradian_ellipse_corner(fan, k + 1, count));
 }
+fn steradian_capsule_elements(center: vec3f, axis: vec3f, radius: f32) -> SteradianLightElements {
+    let r2 = radius * radius;
+    let length2 = dot(axis, axis);
+    let along = axis * inverseSqrt(max(length2, steradian_smallest_square()));
+    let sight = center * inverseSqrt(max(dot(center, center), steradian_smallest_square()));
+    let across = sight - along * dot(along, sight);
+    let aside = cross(along, sight);
+    let strip = 2.0 * radius * sqrt(length2);
+    let balls = steradian_pi() * r2;
+    let share = 2.0 / max(strip + balls, steradian_smallest_square());
+    var e: SteradianLightElements;
+    e.center = center;
+    e.area = -(across * (inverseSqrt(max(dot(across, across), 1.0e-12)) * strip) + sight * balls);
+    e.reach_a = along * sqrt(share * (strip * length2 * 0.0833333333333333333 + balls * (length2 + r2) * 0.25));
+    e.reach_b = aside * (inverseSqrt(max(dot(aside, aside), 1.0e-12)) * sqrt(share * r2 * (strip * 0.333333333333333333 + balls * 0.25)));
+    return e;
+}
 struct SteradianCapsule {
     end_a: vec3f,
     end_b: vec3f,
@@ -1054,6 +1104,10 @@ fn steradian_capsule_prepare(end_a: vec3f, end_b: vec3f, radius: f32) -> Steradi
     c.radius = radius;
     c.outside = select(nearer2, height2, beside) > radius2;
     return c;
+}
+fn steradian_capsule_in_units(end_a: vec3f, end_b: vec3f, radius: f32) -> SteradianCapsule {
+    let unit = inverseSqrt(max(dot(end_a, end_a) + dot(end_b, end_b) + radius * radius, steradian_smallest_divisor()));
+    return steradian_capsule_prepare(end_a * unit, end_b * unit, radius * unit);
 }
 fn steradian_capsule_touch(c: SteradianCapsule) -> f32 {
     return sqrt(max((c.height - c.radius) * (c.height + c.radius), 0.0));
@@ -1745,6 +1799,20 @@ fn steradian_moment_double_axis_share(a: vec3f, b: vec3f, r: vec3f, v: vec3f, sh
     let n2 = dot(n, n);
     let inward = dot(n, v) * inverseSqrt(max(n2, steradian_smallest_divisor()));
     return dot(r, v) * share + select(0.0, inward * cosines, n2 > steradian_smallest_divisor());
+}
+fn steradian_moment_foreshortened_front(edge: SteradianMomentEdge, n: f32, level: i32) -> SteradianMomentIntegrands {
+    var front: SteradianMomentIntegrands;
+    front.moment = 0.0;
+    front.power = 0.0;
+    if (level > 0) {
+        front.power = steradian_trig_atan2(edge.x0 * edge.y1 - edge.x1 * edge.y0, edge.x0 * edge.x1 + edge.y0 * edge.y1);
+    } else {
+        front = steradian_moment_quadrature_front(edge, n - 1.0);
+    }
+    return front;
+}
+fn steradian_moment_foreshortened_share(edge: SteradianMomentEdge, a: vec3f, b: vec3f, r: vec3f, front: f32, cosines: f32) -> f32 {
+    return steradian_moment_double_axis_share(a, b, r, vec3f(0.0, 0.0, 1.0), steradian_moment_edge_share(edge, front), cosines);
 }
 struct SteradianLtcMatrix {
     xx: f32,
@@ -2590,6 +2658,35 @@ fn steradian_half_vector_between(view: SteradianGgxView, edge: SteradianConicArc
     node.h = middle * shorter;
     node.solid_angle = select(0.0, -apart * sweep * (shorter * shorter * shorter), n2 > steradian_smallest_square());
     return node;
+}
+struct SteradianHalfVectorWalk {
+    weight: f32,
+    first: SteradianConicNode,
+    last: SteradianConicNode,
+    a: vec3f,
+    b: vec3f,
+}
+fn steradian_half_vector_begin(view: SteradianGgxView, edge: SteradianConicArc) -> SteradianHalfVectorWalk {
+    var walk: SteradianHalfVectorWalk;
+    walk.weight = steradian_half_vector_split_weight(edge);
+    walk.last = steradian_half_vector_split_end(edge, edge.begin, walk.weight);
+    walk.b = steradian_half_vector_at(view, edge, edge.begin);
+    walk.first = walk.last;
+    walk.a = walk.b;
+    return walk;
+}
+fn steradian_half_vector_next(walk: SteradianHalfVectorWalk, view: SteradianGgxView, edge: SteradianConicArc, tau: f32) -> SteradianHalfVectorWalk {
+    var next = walk;
+    next.first = walk.last;
+    next.a = walk.b;
+    next.last = steradian_half_vector_split_end(edge, tau, walk.weight);
+    next.b = steradian_half_vector_at(view, edge, tau);
+    return next;
+}
+fn steradian_half_vector_nodes() -> i32 { return 4; }
+fn steradian_half_vector_node(walk: SteradianHalfVectorWalk, view: SteradianGgxView, edge: SteradianConicArc, i: i32) -> SteradianHalfVectorNode {
+    let rule = steradian_gauss_legendre_node(steradian_half_vector_nodes(), i);
+    return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 fn steradian_blinn_phong_at_half_vector(h: vec3f, v: vec3f, n: f32) -> f32 {
     return 2.0 * steradian_pi() * steradian_blinn_phong_distribution(h, n) * max(dot(h, v), 0.0);

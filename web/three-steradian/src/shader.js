@@ -49,7 +49,7 @@ void steradian_three_edge( const in vec3 a, const in vec3 b ) {
 void steradian_three_close( const in SteradianHorizonClip clip, const in float facing ) {
 	if ( ! clip.closes ) return;
 	vec3 start = clip.arc_start;
-	if ( dot( start, clip.arc_end ) < - 0.9999 ) {
+	if ( steradian_horizon_arc_wide( start, clip.arc_end ) ) {
 		vec3 middle = steradian_horizon_arc_middle( start, clip.arc_end, facing );
 		steradian_three_edge( start, middle );
 		start = middle;

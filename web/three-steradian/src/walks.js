@@ -88,7 +88,7 @@ ${L.loop( 'k', count + 1 )} {
 	}
 	if ( clip.closes ) {
 		middle = clip.arc_start;
-		if ( dot( clip.arc_start, clip.arc_end ) < - 0.9999 ) {
+		if ( steradian_horizon_arc_wide( clip.arc_start, clip.arc_end ) ) {
 			middle = steradian_horizon_arc_middle( clip.arc_start, clip.arc_end, facing );
 			${put( 'clip.arc_start', 'middle' )}
 		}

@@ -1,6 +1,6 @@
 // The part of a round light that blockers leave visible, for each block of 4 x 4 pixels, and its light. For *_pack.cpp only.
 //
-// A ray is identified by the signed distance at which it passes the light's centre (place_on_light): from -radius to radius.
+// A ray is identified by the signed distance at which it passes the light's centre (plane_place_on_light): from -radius to radius.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class EventEnds {
   STERADIAN_INLINE void raise_low(const EventPair& pair, std::uint32_t blocks) {
     if (pair.kind == EventPair::Kind::round)
       return on_blocks(blocks, [&](int i) {
-        const RoundEnds round(pair, light_, load(tile_.x + i), load(tile_.y + i));
+        const auto round = round_ends(pair, light_, load(tile_.x + i), load(tile_.y + i));
         store(low_ + i, max(load(low_ + i), round.end));
       });
     for (int k = 0; k < pair.ends; ++k) {
@@ -48,7 +48,7 @@ class EventEnds {
   STERADIAN_INLINE void lower_high(const EventPair& pair, std::uint32_t blocks) {
     if (pair.kind == EventPair::Kind::round)
       return on_blocks(blocks, [&](int i) {
-        const RoundEnds round(pair, light_, load(tile_.x + i), load(tile_.y + i));
+        const auto round = round_ends(pair, light_, load(tile_.x + i), load(tile_.y + i));
         store(high_ + i, min(load(high_ + i), round.begin));
       });
     for (int k = 0; k < pair.begins; ++k) {
@@ -82,29 +82,16 @@ class EventEnds {
       from_x = broadcast(at_x - light.x);
       from_y = broadcast(at_y - light.y);
     }
-    STERADIAN_INLINE PackReal place(PackReal px, PackReal py) const { return place_on_light(from_x, from_y, x - px, y - py); }
-  };
-
-  // Tangents of a round blocker.
-  struct RoundEnds {
-    PackReal begin, end;
-    PackMask begins_ahead, ends_ahead;
-    STERADIAN_INLINE RoundEnds(const EventPair& pair, const EventLight& light, PackReal px, PackReal py) {
-      const Vertex center(light, pair, 0);
-      const PackReal ax = broadcast(light.x) - px, ay = broadcast(light.y) - py;
-      const PackReal kx = center.x - px, ky = center.y - py, s = broadcast(pair.radius);
-      const PackReal k2 = kx * kx + ky * ky, t = PackKernels().plane_root(max(k2 - s * s, PackReal(0.0)));
-      // cross(a, k) = cross(a, k - a): no cancellation if the blocker is far behind the light.
-      const PackReal cross = ax * center.from_y - ay * center.from_x, ahead = ax * kx + ay * ky;
-      const PackReal inverse = PackReal(1.0) / max(k2, PackReal(1e-30));
-      begin = (t * cross - s * ahead) * inverse;
-      end = (t * cross + s * ahead) * inverse;
-      begins_ahead = t * ahead + s * cross > PackReal(0.0);
-      ends_ahead = t * ahead - s * cross > PackReal(0.0);
-      begin = select(begins_ahead, begin, select(begin > PackReal(0.0), PackReal(1e6), PackReal(-1e6)));
-      end = select(ends_ahead, end, select(end > PackReal(0.0), PackReal(1e6), PackReal(-1e6)));
+    STERADIAN_INLINE PackReal place(PackReal px, PackReal py) const {
+      return PackKernels().plane_place_on_light({from_x, from_y}, {x - px, y - py});
     }
   };
+
+  STERADIAN_INLINE static PackKernels::PlaneRoundEnds round_ends(const EventPair& pair, const EventLight& light, PackReal px, PackReal py) {
+    const Vertex center(light, pair, 0);
+    return PackKernels().plane_round_ends({broadcast(light.x) - px, broadcast(light.y) - py}, {center.x - px, center.y - py},
+                                          {center.from_x, center.from_y}, broadcast(pair.radius));
+  }
 
   template <class F>
   STERADIAN_INLINE static void on_blocks(std::uint32_t blocks, F f) {
@@ -121,7 +108,7 @@ class EventEnds {
     const PackMask nearer = x * nx + (y * ny - c) > PackReal(0.0);
     if (!any_lane(nearer)) return;
     if (pair.kind == EventPair::Kind::round) {
-      const RoundEnds round(pair, light_, px, py);
+      const auto round = round_ends(pair, light_, px, py);
       // An end behind the pixel is on the other's far side. All of the blocker may be behind, if the separator is short of it.
       const PackReal from = select(round.begins_ahead, round.begin, PackReal(-1e6)),
                      to = select(round.ends_ahead, round.end, PackReal(1e6));
@@ -177,7 +164,7 @@ class EventEnds {
   }
 
   STERADIAN_INLINE void add_colour(int i, PackReal share) {
-    share = share * PackReal(0.159154943091895336);
+    share = share * PackKernels().inverse_two_pi();
     if (shares_ != nullptr) {
       if (!shared) std::fill_n(shares_, kTilePixels, 0.0f);
       shared = true;

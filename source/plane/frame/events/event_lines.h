@@ -136,13 +136,4 @@ STERADIAN_INLINE EventLines<R> round_event_lines(R x, R y, R s, R r) {
   return lines;
 }
 
-// The signed distance at which the ray from P through a point v passes the light's centre: from -r at the low tangent to r at the high one.
-// v is relative to the centre, w = v - P. The value is beyond all of the light if v is not ahead of P.
-template <class R>
-STERADIAN_INLINE R place_on_light(R vx, R vy, R wx, R wy) {
-  const R across = vy * wx - vx * wy, ahead = (wx - vx) * wx + (wy - vy) * wy;
-  const R place = across * inversesqrt(max(wx * wx + wy * wy, R(1e-30)));
-  return select(ahead > R(0.0), place, select(across > R(0.0), R(1e6), R(-1e6)));
-}
-
 }  // namespace steradian::plane

@@ -10,6 +10,7 @@
 
 #include "plane/exact/random.h"
 #include "plane/exact/world.h"
+#include "steradian/kernels.h"
 #include "steradian/plane.h"
 
 namespace steradian::plane::event_lines_test {
@@ -52,7 +53,7 @@ struct Pair {
   // The places at which P sees vertices first .. last, and a round blocker's end or begin.
   double place(Vec2d p, int k) const {
     const Vec2d v = vertices[static_cast<std::size_t>(k)];
-    return place_on_light<D>(v.x, v.y, v.x - p.x, v.y - p.y).v;
+    return Kernels<double>().plane_place_on_light({v.x, v.y}, {v.x - p.x, v.y - p.y}).v;
   }
   double tangent(Vec2d p, double side) const {
     const Vec2d k = center - p, a = -p;

@@ -19,7 +19,7 @@ struct DiskAngle {
 
   struct Seen {
     PackReal d2, reach;
-    STERADIAN_INLINE PackReal slope(PackReal x) const { return x * inversesqrt(max(d2 - x * x, PackReal(1e-12))); }
+    STERADIAN_INLINE PackReal slope(PackReal x) const { return PackKernels().plane_disk_slope(x, d2); }
     STERADIAN_INLINE PackReal between(PackReal from, PackReal to) const {
       const PackReal a = slope(from), b = slope(to);
       return PackKernels().trig_atan2_unwrapped(b - a, PackReal(1.0) + a * b);
@@ -33,15 +33,6 @@ struct DiskAngle {
   }
 };
 
-// Largest x of rays that reach the light within the range, R = 1: the near side leaves the range before the tangent does (law of cosines).
-STERADIAN_INLINE PackReal reach_within_range(PackReal d2, PackReal radius) {
-  const PackReal rho2 = radius * radius;
-  const PackMask leaves = d2 - rho2 > PackReal(1.0);
-  if (!any_lane(leaves)) return select(d2 > rho2, radius, PackReal(0.0));
-  const PackReal along = PackReal(0.5) * (d2 + PackReal(1.0) - rho2);
-  return select(leaves, min(sqrt(max(d2 - along * along, PackReal(0.0))), radius), radius);
-}
-
 // A light with a range, by the kernels' closed form.
 struct DiskWindow {
   const EventLight& light;
@@ -53,7 +44,7 @@ struct DiskWindow {
     PackReal d2, radius, scale;  // R = 1
     STERADIAN_INLINE PackReal share(PackReal x) const {
       x *= scale;
-      return PackKernels().plane_disk_window(x * inversesqrt(max(d2 - x * x, PackReal(1e-12))), d2, radius * radius);
+      return PackKernels().plane_disk_window(PackKernels().plane_disk_slope(x, d2), d2, radius * radius);
     }
     STERADIAN_INLINE PackReal between(PackReal from, PackReal to) const { return share(to) - share(from); }
     STERADIAN_INLINE bool is_whole(PackReal low, PackReal high) const {
@@ -67,7 +58,7 @@ struct DiskWindow {
   STERADIAN_INLINE Seen at(int, PackReal px, PackReal py) const {
     const PackReal scale = broadcast(light.inverse_range), radius = broadcast(light.radius) * scale;
     const PackReal x = (broadcast(light.x) - px) * scale, y = (broadcast(light.y) - py) * scale, d2 = x * x + y * y;
-    return {reach_within_range(d2, radius) * range, d2, radius, scale};
+    return {PackKernels().plane_disk_reach(d2, radius) * range, d2, radius, scale};
   }
 };
 
@@ -138,7 +129,7 @@ struct DiskQuadratics {
   STERADIAN_INLINE Seen at(int block, PackReal px, PackReal py) const {
     const PackReal scale = broadcast(light_.inverse_range), rho = broadcast(light_.radius) * scale, rho2 = rho * rho;
     const PackReal x = (broadcast(light_.x) - px) * scale, y = (broadcast(light_.y) - py) * scale, w = x * x + y * y;
-    return {reach_within_range(w, rho) * range_,
+    return {PackKernels().plane_disk_reach(w, rho) * range_,
             w - broadcast(w_[block]),
             scale,
             inverse_rho_,

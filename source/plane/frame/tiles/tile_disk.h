@@ -67,7 +67,7 @@ struct DiskView {
 };
 
 STERADIAN_INLINE void add_colour(const TileLight& light, TileBuffer& tile, int i, PackReal share) {
-  share = share * PackReal(0.159154943091895336);
+  share = share * PackKernels().inverse_two_pi();
   add(tile.red + i, share * broadcast(light.red));
   add(tile.green + i, share * broadcast(light.green));
   add(tile.blue + i, share * broadcast(light.blue));

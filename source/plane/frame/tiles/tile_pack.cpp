@@ -54,7 +54,7 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
       constant += k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
     }
   });
-  PackReal scale(0.159154943091895336);
+  PackReal scale = PackKernels().inverse_two_pi();
   if (light.profile == 2) scale *= inverse_d;
   // Radiance at the foot, and its change per slope.
   constant = constant * scale;
@@ -110,7 +110,7 @@ STERADIAN_INLINE void add_arc(const TileLight& light, TileBuffer& tile, int i) {
     else
       integrand.add(axis, from, to, sum);
   });
-  const PackReal scale(0.159154943091895336), constant = sum.constant * scale, ramp = sum.ramp * scale;
+  const PackReal scale = PackKernels().inverse_two_pi(), constant = sum.constant * scale, ramp = sum.ramp * scale;
   add(tile.red + i, broadcast(light.red) * constant + broadcast(light.red_slope) * ramp);
   add(tile.green + i, broadcast(light.green) * constant + broadcast(light.green_slope) * ramp);
   add(tile.blue + i, broadcast(light.blue) * constant + broadcast(light.blue_slope) * ramp);

@@ -46,7 +46,7 @@ class PartIntegral {
   }
 
   STERADIAN_INLINE void add_to(PackReal& red, PackReal& green, PackReal& blue) const {
-    PackReal scale(0.159154943091895336);
+    PackReal scale = PackKernels().inverse_two_pi();
     if (light_.profile == 2) scale *= inverse_d_;
     const PackReal constant = constant_ * scale, at_foot = (foot_ - broadcast(part_.begin)) * constant + slope_ * scale * d_;
     red += broadcast(part_.red) * constant + broadcast(part_.red_slope) * at_foot;
@@ -94,7 +94,7 @@ class SmallPart {
     add_between(x0_ + low * dx, y0_ + low * dy, x0_ + last * dx, y0_ + last * dy);
   }
   STERADIAN_INLINE void add_to(PackReal& red, PackReal& green, PackReal& blue) const {
-    const PackReal scale(0.159154943091895336), nx = broadcast(part_.nx), ny = broadcast(part_.ny);
+    const PackReal scale = PackKernels().inverse_two_pi(), nx = broadcast(part_.nx), ny = broadcast(part_.ny);
     // The direction towards the edge is against its normal; along it is (ny, -nx).
     const PackReal d = -(nx * x0_ + ny * y0_), foot = nx * y0_ - ny * x0_;
     const PackReal constant = angle_ * scale, at_foot = foot * constant + logarithm_ * scale * d;

@@ -11,17 +11,6 @@ using indirect::kFilterReach;
 using indirect::VectorArray;
 using K = PackKernels;
 
-// Conditions under which a tap belongs to the same surface.
-struct Likeness {
-  double least_cosine;  // cosine between the normals
-  double slope;         // distance from the plane over the tap's distance
-  double widths;        // lobes whose widths differ by more than this fraction have different glossy light
-};
-// The same: 26 degrees and a twentieth. Loose: limits for places that find so little that the pattern would be visible, at edges.
-constexpr Likeness kSame{0.9, 0.05, 0.2}, kLoose{0.3, 0.7, 0.5};
-constexpr double kEnough = 0.6;     // fraction of the weights
-constexpr double kRounding = 1e-5;  // a hundredth of a millimetre
-
 struct Sums {
   PackVec3 diffuse{0.0, 0.0, 0.0}, shine{0.0, 0.0, 0.0};
   PackReal diffuse_weight{0.0}, shine_weight{0.0};
@@ -40,15 +29,13 @@ struct Taps {
   K::mask sharp;
   bool any_glossy;
 
-  STERADIAN_INLINE Sums gather(const Likeness& like) const {
-    const PackReal none(0.0), cosine(like.least_cosine), slope2(like.slope * like.slope), widths = width * PackReal(like.widths);
+  STERADIAN_INLINE Sums gather(const K::IndirectLikeness& like) const {
+    const PackReal none(0.0), widths = width * like.widths;
     Sums s;
     for (int k = first; k <= last; ++k) {
       const float wd = weights.diffuse[k + kFilterReach];
       const std::size_t j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k * step);
-      const PackVec3 m = load_at(g.normal, j), d = load_at(g.position, j) - p;
-      const PackReal off = dot(n, d);
-      const auto same = dot(n, m) > cosine && off * off < dot(d, d) * slope2 + PackReal(kRounding * kRounding);
+      const auto same = K().indirect_same_surface(like, n, load_at(g.normal, j), load_at(g.position, j) - p);
       const PackReal w = select(same, broadcast(wd), none);
       s.diffuse = s.diffuse + load_at(from.diffuse, j) * w;
       s.diffuse_weight += w;
@@ -62,13 +49,6 @@ struct Taps {
   }
 };
 
-STERADIAN_INLINE PackVec3 over(const PackVec3& sum, PackReal weight) { return sum * (PackReal(1.0) / max(weight, PackReal(1e-12))); }
-// Mean of the taps found. If their weight is not enough, the others supply the rest.
-STERADIAN_INLINE PackVec3 mean(const PackVec3& sum, PackReal weight, const PackVec3& others, PackReal others_weight) {
-  const PackReal lack = max(PackReal(kEnough) - weight, PackReal(0.0));
-  return over(sum + over(others, others_weight) * lack, weight + lack);
-}
-
 __attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indirect::Raster& raster, const indirect::FilterWeights& weights,
                                   indirect::FilterAxis axis, int begin, int end, int first, int last, const indirect::Light& from,
                                   indirect::Light& to) {
@@ -76,7 +56,8 @@ __attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indir
   int reach_low = -kFilterReach, reach_high = kFilterReach;  // the diffuse taps are the widest
   while (weights.diffuse[reach_low + kFilterReach] == 0) ++reach_low;
   while (weights.diffuse[reach_high + kFilterReach] == 0) --reach_high;
-  const PackReal none(0.0), enough(kEnough);
+  K k;
+  const PackReal none(0.0), enough = k.indirect_enough();
   for (int y = first; y < last; ++y)
     for (int x = begin; x < end; x += static_cast<int>(kLanes)) {
       const std::size_t i = raster.at(x, y);
@@ -97,14 +78,14 @@ __attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indir
                       load_at(g.position, i),
                       n,
                       width,
-                      glossy && width < PackReal(0.1),
+                      glossy && width < k.indirect_sharp(),
                       any_lane(glossy)};
-      const Sums same = taps.gather(kSame);
-      PackVec3 diffuse = over(same.diffuse, same.diffuse_weight), shine = over(same.shine, same.shine_weight);
+      const Sums same = taps.gather(k.indirect_alike());
+      PackVec3 diffuse = k.indirect_over(same.diffuse, same.diffuse_weight), shine = k.indirect_over(same.shine, same.shine_weight);
       if (any_lane(there && (same.diffuse_weight < enough || (glossy && same.shine_weight < enough)))) {
-        const Sums loose = taps.gather(kLoose);
-        diffuse = mean(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
-        shine = mean(same.shine, same.shine_weight, loose.shine, loose.shine_weight);
+        const Sums loose = taps.gather(k.indirect_alike_loosely());
+        diffuse = k.indirect_filtered(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
+        shine = k.indirect_filtered(same.shine, same.shine_weight, loose.shine, loose.shine_weight);
       }
       store_at(to.diffuse, i, diffuse);
       store_at(to.glossy, i, shine);

@@ -3,7 +3,7 @@
 // Light frame: the origin is the centre of the light's bounding rectangle. x and y run along its sides. z points away from the shading
 // point, which is at (eye.x, eye.y, -eye.z) with eye.z > 0. There are 2^22 cells from the middle of the box to a side. From here on whole
 // numbers decide everything. See docs/shadows.md.
-// Topics: shadow
+// Needs: constants.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Number of cells from the middle of the box to a side: products of two differences are then exact in double and in 64 bits.
@@ -75,7 +75,7 @@ ShadowSpan shadow_clip_side(ShadowSpan span, real da, real db, real side) {
 //   side     0: round; else the coordinate of that side is exact
 vec2 shadow_cell(vec3 h, vec2 box, real side) {
     real cells = shadow_cells();
-    real inverse = cells / max(h.z, 1.0e-30);
+    real inverse = cells / max(h.z, smallest_divisor());
     real x = clamp(floor(h.x / box.x * inverse + 0.5), -cells, cells);
     real y = clamp(floor(h.y / box.y * inverse + 0.5), -cells, cells);
     x = select(side > 0.5 && side < 1.5, -cells, select(side > 1.5 && side < 2.5, cells, x));

@@ -7,7 +7,6 @@
 //   LtcTextureCellSeen seen = ltc_texture_cell_seen(cell, view, expected);                  // for each cell
 //
 // Frame: the shading frame; cells in the plane's own coordinates [m].
-// In the dialect of kernels/ (docs/dialect.md): C++ includes it in TextureKernels, shaders after the kernels.
 // Topics: ltc_texture_cell
 // Needs: constants.glsl ltc.glsl ltc_texture.glsl light_elements.glsl ggx_closed_form.glsl
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.

@@ -1,0 +1,35 @@
+// Parity cases of shadow.glsl; tests/parity/case.glsl says how to write one.
+// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+
+// shadow, the projection of an edge's cut, and the side of a plane
+//   a.x  range(-1, 1)
+//   a.y  range(-1, 1)
+//   a.z  range(-1, -0.2)
+//   b.x  range(-1, 1)
+//   b.y  range(-1, 1)
+//   b.z  range(0.2, 1)
+//   c.x  range(-0.1, 0.1)
+//   c.z  range(0.5, 2)
+// Values: 4
+vec4 case_shadow_project(CaseInput i) {
+    vec3 cut = shadow_cut(case_xyz(i.a), case_xyz(i.b), i.c.x);
+    vec3 h = shadow_project(vec3(0.2, 0.3, i.c.z), cut);
+    return vec4(h.x, h.y, h.z, shadow_facing(vec3(0.0, 0.0, 1.0), i.b.z, case_xyz(i.a)));
+}
+
+// Error analysis cannot tell into which cell a place is rounded.
+
+// shadow, an edge clipped to the box, in units of it
+//   a.x  range(-0.4, 0.4)
+//   a.y  range(-0.4, 0.4)
+//   b.x  range(1.5, 3)
+//   b.y  range(-0.4, 0.4)
+//   c.x  range(0.5, 1)
+//   c.y  range(0.5, 1)
+// Values: 4
+// Bound: statistical
+vec4 case_shadow_clip(CaseInput i) {
+    ShadowSegment s = shadow_clip(vec3(i.a.x, i.a.y, 1.0), vec3(i.b.x, i.b.y, 1.0), vec2(i.c.x, i.c.y));
+    real inverse = select(s.inside, 1.0, 0.0) / shadow_cells();
+    return vec4(s.start.x * inverse, s.start.y * inverse, s.end.x * inverse, s.end.y * inverse);
+}
