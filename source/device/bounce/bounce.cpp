@@ -12,6 +12,7 @@
 #include "render/bounce/lighting.h"
 #include "render/bounce/receivers/filter.h"
 #include "steradian/error.h"
+#include "steradian/kernels.h"
 
 namespace steradian::vulkan {
 namespace {
