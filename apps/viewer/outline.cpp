@@ -9,7 +9,7 @@
 #include "scene/emitters/merge_polygons.h"
 #include "scene/gltf/gltf_accessor.h"
 #include "steradian/error.h"
-#include "triangulate.h"
+#include "shapes/triangulate.h"
 
 namespace steradian::view {
 namespace {

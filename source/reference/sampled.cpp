@@ -7,6 +7,7 @@
 #include "reference/azimuth_sampler.h"
 #include "reference/sampled.h"
 #include "reference/spherical_region.h"
+#include "reference/surface_sampler.h"
 #include "steradian/reference.h"
 
 namespace steradian {
@@ -39,6 +40,33 @@ class Statistics {
 
 using Sees = std::function<bool(Vec3d)>;
 
+// A sampled direction in the shading frame, the density of the light there, and its radiance over the light's. Density 0: no light.
+struct Incident {
+  Vec3d direction;
+  double density = 0, emitted = 1;
+};
+
+// from_light(u, v) samples the light; in(direction) looks in a direction of the lobe.
+template <class FromLight, class In>
+SampledResult by_both(const lobes::Lobe& lobe, Vec3d radiance, const SampledOptions& options, FromLight from_light, In in) {
+  reference::Random random(options.seed);
+  const auto contribution = [&](const Incident& to) -> lobes::LobeValue {
+    const double pdf = to.density + lobe.pdf(to.direction);
+    if (!(to.density > 0) || !(pdf > 0)) return {};
+    return lobe.evaluate(to.direction) * (to.emitted / pdf);
+  };
+  Statistics statistics;
+  for (int i = 0; i < options.spp; ++i) {
+    const double u0 = random.uniform(), v0 = random.uniform(), u1 = random.uniform(), v1 = random.uniform();
+    const Incident to_light = from_light(u0, v0);
+    const Vec3d by_lobe = lobe.sample(u1, v1);
+    lobes::LobeValue sum = contribution(to_light);
+    if (!(by_lobe == Vec3d{})) sum += contribution(in(by_lobe));
+    statistics.add(lobe.radiance(sum) * radiance);
+  }
+  return {statistics.mean(), statistics.standard_error()};
+}
+
 SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
                        const SampledOptions& options) {
   using namespace reference;
@@ -52,22 +80,17 @@ SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const Sha
   sampler.prepare(region, material.brdf == Brdf::lambert ? SphericalMeasure::projected_solid_angle : SphericalMeasure::solid_angle);
   if (!(sampler.measure() > 0)) return {};
 
-  Random random(options.seed);
-  const auto contribution = [&](Vec3d l, double light_pdf) -> lobes::LobeValue {
-    const double pdf = light_pdf + lobe.pdf(l);
-    if (!(light_pdf > 0) || !(pdf > 0) || (sees != nullptr && !(*sees)(frame.to_world(l)))) return {};
-    const double emitted = options.emission ? options.emission(frame.to_world(l)) : 1;
-    return lobe.evaluate(l) * (emitted / pdf);
+  const auto incident = [&](Vec3d l, double density) -> Incident {
+    if (!(density > 0) || (sees != nullptr && !(*sees)(frame.to_world(l)))) return {};
+    return {l, density, options.emission ? options.emission(frame.to_world(l)) : 1};
   };
-  Statistics statistics;
-  for (int i = 0; i < options.spp; ++i) {
-    const double u0 = random.uniform(), v0 = random.uniform(), u1 = random.uniform(), v1 = random.uniform();
-    const Vec3d to_light = sampler.sample(u0, v0), by_lobe = lobe.sample(u1, v1);
-    lobes::LobeValue sum = contribution(to_light, sampler.pdf_within(to_light));
-    if (!(by_lobe == Vec3d{})) sum += contribution(by_lobe, sampler.pdf(by_lobe));
-    statistics.add(lobe.radiance(sum) * light.radiance);
-  }
-  return {statistics.mean(), statistics.standard_error()};
+  return by_both(
+      lobe, light.radiance, options,
+      [&](double u, double v) {
+        const Vec3d l = sampler.sample(u, v);
+        return incident(l, sampler.pdf_within(l));
+      },
+      [&](Vec3d l) { return incident(l, sampler.pdf(l)); });
 }
 
 }  // namespace
@@ -80,6 +103,22 @@ SampledResult sampled_radiance(const PreparedPolygon& light, const ShadingPoint&
 SampledResult reference::sampled_radiance_past(const std::function<bool(Vec3d)>& sees, const PreparedPolygon& light, const ShadingPoint& at,
                                                const Material& material, const SampledOptions& options) {
   return estimate(&sees, light, at, material, options);
+}
+
+SampledResult reference::sampled_on_surface(const std::function<bool(Vec3d)>& open, const AreaLight& light, const ShadingPoint& at,
+                                            const Material& material, const SampledOptions& options) {
+  const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
+  const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
+  if (!lobe.above_surface()) return {};
+  const SurfaceSampler sampler(light, at.position);
+  const auto incident = [&](const SurfaceSampler::Place& place) -> Incident {
+    const Vec3d l = frame.to_local(place.direction);
+    if (!(place.density > 0) || !(l.z > 0) || !open(place.direction * place.distance)) return {};
+    return {l, place.density};
+  };
+  return by_both(
+      lobe, light.radiance, options, [&](double u, double v) { return incident(sampler.sample(u, v)); },
+      [&](Vec3d l) { return incident(sampler.towards(frame.to_world(l))); });
 }
 
 }  // namespace steradian

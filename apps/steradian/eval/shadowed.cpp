@@ -7,6 +7,7 @@
 #include "integrals/point_light.h"
 #include "integrals/textured/profiled_light.h"
 #include "reference/sampled.h"
+#include "shadow/edges/bodies.h"
 #include "shadow/region/round_light.h"
 #include "shadow/region/visible_part.h"
 #include "steradian/capsule_light.h"
@@ -17,12 +18,30 @@ namespace {
 
 constexpr double kLift = 1e-9, kLiftInFloat = 1e-6;
 constexpr int kRoundReference = 512;
-constexpr double kFar = 1e9;  // distance to parallel light
+constexpr int kProfileCells = 1024, kProfileCorners = 96;
+constexpr double kBeforeTheLight = 1e-9;  // fraction of the way that is left out, so that nothing at the surface itself blocks
+constexpr double kFar = 1e9;              // distance to parallel light
 
-// The polygon that replaces a light of any shape.
-PreparedPolygon polygon_of(const AreaLight& light, Vec3d from, int corners) {
-  if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
-  return shadow::polygon_of_round(light, from, corners);
+// The polygons that replace a disk, an ellipsoid or a tube for a point.
+std::vector<PreparedPolygon> polygons_of(const AreaLight& light, Vec3d from, int corners) {
+  if (const auto* tube = std::get_if<Capsule>(&light.shape)) return shadow::parts_of_tube(*tube, light.radiance, from, corners);
+  PreparedPolygon polygon = shadow::polygon_of_round(light, from, corners);
+  if (polygon.vertices.empty()) return {};
+  return {std::move(polygon)};
+}
+
+RadianceResult answer_of(const SampledResult& sampled, Method method) {
+  RadianceResult answer = methods::nothing(method);
+  answer.radiance = sampled.radiance;
+  answer.standard_error = sampled.standard_error;
+  return answer;
+}
+
+RadianceResult over_visible(const PreparedPolygon& light, const shadow::Viewpoint& from, const shadow::Occluders& occluders,
+                            const Body* body, const ShadingPoint& at, const Material& m, const methods::Row& entry,
+                            const RadianceOptions& options) {
+  const double lift = options.precision == Precision::float_ ? kLiftInFloat : kLift;
+  return entry.polygon(shadow::visible_part(light, occluders, from, lift, body), at, m, options);
 }
 
 RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoint& from, const Query& query, const ShadingPoint& at,
@@ -34,14 +53,9 @@ RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoin
       const double distance = (height - eta) / std::fabs(dot(direction, light.normal));
       return !query.occluders->rays.between(from.position, from.position + direction * std::max(distance, 0.0));
     };
-    const SampledResult r = reference::sampled_radiance_past(sees, light, at, m, {options.spp, options.seed});
-    RadianceResult answer = methods::nothing(entry.method);
-    answer.radiance = r.radiance;
-    answer.standard_error = r.standard_error;
-    return answer;
+    return answer_of(reference::sampled_radiance_past(sees, light, at, m, {options.spp, options.seed}), entry.method);
   }
-  const double lift = options.precision == Precision::float_ ? kLiftInFloat : kLift;
-  return entry.polygon(shadow::visible_part(light, *query.occluders, from, lift), at, m, options);
+  return over_visible(light, from, *query.occluders, nullptr, at, m, entry, options);
 }
 
 // The viewpoint of the query's point.
@@ -54,7 +68,7 @@ shadow::Viewpoint viewpoint_of(const Query& query) {
   return from;
 }
 
-// A light with a profile: the result for the light with uniform emission, times the profile's mean over the whole light, weighted by the
+// A light with a profile: the result for the light with uniform emission, times the profile's mean over the visible part, weighted by the
 // lobe.
 RadianceResult profiled_answer(const Query& query, const AreaLight& light, const ShadingPoint& surface, const Material& m,
                                const methods::Row& entry, const RadianceOptions& options) {
@@ -63,10 +77,17 @@ RadianceResult profiled_answer(const Query& query, const AreaLight& light, const
   AreaLight even = light;
   even.emission.reset();
   even.radiance = {1, 1, 1};
-  const RadianceResult whole = methods::curved_light_answer(even, surface, m, entry, options);
-  const Vec3d mean = ProfiledLight(light).seen_by(m, surface, std::max({whole.radiance.x, whole.radiance.y, whole.radiance.z}));
-  RadianceResult answer = shadowed_answer(query, even, surface, m, entry, options, [&] { return whole; });
-  answer.radiance = answer.radiance * mean;
+  RadianceResult answer = shadowed_answer(query, even, surface, m, entry, options,
+                                          [&] { return methods::curved_light_answer(even, surface, m, entry, options); });
+  const double integral = std::max({answer.radiance.x, answer.radiance.y, answer.radiance.z});
+  if (!(integral > 0)) return answer;
+  const ProfiledLight profiled(light);
+  const PreparedPolygon part =
+      shadow::visible_part(prepare_polygon(flat_polygon(light, kProfileCorners)), *query.occluders, viewpoint_of(query), kLift);
+  PlaneRegion visible;
+  for (std::size_t i = 0; i + 1 < part.vertices.size(); i += 2)
+    visible.add(profiled.coordinates_of(part.vertices[i]), profiled.coordinates_of(part.vertices[i + 1]));
+  answer.radiance = answer.radiance * profiled.seen_by(m, surface, integral, kProfileCells, &visible);
   return answer;
 }
 
@@ -96,13 +117,29 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
     if (polygon.vertices.empty()) return methods::nothing(entry.method);
     return over_polygon(polygon, from, query, at, m, entry, options);
   }
-  const bool judge = entry.method == Method::reference || entry.method == Method::sampled;
+  if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
+  if (entry.method == Method::sampled) {
+    const auto open = [&](Vec3d to) {
+      if (from.geometric_normal && !(dot(to, *from.geometric_normal) > 0)) return false;
+      return !query.occluders->rays.between(from.position, from.position + to * (1 - kBeforeTheLight));
+    };
+    return answer_of(reference::sampled_on_surface(open, light, at, m, {options.spp, options.seed}), entry.method);
+  }
+  const bool judge = entry.method == Method::reference;
   const int corners = judge ? kRoundReference : options.quality == Quality::high ? 48 : 24;
-  const PreparedPolygon polygon = polygon_of(light, from.position, corners);
-  if (polygon.vertices.empty()) return methods::nothing(entry.method);
-  RadianceResult part = over_polygon(polygon, from, query, at, m, entry, options);
+  const std::optional<Body> body = Body::of(light.shape);
+  std::optional<shadow::Occluders> cut;
+  if (body && shadow::may_enter(query.occluders->mesh, {&*body, 1})) cut.emplace(query.occluders->cut_by(*body));
+  const shadow::Occluders& occluders = cut ? *cut : *query.occluders;
+  RadianceResult part = methods::nothing(entry.method);
+  Vec3d all{};
+  for (const PreparedPolygon& polygon : polygons_of(light, from.position, corners)) {
+    const RadianceResult r = over_visible(polygon, from, occluders, body ? &*body : nullptr, at, m, entry, options);
+    part.radiance += r.radiance;
+    if (r.bound) part.bound = part.bound.value_or(0) + *r.bound;
+    if (!judge) all += entry.polygon(polygon, at, m, options).radiance;
+  }
   if (judge) return part;
-  const Vec3d all = entry.polygon(polygon, at, m, options).radiance;
   const auto share = [](double a, double b) { return b > 0 ? a / b : 0.0; };
   RadianceResult answer = unoccluded();
   answer.radiance = answer.radiance * Vec3d{share(part.radiance.x, all.x), share(part.radiance.y, all.y), share(part.radiance.z, all.z)};

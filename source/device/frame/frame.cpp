@@ -44,6 +44,8 @@ std::string first_lack(const Scene& scene, const RenderOptions& options, const D
   }
   for (const PackLight& light : lights) {
     if (light.profiled != nullptr) return "it has no shader for the profiled light '" + light.area->name + "'";
+    if (light.textured != nullptr && options.shadows != steradian::Shadows::off)
+      return "it has no shadows under the textured light '" + light.area->name + "'";
     if (!direct.has(light))
       return (light.area == nullptr ? std::string("a profiled point light") : "the textured light '" + light.area->name + "'") +
              " exceeds its buffers";

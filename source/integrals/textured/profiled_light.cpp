@@ -21,6 +21,7 @@ constexpr double kWidestKernel = 0.6;
 // Fractions that a cell may span: of the lobe's width, and of the angle in which the steepest part of a profile falls from its peak to
 // nothing. At these, finer cells change the mean by less than the profile's kinks do (ProfiledLight.ErrorsAreMeasured).
 constexpr double kLobeShare = 0.6, kProfileShare = 0.5;
+constexpr double kFinerInPart = 4;   // a cell that is visible in part is finer by this
 constexpr double kNarrowest = 0.01;  // no measured lamp is steeper than this [rad]
 
 struct Node {
@@ -62,33 +63,47 @@ ProfiledLight::ProfiledLight(const AreaLight& light)
   widest_ = std::min(kWidestKernel, kProfileShare * steepest_part(*emission_.profile));
 }
 
+Vec2d ProfiledLight::coordinates_of(Vec3d place) const {
+  const Vec3d at = place - center_, normal = cross(x_, y_);
+  return {dot(cross(at, y_), normal) / dot(normal, normal), dot(cross(x_, at), normal) / dot(normal, normal)};
+}
+
 // A rect has u and v along the half axes, from -1 to 1. A disk has u as the distance from the middle, v as the angle about it.
-Vec3d ProfiledLight::place(double u, double v) const {
-  if (!round_) return center_ + x_ * u + y_ * v;
+Vec3d ProfiledLight::place(Grid grid, double u, double v) const {
+  if (grid == Grid::along_axes) return center_ + x_ * u + y_ * v;
   return center_ + x_ * (u * std::cos(v)) + y_ * (u * std::sin(v));
 }
 
-ProfiledLight::Sent ProfiledLight::sent(double u, double v, const lobes::Lobe& lobe, const Frame& frame, Vec3d position) const {
-  const Vec3d to = place(u, v) - position;
+ProfiledLight::Sent ProfiledLight::sent(Grid grid, double u, double v, const lobes::Lobe& lobe, const Frame& frame, Vec3d position) const {
+  const Vec3d to = place(grid, u, v) - position;
   const double distance2 = dot(to, to);
   if (!(distance2 > 0)) return {};
   const Vec3d l = to / std::sqrt(distance2);
   const double cosine = -dot(l, emission_.axes.aim);
-  const double per_area = (round_ ? u : 1) * length(cross(x_, y_)) / distance2;
+  const double per_area = (grid == Grid::polar ? u : 1) * length(cross(x_, y_)) / distance2;
   return {intensity(*emission_.profile, {-dot(l, emission_.axes.x), -dot(l, emission_.axes.y), cosine}), std::fabs(cosine),
           lobe.evaluate(frame.to_local(l)) * per_area};
+}
+
+// The fraction of a cell along the axes that is visible; 0 and 1 are exact.
+double ProfiledLight::visible_share(const PlaneRegion& visible, const Cell& cell) {
+  const double share = std::fabs(visible.area_in({{cell.u0, cell.v0}, {cell.u1, cell.v1}})) / ((cell.u1 - cell.u0) * (cell.v1 - cell.v0));
+  constexpr double kRounding = 1e-9;
+  return share < kRounding ? 0 : share > 1 - kRounding ? 1 : share;
 }
 
 // Cells of the light that are as fine as the lobe and the profile require.
 class ProfiledLight::Cells {
  public:
-  Cells(const ProfiledLight& light, const LobeAxis& peak, Vec3d position) : light_(light), peak_(peak), position_(position) {}
+  // visible: cells that are visible in part are fine.
+  Cells(const ProfiledLight& light, Grid grid, const LobeAxis& peak, Vec3d position, const PlaneRegion* visible = nullptr)
+      : light_(light), grid_(grid), peak_(peak), position_(position), visible_(visible) {}
 
   // Calls use(cell) once for each. The cell with the largest excess is halved first, while there are fewer than `most`.
   void visit(std::size_t most, auto use) const {
     thread_local std::vector<Wide> cells;
     cells.clear();
-    if (light_.round_)
+    if (grid_ == Grid::polar)
       for (int k = 0; k < 4; ++k) cells.push_back(judged({0, 1, k * std::numbers::pi / 2, (k + 1) * std::numbers::pi / 2}));
     else
       cells.push_back(judged({-1, 1, -1, 1}));
@@ -116,7 +131,7 @@ class ProfiledLight::Cells {
     bool operator<(const Wide& other) const { return excess < other.excess; }
   };
   Wide judged(const Cell& cell) const {
-    const auto towards = [&](double u, double v) { return normalized(light_.place(u, v) - position_); };
+    const auto towards = [&](double u, double v) { return normalized(light_.place(grid_, u, v) - position_); };
     const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
     const Vec3d middle = towards(u, v);
     const double across_u = length(towards(cell.u0, v) - middle) + length(towards(cell.u1, v) - middle);
@@ -124,40 +139,61 @@ class ProfiledLight::Cells {
     const double span = std::max(across_u, across_v);
     // The lobe varies over its width, and over its distance from the peak beyond.
     const double from_peak = length(middle - peak_.axis) - span / 2;
-    return {cell, span / std::min(light_.widest_, kLobeShare * std::max(peak_.width, from_peak)), across_u > across_v};
+    double excess = span / std::min(light_.widest_, kLobeShare * std::max(peak_.width, from_peak));
+    if (visible_ != nullptr) {
+      const double share = visible_share(*visible_, cell);
+      if (share == 0) excess = 0;
+      if (share > 0 && share < 1) excess *= kFinerInPart;
+    }
+    return {cell, excess, across_u > across_v};
   }
 
   const ProfiledLight& light_;
+  const Grid grid_;
   const LobeAxis peak_;
   const Vec3d position_;
+  const PlaneRegion* visible_;
 };
+
+// True if a small square about the peak is visible.
+bool ProfiledLight::sees_peak(const LobeAxis& peak, Vec3d position, const PlaneRegion& visible) const {
+  const double distance = -dot(center_ - position, emission_.axes.aim) / -dot(peak.axis, emission_.axes.aim);
+  if (!(distance > 0) || !std::isfinite(distance)) return false;
+  const auto [u, v] = coordinates_of(position + peak.axis * distance);
+  constexpr double kHalf = 1e-4;
+  return visible_share(visible, {u - kHalf, u + kHalf, v - kHalf, v + kHalf}) > 0.5;
+}
 
 double ProfiledLight::radiance_of_peak(const LobeAxis& peak, Vec3d position) const {
   const double cosine = -dot(peak.axis, emission_.axes.aim);
   const Vec3d to_center = center_ - position;
   const double distance = -dot(to_center, emission_.axes.aim) / cosine;
   if (!(distance > 0) || !std::isfinite(distance)) return 0;
-  const Vec3d at = peak.axis * distance - to_center, normal = cross(x_, y_);
-  const double u = dot(cross(at, y_), normal) / dot(normal, normal), v = dot(cross(x_, at), normal) / dot(normal, normal);
+  const auto [u, v] = coordinates_of(position + peak.axis * distance);
   if (round_ ? u * u + v * v > 1 : std::max(std::fabs(u), std::fabs(v)) > 1) return 0;
   return intensity(*emission_.profile, {-dot(peak.axis, emission_.axes.x), -dot(peak.axis, emission_.axes.y), cosine}) / std::fabs(cosine);
 }
 
 // The result is peak * integral, plus the lobe times the difference of the radiance from the peak's. That difference is zero where the lobe
 // is narrowest, so a lobe between the points costs no more than the others.
-Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, double integral, int most_cells) const {
+Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, double integral, int most_cells,
+                             const PlaneRegion* visible) const {
+  const Grid cells = visible != nullptr ? Grid::along_axes : grid();
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
   const lobes::LobeValue factors = lobe.largest_factors();
   const LobeAxis axis = lobe_axis(material, at);
   double seen = 0, weight = 0, least = kInfinity, most = 0;
-  Cells(*this, axis, at.position).visit(static_cast<std::size_t>(most_cells), [&](const Cell& cell) {
+  Cells(*this, cells, axis, at.position, visible).visit(static_cast<std::size_t>(most_cells), [&](const Cell& cell) {
+    const double share = visible != nullptr ? visible_share(*visible, cell) : 1;
+    if (share == 0) return;
     const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
     const double half_u = 0.5 * (cell.u1 - cell.u0), half_v = 0.5 * (cell.v1 - cell.v0);
     for (const Node& nu : kGauss)
       for (const Node& nv : kGauss) {
-        const Sent s = sent(u + half_u * nu.x, v + half_v * nv.x, lobe, frame, at.position);
-        const double w = (s.lobe.plain * factors.plain + s.lobe.fresnel * factors.fresnel) * nu.weight * nv.weight * half_u * half_v;
+        const Sent s = sent(cells, u + half_u * nu.x, v + half_v * nv.x, lobe, frame, at.position);
+        const double w =
+            share * (s.lobe.plain * factors.plain + s.lobe.fresnel * factors.fresnel) * nu.weight * nv.weight * half_u * half_v;
         if (!(w > 0) || !(s.even > 0)) continue;
         seen += w * s.intensity;
         weight += w * s.even;
@@ -167,7 +203,7 @@ Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, d
   });
   if (!(weight > 0)) return mean_;
   double mean = seen / weight;
-  const double peak = radiance_of_peak(axis, at.position);
+  const double peak = visible == nullptr || sees_peak(axis, at.position, *visible) ? radiance_of_peak(axis, at.position) : 0;
   if (peak > 0 && integral > 0) mean = std::clamp(peak + (seen - peak * weight) / integral, std::min(least, peak), std::max(most, peak));
   return emission_.intensity * (mean / emission_.area);
 }
@@ -194,7 +230,7 @@ ReferenceResult ProfiledLight::reference(const Material& material, const Shading
     for (const reference::KronrodNode& nu : kKronrodNodes) {
       lobes::LobeValue kronrod, gauss;
       for (const reference::KronrodNode& nv : kKronrodNodes) {
-        const Sent s = sent(u + half_u * nu.x, v + half_v * nv.x, lobe, frame, at.position);
+        const Sent s = sent(grid(), u + half_u * nu.x, v + half_v * nv.x, lobe, frame, at.position);
         kronrod += s.lobe * (s.intensity * nv.kronrod);
         gauss += s.lobe * (s.intensity * nv.gauss);
       }
@@ -206,7 +242,7 @@ ReferenceResult ProfiledLight::reference(const Material& material, const Shading
     return Part{cell, whole * area, size(whole - by_u) * area, size(whole - by_v) * area};
   };
   std::vector<Part> parts;
-  Cells(*this, lobe_axis(material, at), at.position).visit(1024, [&](const Cell& cell) { parts.push_back(part_of(cell)); });
+  Cells(*this, grid(), lobe_axis(material, at), at.position).visit(1024, [&](const Cell& cell) { parts.push_back(part_of(cell)); });
   std::make_heap(parts.begin(), parts.end());
   lobes::LobeValue value;
   double error = 0;

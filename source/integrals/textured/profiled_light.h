@@ -5,6 +5,7 @@
 
 #include "integrals/methods.h"
 #include "lobes/lobe.h"
+#include "shapes/plane_region.h"
 #include "steradian/area_light.h"
 #include "steradian/reference.h"
 
@@ -22,7 +23,13 @@ class ProfiledLight {
   // It uses Gauss's rule of 3 x 3 points in cells of the light. A cell is halved if it subtends more than the lobe's width there or the
   // width of the profile's steepest part, while there are fewer than most_cells. The light of a point depends on the direction alone, so
   // this bounds the error.
-  Vec3d seen_by(const Material& lobe, const ShadingPoint& at, double integral, int most_cells = 256) const;
+  //
+  //   visible  the part of the light that counts, in coordinates of outline()'s x and y; null: all of it. A cell counts by its visible area
+  Vec3d seen_by(const Material& lobe, const ShadingPoint& at, double integral, int most_cells = 256,
+                const PlaneRegion* visible = nullptr) const;
+
+  // The coordinates of a point of the light's plane for `visible`.
+  Vec2d coordinates_of(Vec3d place) const;
 
   // Emission on which the means are based.
   const LightEmission& emission() const { return emission_; }
@@ -47,9 +54,14 @@ class ProfiledLight {
   };
   class Cells;
 
-  Vec3d place(double u, double v) const;
+  // Polar coordinates of a disk, else coordinates along x and y.
+  enum class Grid { polar, along_axes };
+  Grid grid() const { return round_ ? Grid::polar : Grid::along_axes; }
+  Vec3d place(Grid grid, double u, double v) const;
+  static double visible_share(const PlaneRegion& visible, const Cell& cell);
+  bool sees_peak(const LobeAxis& peak, Vec3d position, const PlaneRegion& visible) const;
   double radiance_of_peak(const LobeAxis& peak, Vec3d position) const;  // 0 if the peak misses the light
-  Sent sent(double u, double v, const lobes::Lobe& lobe, const Frame& frame, Vec3d position) const;
+  Sent sent(Grid grid, double u, double v, const lobes::Lobe& lobe, const Frame& frame, Vec3d position) const;
 
   LightEmission emission_;
   Vec3d mean_;

@@ -73,6 +73,8 @@ class TextureCells {
   };
 
   static vec3 constant(const Vec3d& v) { return {real(v.x), real(v.y), real(v.z)}; }
+
+ public:
   static typename K::LtcTextureCell packed(const TextureCell& c) {
     const auto place = [](const std::array<double, 2>& v) { return typename K::vec2(real(v[0]), real(v[1])); };
     typename K::LtcTextureCell cell;
@@ -88,6 +90,7 @@ class TextureCells {
     return cell;
   }
 
+ private:
   static void add(Sums& sums, const typename K::LtcTextureCellSeen& seen, Mask<S> lanes) {
     const real zero(0.0);
     sums.weight = sums.weight + select(lanes, seen.weight, zero);

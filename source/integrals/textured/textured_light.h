@@ -3,6 +3,7 @@
 #pragma once
 
 #include "integrals/textured/filtered_texture.h"
+#include "shapes/plane_region.h"
 #include "steradian/reference.h"
 
 namespace steradian {
@@ -30,10 +31,18 @@ class TexturedLight {
   Vec3f seen_by_diffuse(const ShadingPoint& at, TextureWay way = TextureWay::either) const;
   Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way = TextureWay::either) const;
 
+  // The same past occluders: the mean over the visible part of the light, in coordinates of the texture's axes, exact up to the smallest
+  // cells. Where the lobe sees less than those, the mean over the whole light.
+  Vec3f seen_by_diffuse(const ShadingPoint& at, const PlaneRegion& visible) const;
+  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, const PlaneRegion& visible) const;
+
   const FilteredTexture& texture() const { return texture_; }
   const TextureTree& tree() const { return tree_; }
 
  private:
+  Vec3f diffuse(const ShadingPoint& at, TextureWay way, const PlaneRegion* visible) const;
+  Vec3f ggx(const ShadingPoint& at, double alpha, TextureWay way, const PlaneRegion* visible) const;
+
   PreparedPolygon polygon_;
   FilteredTexture texture_;
   TextureTree tree_;

@@ -12,6 +12,7 @@
 #include "integrals/textured/textured_light.h"
 #include "lobes/lobe.h"
 #include "render/direct/textured_means.h"
+#include "render/frame/uneven_diffuse.h"
 #include "render/many/lobe_elements.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/capsule_light.h"
@@ -100,10 +101,17 @@ double largest_of(Vec3d v) { return std::max({v.x, v.y, v.z}); }
 // (lobes_under_means).
 //
 //   even  light that the lobe sends to the view under radiance 1
-Vec3d seen_by(const PackLight& light, const Material& material, const ShadingPoint& at, Vec3d even, TextureWay way = TextureWay::either) {
+Vec3d seen_by(const PackLight& light, std::size_t slot, const Material& material, const ShadingPoint& at, Vec3d even,
+              TextureWay way = TextureWay::either) {
+  const double alpha = width(material.alpha_x, material.alpha_y);
+  const bool textured = light.textured != nullptr && material.brdf == Brdf::ggx;
+  if (light.is_pieces() && (light.profiled != nullptr || textured)) {
+    const PlaneRegion visible = visible_region(light, slot, at.position);
+    if (textured) return static_cast<Vec3d>(light.textured->seen_by_ggx(at, alpha, visible));
+    return light.profiled->seen_by(material, at, largest_of(even), kCellsInPart, &visible);
+  }
   if (light.profiled != nullptr) return light.profiled->seen_by(material, at, largest_of(even));
-  if (light.textured != nullptr && material.brdf == Brdf::ggx)
-    return static_cast<Vec3d>(light.textured->seen_by_ggx(at, width(material.alpha_x, material.alpha_y), way));
+  if (textured) return static_cast<Vec3d>(light.textured->seen_by_ggx(at, alpha, way));
   return static_cast<Vec3d>(light.radiance);
 }
 
@@ -115,7 +123,7 @@ Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& 
   const Vec3d mean = static_cast<Vec3d>(light.radiance);
   const auto shares = [](Vec3d a, Vec3d b) { return Vec3d{b.x > 0 ? a.x / b.x : 0, b.y > 0 ? a.y / b.y : 0, b.z > 0 ? a.z / b.z : 0}; };
   const Vec3d even = shares(r, mean);
-  return even * seen_by(light, material, at, even);
+  return even * seen_by(light, slot, material, at, even);
 }
 
 // The same under a punctual light: the lobe is evaluated in one direction.
@@ -179,7 +187,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
     alignas(64) TilePlane found, wanted;
     for (std::size_t i = 0; i < kTilePixels; ++i) wanted[i] = std::max(plain[i], fresnel[i]);
     found.fill(0);
-    if (light->textured != nullptr)
+    if (light->textured != nullptr && !light->is_pieces())
       textured_means_table_for(active_simd())
           .ggx(*light->textured, points, compact_tables_, wanted.data(), {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
     for (std::size_t i = 0; i < kTilePixels; ++i) {
@@ -188,7 +196,7 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
       Vec3f radiance = get(seen, i);
       const Vec3f even = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
       if (!(found[i] > 0))
-        radiance = static_cast<Vec3f>(seen_by(*light, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i),
+        radiance = static_cast<Vec3f>(seen_by(*light, i, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i),
                                               static_cast<Vec3d>(even), TextureWay::look_up));
       add_to(tile.radiance, i, radiance * even);
     }
@@ -264,7 +272,7 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
         if (light->profiled != nullptr && !(color.x + color.y + color.z > 0)) continue;
         const Vec3f radiance = light->profiled == nullptr
                                    ? light->radiance
-                                   : static_cast<Vec3f>(seen_by(*light, sheen_of(surface_in(tile, i)), shading_point(tile, i),
+                                   : static_cast<Vec3f>(seen_by(*light, i, sheen_of(surface_in(tile, i)), shading_point(tile, i),
                                                                 static_cast<Vec3d>(color * plain[i])));
         add_to(tile.radiance, i, color * radiance * plain[i]);
       }
@@ -323,7 +331,7 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
             const Vec3f even = factor * result[i];
             const Vec3f radiance = light->profiled == nullptr
                                        ? light->radiance
-                                       : static_cast<Vec3f>(seen_by(*light, material, shading_point(tile, i), static_cast<Vec3d>(even)));
+                                       : static_cast<Vec3f>(seen_by(*light, i, material, shading_point(tile, i), static_cast<Vec3d>(even)));
             add_to(tile.radiance, i, radiance * even);
           }
           continue;

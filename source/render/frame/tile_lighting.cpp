@@ -160,10 +160,12 @@ void TileLighting::add_batch(SurfaceTile& tile, const PackLight& light, TileShad
   const std::size_t count = batch.slots.size();
   std::vector<Vec3f> radiance(count);
   work.pieces.radiance = light.radiance;
+  work.pieces.textured = light.textured;
+  work.pieces.profiled = light.profiled;
   light_pieces(tile, batch.visible, work, [&](const SurfaceTile& seen) {
     for (std::size_t k = 0; k < count; ++k) radiance[k] = radiance_in(seen, k) * batch.passes[k];
   });
-  if (batch.all.point_count() > 0) {
+  if (batch.all.point_count() > 0 && light.is_even()) {
     // The polygon replaces the light only for the fraction that arrives, so there is no step where shadows begin. Approximate methods may
     // find more light for a part than for the whole.
     const auto over = [](float part, float all) { return all > 0 ? std::min(part / all, 1.0f) : 0.0f; };

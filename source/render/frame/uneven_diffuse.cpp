@@ -19,6 +19,20 @@ std::vector<const PackLight*> even_ones(const std::vector<const PackLight*>& lig
   return plain;
 }
 
+PlaneRegion visible_region(const PackLight& light, std::size_t slot, Vec3d position) {
+  PlaneRegion region;
+  const auto coordinates = [&](Vec3d place) -> Vec2d {
+    if (light.profiled != nullptr) return light.profiled->coordinates_of(place);
+    const FilteredTexture& texture = light.textured->texture();
+    const Vec3d d = place - texture.origin();
+    return {dot(d, texture.axis_x()), dot(d, texture.axis_y())};
+  };
+  const PreparedPolygon part = std::get<packed::Pieces>(light.shape).light_of(slot, position, {0, 0, 1});
+  for (std::size_t i = 0; i + 1 < part.vertices.size(); i += 2)
+    region.add(coordinates(part.vertices[i]), coordinates(part.vertices[i + 1]));
+  return region;
+}
+
 void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
   alignas(64) TilePlane irradiance, above;  // above: without the boundary, which the lobe of a profile's mean lacks
   for (const PackLight* light : lights) {
@@ -34,7 +48,7 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
     TileVector seen;
     alignas(64) TilePlane found;
     found.fill(0);
-    if (light->textured != nullptr)
+    if (light->textured != nullptr && !light->is_pieces())
       textured_means_table_for(active_simd())
           .diffuse(*light->textured, points, irradiance.data(), {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
     for (std::size_t i = 0; i < kTilePixels; ++i) {
@@ -44,10 +58,17 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
       const Vec3d position{tile.position.x[i], tile.position.y[i], tile.position.z[i]};
       const Vec3d normal = normalized(Vec3d{tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
       const ShadingPoint at = {position, normal, normal};
-      const Vec3f mean = found[i] > 0 ? Vec3f{seen.x[i], seen.y[i], seen.z[i]}
-                         : light->textured != nullptr
-                             ? light->textured->seen_by_diffuse(at, TextureWay::look_up)
-                             : static_cast<Vec3f>(light->profiled->seen_by({}, at, static_cast<double>(above[i] * kInversePi)));
+      const auto mean_of = [&]() -> Vec3f {
+        if (found[i] > 0) return get(seen, i);
+        const double integral = static_cast<double>(above[i] * kInversePi);
+        if (!light->is_pieces())
+          return light->textured != nullptr ? light->textured->seen_by_diffuse(at, TextureWay::look_up)
+                                            : static_cast<Vec3f>(light->profiled->seen_by({}, at, integral));
+        const PlaneRegion visible = visible_region(*light, i, position);
+        if (light->textured != nullptr) return light->textured->seen_by_diffuse(at, visible);
+        return static_cast<Vec3f>(light->profiled->seen_by({}, at, integral, kCellsInPart, &visible));
+      };
+      const Vec3f mean = mean_of();
       const Vec3f add = albedo * mean * (irradiance[i] * kInversePi);
       tile.radiance.x[i] += add.x;
       tile.radiance.y[i] += add.y;

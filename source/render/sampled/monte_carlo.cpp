@@ -7,11 +7,11 @@
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
 #include "reference/spherical_region.h"
+#include "reference/surface_sampler.h"
 #include "shadow/edges/segments.h"
 #include "shadow/region/light_frame.h"
 #include "shapes/polygon.h"
 #include "shapes/punctual.h"
-#include "steradian/capsule_light.h"
 
 namespace steradian {
 namespace {
@@ -39,6 +39,9 @@ class RunningMean {
   int count_ = 0;
 };
 
+// Fraction of the way to a surface that is left out: the rays are in float.
+constexpr double kBeforeTheLight = 1e-6;
+
 // Sum over the lobes: radiance per unit of incident radiance.
 Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
   Vec3d sum{};
@@ -50,7 +53,7 @@ Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
 
 struct DirectSampler::Light {
   const AreaLight* area;
-  std::optional<PreparedPolygon> flat;  // empty for a sphere or capsule, whose outline depends on the point
+  std::optional<PreparedPolygon> polygon;  // none: a disk, an ellipsoid or a tube, which is sampled on its surface
 };
 
 struct DirectSampler::Scratch {
@@ -64,9 +67,10 @@ DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const 
     : scene_(scene), shadows_(shadows), around_(around), terminator_(terminator), scratch_(std::make_unique<Scratch>()) {
   for (const AreaLight& area : scene.area_lights) {
     Light light{&area, std::nullopt};
-    if (area.is_flat()) {
-      light.flat = prepare_polygon(flat_polygon(area));
-      if (light.flat->vertices.empty()) continue;
+    if (std::holds_alternative<Line>(area.shape)) continue;
+    if (std::holds_alternative<Polygon>(area.shape)) {
+      light.polygon = prepare_polygon(flat_polygon(area));
+      if (light.polygon->vertices.empty()) continue;
     }
     lights_.push_back(std::move(light));
   }
@@ -141,60 +145,82 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
     result.mean += light.intensity * incident.irradiance.v * evaluate(lobes, l);
   }
 
-  for (const Light& light : lights_) {
-    PreparedPolygon outline;
-    if (!light.flat) {
-      const PolygonLight seen = polygon_seen_from(*light.area, p);
-      if (seen.vertices.empty()) continue;
-      outline = prepare_polygon(seen);
+  // A sampled direction in the shading frame, the density of the light there, and the radiance that arrives. Density 0: no light.
+  struct Incident {
+    Vec3d direction;
+    double density = 0;
+    Vec3d radiance{};
+  };
+  const auto by_both = [&](auto from_light, auto towards) {
+    const auto contribution = [&](const Incident& to) -> Vec3d {
+      double pdf = to.density;
+      for (const Lobe& lobe : lobes) pdf += lobe.pdf(to.direction);
+      if (!(to.density > 0) || !(pdf > 0)) return {};
+      return evaluate(lobes, to.direction) * (1 / pdf) * to.radiance;
+    };
+    RunningMean mean;
+    for (int i = 0; i < spp; ++i) {
+      const double u = random.uniform(), w = random.uniform();
+      Vec3d x = contribution(from_light(u, w));
+      for (const Lobe& lobe : lobes) {
+        const double a = random.uniform(), b = random.uniform();
+        const Vec3d by_lobe = lobe.sample(a, b);
+        if (by_lobe.z > 0) x += contribution(towards(by_lobe));
+      }
+      mean.add(x);
     }
-    const PreparedPolygon& polygon = light.flat ? *light.flat : outline;
-    if (polygon.vertices.empty()) continue;
+    return mean.estimate();
+  };
+
+  for (const Light& light : lights_) {
+    const LightEmission* emission = light.area->emission ? &*light.area->emission : nullptr;
+    if (!light.polygon) {
+      const reference::SurfaceSampler sampler(*light.area, p);
+      const auto incident = [&](const reference::SurfaceSampler::Place& place) -> Incident {
+        if (!(place.density > 0)) return {};
+        const Vec3d l = frame.to_local(place.direction);
+        if (!(l.z > 0)) return {};
+        if (shadows_ != nullptr && (!above(geometric, place.direction) ||
+                                    shadows_->between(p, p + place.direction * (place.distance * (1 - kBeforeTheLight)), Casters::all)))
+          return {};
+        return {l, place.density, emission != nullptr ? emitted_radiance(*emission, -place.direction) : light.area->radiance};
+      };
+      result += by_both([&](double u, double w) { return incident(sampler.sample(u, w)); },
+                        [&](Vec3d l) { return incident(sampler.towards(frame.to_world(l))); });
+      continue;
+    }
+    const PreparedPolygon& polygon = *light.polygon;
     scratch.region.assign_above_horizon(polygon, p, frame);
     AzimuthSampler& sampler = scratch.sampler;
     sampler.prepare(scratch.region, reference::SphericalMeasure::solid_angle);
     if (!(sampler.measure() > 0)) continue;
 
     const double plane_height = dot(polygon.centroid - p, polygon.normal), eta = shadow::margin_of_plane(polygon);
-    const auto* capsule = std::get_if<Capsule>(&light.area->shape);
     const LightTexture* texture = light.area->texture ? &*light.area->texture : nullptr;
-    const LightEmission* emission = light.area->emission ? &*light.area->emission : nullptr;
     // Radiance that arrives from the light's point in direction l.
     const auto incident = [&](Vec3d l) -> Vec3d {
       if (shadows_ == nullptr && texture == nullptr && emission == nullptr) return polygon.radiance;
       const Vec3d direction = frame.to_world(l);
-      // A tube is too long to be represented by one plane.
-      const double distance = capsule != nullptr ? distance_along(*capsule, p, direction) : plane_height / dot(direction, polygon.normal);
+      const double distance = plane_height / dot(direction, polygon.normal);
       const Vec3d there = p + direction * distance;
       if (shadows_ != nullptr) {
         if (!above(geometric, direction)) return {};
-        const double height = std::fabs(capsule != nullptr ? distance : plane_height);
+        const double height = std::fabs(plane_height);
         if (shadows_->between(p, p + (there - p) * std::max(1 - eta / height, 0.0), Casters::all)) return {};
       }
       if (emission != nullptr) return emitted_radiance(*emission, -direction);
       return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;
     };
-    const auto contribution = [&](Vec3d l, double light_pdf) -> Vec3d {
-      double pdf = light_pdf;
-      for (const Lobe& lobe : lobes) pdf += lobe.pdf(l);
-      if (!(light_pdf > 0) || !(pdf > 0)) return {};
-      const Vec3d f = evaluate(lobes, l) * (1 / pdf);
-      return f.x > 0 || f.y > 0 || f.z > 0 ? f * incident(l) : Vec3d{};
+    const auto with_density = [&](Vec3d l, double density) -> Incident {
+      if (!(density > 0)) return {};
+      return {l, density, incident(l)};
     };
-
-    RunningMean mean;
-    for (int i = 0; i < spp; ++i) {
-      const double u = random.uniform(), w = random.uniform();
-      const Vec3d to_light = sampler.sample(u, w);
-      Vec3d x = contribution(to_light, sampler.pdf_within(to_light));
-      for (const Lobe& lobe : lobes) {
-        const double a = random.uniform(), b = random.uniform();
-        const Vec3d by_lobe = lobe.sample(a, b);
-        if (by_lobe.z > 0) x += contribution(by_lobe, sampler.pdf(by_lobe));
-      }
-      mean.add(x);
-    }
-    result += mean.estimate();
+    result += by_both(
+        [&](double u, double w) {
+          const Vec3d l = sampler.sample(u, w);
+          return with_density(l, sampler.pdf_within(l));
+        },
+        [&](Vec3d l) { return with_density(l, sampler.pdf(l)); });
   }
   if (around_ != nullptr) result += estimate_environment(frame, p, geometric, spp, random);
   return result;

@@ -38,6 +38,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
     for (const Vec3f p : mesh.positions) box.add(static_cast<Vec3d>(p));
     cut_outs_.push_back(box);
   }
+  const shadow::Bodies bodies = shadow::bodies_of(scene.area_lights);
   for (const PackLight& light : lights) {
     Flat flat;
     if (light.is_polygon()) flat.polygon = light.polygon;
@@ -49,14 +50,19 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
         flat.sides[s] = side_of(flat.polygon, s == 0 ? 1 : -1);
         flat.sides[s]->crossing = shadow::crossing_triangles(mesh_, flat.sides[s]->frame);
       }
-    if (light.is_round() && !is_disk(light)) flat.near = shadow::triangles_near(mesh_, *light.area);
+    if (light.is_round() && !is_disk(light)) {
+      flat.body = Body::of(light.area->shape);
+      const std::uint32_t number = bodies.of_light[static_cast<std::size_t>(light.area - scene.area_lights.data())];
+      if (number < mesh_.inside.size()) flat.inside = mesh_.inside[number];
+      flat.near = shadow::triangles_near(mesh_, *light.area, flat.inside);
+    }
     flats_.push_back(std::move(flat));
   }
 }
 
 ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const {
   thread_local Work work;
-  work.turned = work.whole_outline = work.cut_outs = false;
+  work.turned = work.whole_outline = work.cut_outs = work.entered = false;
   work.in_lanes = true;
   work.points = &points.points;
   work.result = &result;
@@ -106,7 +112,7 @@ void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, 
 }
 
 void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
-  work.whole_outline = is_disk(light) || !light.is_even();
+  work.whole_outline = is_disk(light);
   std::vector<std::vector<std::uint32_t>> with_light;
   for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
     for (const std::optional<LightSide>& side : flat.sides) {
@@ -150,7 +156,7 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
   const bool empty = work.group.empty();
   const bool even = !by_rays && !empty && !work.cut_outs;
-  if (even && work.taker != nullptr &&
+  if (even && work.taker != nullptr && !work.entered &&
       work.taker->find({work.group, work.turned ? &work.base : nullptr, work.whole_outline, slots, *work.points, side_at})) {
     for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
     return;

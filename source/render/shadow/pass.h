@@ -45,7 +45,9 @@ class ShadowPass {
   struct Flat {
     PreparedPolygon polygon;            // no vertices: the light is not flat
     std::optional<LightSide> sides[2];  // the lit side, the other side
-    std::vector<std::uint32_t> near;    // for a round light: triangles that may reach into the planes that stand for it
+    // A round light has triangles that may reach into the planes that stand for it, and those inside it, which do not block it.
+    std::optional<Body> body;
+    std::vector<std::uint32_t> near, inside;
   };
   struct Work;
   Work& begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const;
@@ -61,7 +63,9 @@ class ShadowPass {
   void find_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, Work& work) const;
   void add_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes, Work& work) const;
   void find_point(const LightSide& side, std::uint32_t slot, Work& work) const;
+  void find_in_tube(const LightSide& side, const std::vector<LightSide>& parts, std::uint32_t slot, Work& work) const;
   void find_in_segments(const LightSide& side, std::uint32_t slot, Work& work) const;
+  void add_part(const LightSide& side, std::uint32_t slot, Work& work) const;
   void take_rays(const LightSide& side, std::uint32_t slot, Work& work) const;
   bool meets_cut_outs(const shadow::Shaft& shaft) const;
   void pass_cut_outs(const LightSide& side, std::uint32_t slot, Work& work) const;

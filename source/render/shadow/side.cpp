@@ -40,20 +40,33 @@ LightSide side_of(const PreparedPolygon& polygon, int side) {
   return result;
 }
 
-std::optional<LightSide> side_of_round(const PackLight& light, Vec3d position,
+std::optional<LightSide> side_of_round(const PackLight& light, const Body& body, Vec3d position,
                                        const std::shared_ptr<const std::vector<shadow::Segment>>& ellipse) {
   if (std::holds_alternative<Capsule>(light.area->shape)) {
     const PreparedPolygon polygon = shadow::polygon_of_round(*light.area, position, kRoundCorners);
     if (polygon.side_of(position) <= 0) return {};
-    return side_of(polygon, 1);
+    LightSide side = side_of(polygon, 1);
+    side.frame.body = &body;
+    return side;
   }
   std::optional<LightFrame> frame = shadow::frame_of_ellipsoid(std::get<Ellipsoid>(light.area->shape), position, kRoundCorners);
   if (!frame) return {};
   LightSide result;
   result.frame = std::move(*frame);
+  result.frame.body = &body;
   result.outline = ellipse;
   result.middle = result.frame.origin;
   return result;
+}
+
+std::vector<LightSide> sides_of_tube(const Capsule& tube, const Body& body, Vec3d position) {
+  std::vector<LightSide> sides;
+  for (const PreparedPolygon& part : shadow::parts_of_tube(tube, {1, 1, 1}, position, kRoundCorners)) {
+    if (part.side_of(position) <= 0) continue;
+    sides.push_back(side_of(part, 1));
+    sides.back().frame.body = &body;
+  }
+  return sides;
 }
 
 namespace {
@@ -64,25 +77,24 @@ using shadow::Viewpoint;
 constexpr int kShareRays = 64;
 
 // Visible fraction of a light by stratified rays, weighted by each place's light on a diffuse surface. It is the open part of the places
-// that count. counts(x, y) is in the light's frame. open(to) tests the way there, which ends short of the light.
+// that count. counts(x, y) is in the light's frame. open(to) tests the way there, which ends just before the light.
 template <class Counts, class Open>
 double stratified_share(const LightFrame& frame, const Viewpoint& at, Counts counts, Open open) {
   constexpr int kSide = 8;
   static_assert(kSide * kSide == kShareRays);
   reference::Random random(at.seed);
-  const double height = -frame.to_local(at.position).z;
   double all = 0, arrives = 0;
   for (int i = 0; i < kShareRays; ++i) {
     const double u = random.uniform(), v = random.uniform();
     const double x = (2 * (i % kSide + u) / kSide - 1) * frame.half_x;
     const double y = (2 * (i / kSide + v) / kSide - 1) * frame.half_y;
     if (!counts(x, y)) continue;
-    const Vec3d to = frame.to_world({x, y, 0}) - at.position;
+    const Vec3d place = frame.to_world({x, y, 0}), to = place - at.position;
     const double cosine = dot(to, at.normal);
     if (!(cosine > 0)) continue;
     const double d2 = dot(to, to), weight = cosine / (d2 * d2);
     all += weight;
-    if (open(to * std::max((height - frame.eta) / height, 0.0))) arrives += weight;
+    if (open(frame.way(at.position, place))) arrives += weight;
   }
   return all > 0 ? arrives / all : 1.0;
 }

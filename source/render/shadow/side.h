@@ -33,8 +33,12 @@ LightSide side_of(const PreparedPolygon& polygon, int side);
 // The side of a round light, which differs from point to point; empty if the point sees nothing of the light.
 //
 //   ellipse  outline_of_ellipse(kRoundCorners), shared by all ellipsoids
-std::optional<LightSide> side_of_round(const PackLight& light, Vec3d position,
+//   body     of the light
+std::optional<LightSide> side_of_round(const PackLight& light, const Body& body, Vec3d position,
                                        const std::shared_ptr<const std::vector<shadow::Segment>>& ellipse);
+
+// The flat parts of a tube for one point (shadow::parts_of_tube), as sides.
+std::vector<LightSide> sides_of_tube(const Capsule& tube, const Body& body, Vec3d position);
 
 // Adds the outline to a frame: frames of ellipsoids come without one.
 shadow::LightFrame with_contours(shadow::LightFrame frame);

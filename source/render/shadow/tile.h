@@ -26,7 +26,7 @@ struct TileShadow {
   struct Part {
     std::uint32_t slot = 0;
     Outline visible;   // edges in no order
-    Outline all;       // round, textured and profiled lights: the polygon of which `visible` is the part, in walk order
+    Outline all;       // round lights: the polygon of which `visible` is the part, in walk order
     float passes = 1;  // fraction that passes cut-outs
   };
   struct Edge {

@@ -42,9 +42,7 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
       continue;
     }
     ++work.counts->points;
-    const double z = -side.frame.to_local(at.position).z;
-    const Vec3d to = ((open ? *side.middle : work.lanes.place(k)) - at.position) * std::max((z - side.frame.eta) / z, 0.0);
-    rays.set(k, at.position, to);
+    rays.set(k, at.position, side.frame.way(at.position, open ? *side.middle : work.lanes.place(k)));
     asked |= bit(k);
     if (open || ((occluded & bit(k)) == 0 && !is_cut(side.frame, at))) whole |= bit(k);
   }
@@ -128,6 +126,8 @@ void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, c
   work.whole_outline = true;
   work.turned = true;
   work.in_lanes = std::holds_alternative<Ellipsoid>(light.area->shape);
+  work.flat = &flat;
+  work.tube = std::get_if<Capsule>(&light.area->shape);
   const shadow::Ball ball = shadow::ball_around(*light.area);
   work.base.origin = ball.center;
   work.base.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -162,7 +162,7 @@ void ShadowPass::gather_round(const Flat& flat, const Shaft& shaft, Work& work) 
   work.crossing.clear();
   for (const std::uint32_t t : flat.near)
     if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
-  work.tile.assign(mesh_, work.base, work.edges, work.crossing);
+  work.tile.assign(mesh_, work.base, work.edges, work.crossing, flat.inside);
 }
 
 void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together,
@@ -186,13 +186,14 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   work.cut_outs = meets_cut_outs(shaft);
   if (!together) gather_round(flat, shaft, work);
   work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
+  work.entered = !flat.inside.empty() || (work.tube != nullptr && !work.group.crossing().empty());
   std::array<std::optional<LightSide>, shadow::kPoints> sides;
   std::size_t next = 0;
   find_group(
       slots,
       [&](std::uint32_t i) {
         std::optional<LightSide>& side = sides[next];
-        side = side_of_round(light, work.at(i).position, ellipse_);
+        side = side_of_round(light, *flat.body, work.at(i).position, ellipse_);
         if (!side) return static_cast<const LightSide*>(nullptr);
         next = (next + 1) % sides.size();
         return static_cast<const LightSide*>(&*side);
@@ -218,6 +219,43 @@ void ShadowPass::take_rays(const LightSide& side, std::uint32_t slot, Work& work
   work.result->share[slot] = static_cast<float>(share_by_rays(rays_, side, work.at(slot)));
 }
 
+// Finds the visible part of a tube that stands close to triangles, in its flat parts. Their edges are drawn into the plane of its side.
+void ShadowPass::find_in_tube(const LightSide& side, const std::vector<LightSide>& parts, std::uint32_t slot, Work& work) const {
+  const Viewpoint& at = work.at(slot);
+  const Vec3d eye = side.frame.to_local(at.position);
+  work.visible.clear();
+  work.all.clear();
+  bool is_whole = true;
+  for (const LightSide& part : parts) {
+    shadow::SegmentSet& set = work.scratch.set;
+    work.group.see_turned(packs_, work.base, part.frame, at, *part.outline, set);
+    if (set.occluders > kMostSegments && mode_ != Shadows::exact) {
+      take_rays(side, slot, work);
+      return;
+    }
+    if (set.occluders == 0) shadow::add_surroundings(part.frame, at, *part.outline, set);
+    find_visible_on_packs(packs_, part.frame, at.position, RayBlockers(rays_), work.scratch, work.region);
+    is_whole = is_whole && set.occluders == 0 && !work.region.boundary.empty() && !is_cut(part.frame, at);
+    const auto drawn = [&](double x, double y) {
+      const Vec3d p = side.frame.to_local(part.frame.to_world({x, y, 0}));
+      const double t = -eye.z / std::max(p.z - eye.z, -1e-6 * eye.z);
+      return shadow::Corner{eye.x + (p.x - eye.x) * t, eye.y + (p.y - eye.y) * t};
+    };
+    const auto add = [&](std::vector<Work::PlaneEdge>& to, double ax, double ay, double bx, double by) {
+      const shadow::Corner a = drawn(ax, ay), b = drawn(bx, by);
+      to.push_back({a.x, a.y, b.x, b.y});
+    };
+    const double x = part.frame.box_x / shadow::kCells, y = part.frame.box_y / shadow::kCells;
+    for (const shadow::Boundary& b : work.region.boundary) add(work.visible, b.ax * x, b.ay * y, b.bx * x, b.by * y);
+    for (const auto& c : part.frame.contours)
+      for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++) add(work.all, c[j].x, c[j].y, c[i].x, c[i].y);
+  }
+  if (is_whole)
+    work.result->seen[slot] = Seen::whole;
+  else if (!work.visible.empty())
+    add_part(side, slot, work);
+}
+
 // Finds the visible part; work.scratch holds the point's segments.
 void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Work& work) const {
   const Viewpoint& at = work.at(slot);
@@ -227,22 +265,35 @@ void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Wor
     work.result->seen[slot] = Seen::whole;
     return;
   }
+  work.visible.clear();
+  work.all.clear();
+  const double x = side.frame.box_x / shadow::kCells, y = side.frame.box_y / shadow::kCells;
+  for (const shadow::Boundary& b : work.region.boundary) work.visible.push_back({b.ax * x, b.ay * y, b.bx * x, b.by * y});
+  if (work.whole_outline)
+    for (const auto& c : with_contours(side.frame).contours)
+      for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++) work.all.push_back({c[j].x, c[j].y, c[i].x, c[i].y});
+  add_part(side, slot, work);
+}
+
+// Adds the part of the light whose edges are in work.visible, of the outline in work.all.
+void ShadowPass::add_part(const LightSide& side, std::uint32_t slot, Work& work) const {
+  const Viewpoint& at = work.at(slot);
   ++work.counts->parts;
   work.result->seen[slot] = Seen::part;
   TileShadow::Part part;
   part.slot = slot;
   const Vec3d eye = side.frame.to_local(at.position);
   // Makes an outline of edges between places in the light's plane. Its edges are relative to the point.
-  const auto outline_of = [&](auto each_edge) {
+  const auto outline_of = [&](const std::vector<Work::PlaneEdge>& all) {
     TileShadow::Outline outline;
     std::vector<TileShadow::Edge>& edges = work.result->edges;
     outline.first = edges.size();
     AreaMoments moments;
-    each_edge([&](double ax, double ay, double bx, double by) {
+    const auto corner = [&](double x, double y) { return static_cast<Vec3f>(side.frame.axes.to_world({x - eye.x, y - eye.y, -eye.z})); };
+    for (const auto& [ax, ay, bx, by] : all) {
       moments.add(ax, ay, bx, by);
-      const auto corner = [&](double x, double y) { return static_cast<Vec3f>(side.frame.axes.to_world({x - eye.x, y - eye.y, -eye.z})); };
       edges.push_back({corner(ax, ay), corner(bx, by)});
-    });
+    }
     outline.count = edges.size() - outline.first;
     const double extent2 = side.frame.half_x * side.frame.half_x + side.frame.half_y * side.frame.half_y;
     if (moments.area > 0 && dot(eye, eye) > kNeverSmall * extent2) {
@@ -251,10 +302,7 @@ void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Wor
     }
     return outline;
   };
-  part.visible = outline_of([&](auto edge) {
-    const double x = side.frame.box_x / shadow::kCells, y = side.frame.box_y / shadow::kCells;
-    for (const shadow::Boundary& b : work.region.boundary) edge(b.ax * x, b.ay * y, b.bx * x, b.by * y);
-  });
+  part.visible = outline_of(work.visible);
   // Edges are lifted to the horizon, so that no rounding puts one below it.
   for (std::size_t i = part.visible.first; i < part.visible.first + part.visible.count; ++i)
     for (Vec3f* v : {&work.result->edges[i].a, &work.result->edges[i].b}) {
@@ -262,17 +310,18 @@ void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Wor
       const double least = kLift * length(d), height = dot(d, at.normal);
       if (height < least) *v = static_cast<Vec3f>(d + at.normal * (least - height));
     }
-  if (work.whole_outline)
-    part.all = outline_of([&](auto edge) {
-      for (const auto& c : with_contours(side.frame).contours)
-        for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++) edge(c[j].x, c[j].y, c[i].x, c[i].y);
-    });
+  if (!work.all.empty()) part.all = outline_of(work.all);
   work.result->parts.push_back(part);
 }
 
 void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& work) const {
   const Viewpoint& at = work.at(slot);
   ++work.counts->points;
+  if (work.tube != nullptr && work.entered) {
+    find_in_tube(side, sides_of_tube(*work.tube, *work.flat->body, at.position), slot, work);
+    if (work.cut_outs && work.result->seen[slot] != Seen::none) pass_cut_outs(side, slot, work);
+    return;
+  }
   shadow::SegmentSet& set = work.scratch.set;
   if (work.turned)
     work.group.see_turned(packs_, work.base, side.frame, at, *side.outline, set);
@@ -285,9 +334,7 @@ void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& wor
   // Without segments to arrange, one ray to any place of the light above the horizons decides.
   const auto sees = [&](Vec3d normal) { return dot(*side.middle - at.position, normal) > 0; };
   if (set.occluders == 0 && side.middle && sees(at.normal) && !is_cut(side.frame, at)) {
-    const double z = -side.frame.to_local(at.position).z;
-    const Vec3d to = (*side.middle - at.position) * std::max((z - side.frame.eta) / z, 0.0);
-    if (!rays_.between(at.position, at.position + to)) work.result->seen[slot] = Seen::whole;
+    if (!rays_.between(at.position, at.position + side.frame.way(at.position, *side.middle))) work.result->seen[slot] = Seen::whole;
   } else {
     if (set.occluders == 0) shadow::add_surroundings(side.frame, at, *side.outline, set);
     find_in_segments(side, slot, work);
@@ -299,7 +346,9 @@ void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& wor
 void ShadowPass::pass_cut_outs(const LightSide& side, std::uint32_t slot, Work& work) const {
   const Viewpoint& at = work.at(slot);
   const bool part = work.result->seen[slot] == Seen::part;
-  const double share = part ? share_past_cut_outs(rays_, side, at, work.scratch.set, work.region) : share_past_cut_outs(rays_, side, at);
+  const bool by_levels = part && work.tube == nullptr;  // a tube's parts have levels of their own
+  const double share =
+      by_levels ? share_past_cut_outs(rays_, side, at, work.scratch.set, work.region) : share_past_cut_outs(rays_, side, at);
   if (share == 1) return;
   if (part) {
     work.result->parts.back().passes = static_cast<float>(share);

@@ -37,6 +37,13 @@ struct ShadowPass::Work {
   bool in_lanes = false;       // the points' sides of the light have the same outline
   bool whole_outline = false;  // parts come with their light's polygon
   bool cut_outs = false;       // the group's shaft meets cut-outs
+  bool entered = false;        // triangles enter the round light, or lie close to the tube
+  const Flat* flat = nullptr;  // of the round light
+  const Capsule* tube = nullptr;
+  struct PlaneEdge {
+    double ax, ay, bx, by;
+  };
+  std::vector<PlaneEdge> visible, all;  // edges in the plane of a point's side
 
   const shadow::Viewpoint& at(std::uint32_t slot) const { return (*points)[slot]; }
   // Replaces `positions` and `up` by those of some slots; add() appends them.

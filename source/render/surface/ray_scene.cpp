@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "render/surface/surface.h"
+#include "shadow/edges/bodies.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -301,6 +302,13 @@ bool RayScene::blocked_towards(Vec3d from, Vec3d direction) const {
   return blocked(static_cast<Vec3f>(from) * unit_, static_cast<Vec3f>(direction), 0, std::numeric_limits<float>::infinity(), kCastsShadow);
 }
 
+bool ShadowEdges::suit(const std::vector<AreaLight>& lights) const {
+  const std::vector<Body> now = shadow::bodies_of(lights).all;
+  if (now == bodies) return true;
+  const bool cut = std::any_of(mesh.inside.begin(), mesh.inside.end(), [](const auto& list) { return !list.empty(); });
+  return !cut && !shadow::may_enter(mesh, now);
+}
+
 SceneParts SceneParts::of(const Scene& scene, Sorted sorted) {
   return {std::make_shared<const RayScene>(scene),
           sorted == Sorted::for_rays_and_edges ? std::make_shared<const ShadowEdges>(scene) : nullptr,
@@ -312,6 +320,7 @@ SceneParts RenderCache::Parts::follow(const Scene& scene, Sorted sorted) {
     rays = std::make_shared<RayScene>(scene, RayScene::Lasts::many_scenes);
   } else {
     try {
+      if (shadows != nullptr && !shadows->suit(scene.area_lights)) shadows.reset();
       if (rays->follow(scene)) {
         shadows.reset();
         device_rays.reset();

@@ -101,8 +101,12 @@ class SceneRays;
 
 // The edges that cast shadows, and the trees over them and their triangles.
 struct ShadowEdges {
-  explicit ShadowEdges(const Scene& scene) : mesh(shadow::build_edges(scene)), edges(mesh), triangles(mesh) {}
+  explicit ShadowEdges(const Scene& scene)
+      : bodies(shadow::bodies_of(scene.area_lights).all), mesh(shadow::build_edges(scene)), edges(mesh), triangles(mesh) {}
   ShadowEdges(const ShadowEdges&) = delete;
+  // True for a scene of the same meshes if its round lights cut them as before.
+  bool suit(const std::vector<AreaLight>& lights) const;
+  const std::vector<Body> bodies;  // of the round lights, which cut the triangles that enter them
   const shadow::EdgeMesh mesh;
   const shadow::EdgeTree edges;
   const shadow::TriangleTree triangles;

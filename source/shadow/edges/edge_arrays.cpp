@@ -155,7 +155,7 @@ LaneEdges EdgeArrays::lane_edges() const {
 }
 
 void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
-                        const std::vector<std::uint32_t>& crossing) {
+                        const std::vector<std::uint32_t>& crossing, std::span<const std::uint32_t> inside) {
   clear();
   vertices_seen.begin(mesh.vertices.size());
   planes_seen.begin(mesh.triangles.size());
@@ -178,18 +178,26 @@ void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std
   };
   for (const std::uint32_t number : edges) {
     const Edge& e = mesh.edges[number];
+    const EdgeTriangle* t = &mesh.edge_triangles[e.first];
+    std::uint32_t triangles = e.count;
+    if (e.at_body) {
+      blocking_.clear();
+      add_incidences(mesh, e, inside, blocking_);
+      if (blocking_.empty()) continue;
+      t = blocking_.data();
+      triangles = static_cast<std::uint32_t>(blocking_.size());
+    }
     v0_.push_back(static_cast<std::int32_t>(vertex(e.v0)));
     v1_.push_back(static_cast<std::int32_t>(vertex(e.v1)));
-    const bool many = e.count > 2;
-    const EdgeTriangle* t = &mesh.edge_triangles[e.first];
+    const bool many = triangles > 2;
     plane0_.push_back(many ? 0 : static_cast<std::int32_t>(plane(t[0].triangle)));
     walks0_.push_back(many ? 0.0f : static_cast<float>(t[0].walks));
-    plane1_.push_back(many || e.count < 2 ? 0 : static_cast<std::int32_t>(plane(t[1].triangle)));
-    walks1_.push_back(many || e.count < 2 ? 0.0f : static_cast<float>(t[1].walks));
+    plane1_.push_back(many || triangles < 2 ? 0 : static_cast<std::int32_t>(plane(t[1].triangle)));
+    walks1_.push_back(many || triangles < 2 ? 0.0f : static_cast<float>(t[1].walks));
     has_more_.push_back(many ? 1 : 0);
     if (many) {
-      more_.push_back({static_cast<std::uint32_t>(edge_.size()), static_cast<std::uint32_t>(incidences_.size()), e.count});
-      for (std::uint32_t i = 0; i < e.count; ++i) incidences_.push_back({plane(t[i].triangle), t[i].walks});
+      more_.push_back({static_cast<std::uint32_t>(edge_.size()), static_cast<std::uint32_t>(incidences_.size()), triangles});
+      for (std::uint32_t i = 0; i < triangles; ++i) incidences_.push_back({plane(t[i].triangle), t[i].walks});
     }
     edge_.push_back(number);
   }

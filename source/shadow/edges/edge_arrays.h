@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "shadow/edges/gather.h"
@@ -16,8 +17,10 @@ namespace steradian::shadow {
 class EdgeArrays {
  public:
   // Takes edges and crossing triangles with these numbers, ascending, in the coordinates of a frame.
+  //
+  //   inside  triangles inside the light's body, ascending: they do not block it
   void assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
-              const std::vector<std::uint32_t>& crossing_triangles);
+              const std::vector<std::uint32_t>& crossing_triangles, std::span<const std::uint32_t> inside = {});
   // Takes the edges of a tile that a shaft needs. The shaft is in the world of the tile's frame.
   void assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, const EdgeArrays& tile, const LightFrame& frame, const Shaft& shaft);
 
@@ -86,6 +89,7 @@ class EdgeArrays {
   std::vector<float> cell_x_, cell_y_, outside_, facing_;
   std::vector<std::uint32_t> found_;
   std::vector<std::int32_t> weights_;
+  std::vector<EdgeTriangle> blocking_;
 };
 
 // Adds the other bounds of the light: its outline and the point's horizons. They follow the occluders. `see` leaves them out if there are

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/box_tree.h"
+#include "shadow/edges/bodies.h"
 
 namespace steradian::shadow {
 namespace {
@@ -78,19 +79,22 @@ Box3d box_of(const EdgeMesh& mesh, std::uint32_t triangle) {
   return box;
 }
 
-EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices) {
+EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices, std::span<const Body> bodies) {
   EdgeMesh mesh;
   mesh.vertices = positions;
   const std::vector<std::uint32_t> weld = welded(positions);
-  std::vector<TriangleSide> sides;
-  sides.reserve(indices.size());
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     const std::array<std::uint32_t, 3> t = {weld[indices[i]], weld[indices[i + 1]], weld[indices[i + 2]]};
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     if (!is_finite(positions[t[0]]) || !is_finite(positions[t[1]]) || !is_finite(positions[t[2]])) continue;
-    const auto number = static_cast<std::uint32_t>(mesh.triangles.size());
     mesh.triangles.push_back(t);
     mesh.planes.push_back(plane_of(positions, t));
+  }
+  cut_by_bodies(mesh, bodies);
+  std::vector<TriangleSide> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t number = 0; number < mesh.triangles.size(); ++number) {
+    const auto& t = mesh.triangles[number];
     for (std::uint32_t c = 0; c < 3; ++c) {
       const std::uint32_t from = t[c], to = t[(c + 1) % 3];
       sides.push_back({std::min(from, to), std::max(from, to), number, c, from < to ? 1 : -1});
@@ -107,6 +111,9 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
     mesh.edge_triangles.push_back({s.triangle, s.walks});
     mesh.triangle_edges[s.triangle][s.corner] = static_cast<std::uint32_t>(mesh.edges.size() - 1);
   }
+  for (const std::vector<std::uint32_t>& triangles : mesh.inside)
+    for (const std::uint32_t t : triangles)
+      for (const std::uint32_t e : mesh.triangle_edges[t]) mesh.edges[e].at_body = true;
   sort_into_leaves(mesh);
   return mesh;
 }
@@ -121,7 +128,17 @@ EdgeMesh build_edges(const Scene& scene) {
     for (const Vec3f p : mesh.positions) positions.push_back(static_cast<Vec3d>(p));
     for (const std::uint32_t i : mesh.indices) indices.push_back(first + i);
   }
-  return build_edges(positions, indices);
+  return build_edges(positions, indices, bodies_of(scene.area_lights).all);
+}
+
+Bodies bodies_of(const std::vector<AreaLight>& lights) {
+  Bodies bodies;
+  for (const AreaLight& light : lights) {
+    const std::optional<Body> body = Body::of(light.shape);
+    bodies.of_light.push_back(body ? static_cast<std::uint32_t>(bodies.all.size()) : kNoBody);
+    if (body) bodies.all.push_back(*body);
+  }
+  return bodies;
 }
 
 }  // namespace steradian::shadow

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/box.h"
+#include "shapes/body.h"
 #include "steradian/scene.h"
 #include "steradian/vector.h"
 
@@ -27,6 +29,7 @@ struct EdgeTriangle {
 struct Edge {
   std::uint32_t v0 = 0, v1 = 0;
   std::uint32_t first = 0, count = 0;
+  bool at_body = false;  // a triangle of it lies within a round light, and does not block that light
 };
 
 struct EdgeMesh {
@@ -36,6 +39,7 @@ struct EdgeMesh {
   std::vector<Edge> edges;                                   // in the order of EdgeTree's leaves: neighbours are stored together
   std::vector<EdgeTriangle> edge_triangles;                  // in the order of edges
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
+  std::vector<std::vector<std::uint32_t>> inside;            // for each body, the triangles inside it, ascending
 };
 
 // The box around a triangle.
@@ -45,10 +49,19 @@ Box3d box_of(const EdgeMesh& mesh, std::uint32_t triangle);
 inline constexpr std::uint32_t kLeafEdges = 16;
 
 // Surfaces need not be closed, oriented or manifold. Equal positions become one vertex. Triangles with two equal corners or a coordinate
-// that is not finite are dropped.
-EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices);
+// that is not finite are dropped. Triangles that enter a body are cut along its surface.
+EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices, std::span<const Body> bodies = {});
 
-// Builds the edges of everything that blocks a scene's light exactly: no shapes that stand for lights, no cut-outs.
+// Builds the edges of everything that blocks a scene's light exactly: no shapes that stand for lights, no cut-outs. The bodies are those of
+// the scene's area lights (bodies_of).
 EdgeMesh build_edges(const Scene& scene);
+
+// The bodies of the round lights among a scene's area lights, and for each area light the number of its body, or kNoBody.
+inline constexpr std::uint32_t kNoBody = UINT32_MAX;
+struct Bodies {
+  std::vector<Body> all;
+  std::vector<std::uint32_t> of_light;
+};
+Bodies bodies_of(const std::vector<AreaLight>& lights);
 
 }  // namespace steradian::shadow

@@ -165,8 +165,10 @@ EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint3
     leaf.valid |= 1u << i;
     put(leaf.a, i, mesh.vertices[e.v0] - middle_);
     put(leaf.b, i, mesh.vertices[e.v1] - middle_);
-    if (e.count > 2) leaf.many |= 1u << i;
-    for (std::uint32_t k = 0; k < e.count && e.count <= 2; ++k) {
+    // Not all triangles of an edge at a body block every light.
+    const bool many = e.count > 2 || e.at_body;
+    if (many) leaf.many |= 1u << i;
+    for (std::uint32_t k = 0; k < e.count && !many; ++k) {
       const EdgeTriangle& t = mesh.edge_triangles[e.first + k];
       const Plane& plane = mesh.planes[t.triangle];
       // Normals have unit length here: those of small triangles would leave the range of floats.

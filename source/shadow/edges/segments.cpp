@@ -105,9 +105,10 @@ void SegmentSet::clear() {
 
 double offset_from_surface(Vec3d p) { return 1e-5 + 4e-6 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
-std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame) {
+std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame, std::span<const std::uint32_t> inside) {
   std::vector<std::uint32_t> result;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (std::binary_search(inside.begin(), inside.end(), t)) continue;
     int below = 0;
     for (const std::uint32_t v : mesh.triangles[t]) below += frame.to_local(mesh.vertices[v]).z < -frame.eta;
     if (below == 1 || below == 2) result.push_back(t);
@@ -115,9 +116,21 @@ std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightF
   return result;
 }
 
+void add_incidences(const EdgeMesh& mesh, const Edge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to) {
+  const std::size_t before = to.size();
+  for (std::uint32_t i = edge.first; i < edge.first + edge.count; ++i) {
+    const EdgeTriangle& t = mesh.edge_triangles[i];
+    if (!edge.at_body || !std::binary_search(inside.begin(), inside.end(), t.triangle)) to.push_back(t);
+  }
+  if (!edge.at_body || to.size() != before + 2) return;
+  // Two parts of one triangle: the count never changes across their edge.
+  const Plane &a = mesh.planes[to[before].triangle], &b = mesh.planes[to[before + 1].triangle];
+  if (to[before].walks != to[before + 1].walks && a.normal == b.normal && a.offset == b.offset) to.resize(before);
+}
+
 template <class S>
 void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
-                           const std::vector<std::uint32_t>& crossing) {
+                           const std::vector<std::uint32_t>& crossing, std::span<const std::uint32_t> inside) {
   vertex_numbers_.clear();
   incidences_.clear();
   edges_.clear();
@@ -140,14 +153,15 @@ void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const 
     return static_cast<std::uint32_t>(std::lower_bound(v.begin(), v.end(), number) - v.begin());
   };
   move_to(mesh, frame);
+  std::vector<EdgeTriangle> blocking;
   for (const std::uint32_t e : edges) {
     const Edge& edge = mesh.edges[e];
-    edges_.push_back(
-        {place(vertex_numbers_, edge.v0), place(vertex_numbers_, edge.v1), static_cast<std::uint32_t>(incidences_.size()), edge.count, e});
-    for (std::uint32_t i = 0; i < edge.count; ++i) {
-      const EdgeTriangle& t = mesh.edge_triangles[edge.first + i];
-      incidences_.push_back({place(triangles, t.triangle), t.walks});
-    }
+    blocking.clear();
+    add_incidences(mesh, edge, inside, blocking);
+    if (blocking.empty()) continue;
+    edges_.push_back({place(vertex_numbers_, edge.v0), place(vertex_numbers_, edge.v1), static_cast<std::uint32_t>(incidences_.size()),
+                      static_cast<std::uint32_t>(blocking.size()), e});
+    for (const EdgeTriangle& t : blocking) incidences_.push_back({place(triangles, t.triangle), t.walks});
   }
   for (const std::uint32_t t : crossing) {
     LocalTriangle local{place(triangles, t), t, {}, {}};
@@ -178,10 +192,10 @@ void LocalEdges<S>::move_to(const EdgeMesh& mesh, const LightFrame& frame) {
 }
 
 template <class S>
-void LocalEdges<S>::assign_all(const EdgeMesh& mesh, const LightFrame& frame) {
+void LocalEdges<S>::assign_all(const EdgeMesh& mesh, const LightFrame& frame, std::span<const std::uint32_t> inside) {
   std::vector<std::uint32_t> all(mesh.edges.size());
   std::iota(all.begin(), all.end(), 0u);
-  assign(mesh, frame, all, crossing_triangles(mesh, frame));
+  assign(mesh, frame, all, crossing_triangles(mesh, frame, inside), inside);
 }
 
 template <class S>

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "shadow/edges/edges.h"
@@ -67,9 +68,11 @@ template <class S>
 class LocalEdges {
  public:
   // Takes the edges and triangles with these numbers, ascending. They must include every triangle that crosses the plane z = -eta.
+  //
+  //   inside  triangles inside the light's body, ascending: they do not block it
   void assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
-              const std::vector<std::uint32_t>& crossing_triangles);
-  void assign_all(const EdgeMesh& mesh, const LightFrame& frame);
+              const std::vector<std::uint32_t>& crossing_triangles, std::span<const std::uint32_t> inside = {});
+  void assign_all(const EdgeMesh& mesh, const LightFrame& frame, std::span<const std::uint32_t> inside = {});
   // Moves the same edges and triangles to another frame.
   void move_to(const EdgeMesh& mesh, const LightFrame& frame);
 
@@ -106,7 +109,10 @@ class LocalEdges {
   std::vector<LocalTriangle> crossing_;
 };
 
-// Triangles that cross the plane z = -eta of a light.
-std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame);
+// Triangles that cross the plane z = -eta of a light, except those inside its body.
+std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame, std::span<const std::uint32_t> inside = {});
+
+// The triangles of an edge that block a light: those that are not inside its body. Appends them; without any that matter, appends none.
+void add_incidences(const EdgeMesh& mesh, const Edge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to);
 
 }  // namespace steradian::shadow

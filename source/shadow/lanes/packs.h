@@ -56,7 +56,8 @@ struct EdgeLeaf {
   float a[3][kPadding], b[3][kPadding];
   float normal0[3][kPadding], offset0[kPadding], walks0[kPadding];
   float normal1[3][kPadding], offset1[kPadding], walks1[kPadding];
-  std::uint32_t valid, many;  // valid: bits of edges; many: bits of edges of more than two triangles, whose planes are not here
+  std::uint32_t valid,
+      many;  // valid: bits of edges; many: bits of edges of more than two triangles or at a body, whose planes are not here
 };
 
 // Segments in cells, which floats hold exactly, padded by segments above all others. No segment of a block of kPadding reaches beyond the

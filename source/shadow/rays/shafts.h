@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/box_tree.h"
@@ -87,7 +88,7 @@ double reach_of_polygon(const AreaLight& light);
 // the group is too near or too wide for one.
 std::optional<LightFrame> frame_behind(const AreaLight& light, const std::vector<Vec3d>& points);
 
-// Triangles whose box meets the box of any such polygon.
-std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& light);
+// Triangles whose box meets the box of any such polygon, except those inside the light.
+std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& light, std::span<const std::uint32_t> inside = {});
 
 }  // namespace steradian::shadow

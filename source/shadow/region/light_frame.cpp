@@ -62,6 +62,16 @@ void put_box(LightFrame& frame) {
   frame.eta = kMargin * std::max(frame.half_x, frame.half_y);
 }
 
+Vec3d LightFrame::way(Vec3d from, Vec3d place) const {
+  const Vec3d to = place - from;
+  if (body != nullptr) {
+    // A corner of the polygon may see past the body.
+    if (const auto span = body->span(from, to)) return to * std::clamp(span->enters - eta / length(to), 0.0, 1.0);
+  }
+  const double z = -to_local(from).z;
+  return to * std::max((z - eta) / z, 0.0);
+}
+
 LightFrame light_frame(const PreparedPolygon& light, int side) {
   const Vec3d z = side < 0 ? light.normal : -light.normal;
   const auto [best_x, best_y, best] = bounding_of(light, z);

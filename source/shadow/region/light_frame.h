@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "shapes/body.h"
 #include "steradian/polygon_light.h"
 #include "steradian/vector.h"
 
@@ -26,9 +27,13 @@ struct LightFrame {
   double box_x = 0, box_y = 0;                // slightly larger: the outline must not touch the sides
   double eta = 0;                             // only geometry with z < -eta blocks
   std::vector<std::vector<Corner>> contours;  // walk order: the light lies on the left
+  const Body* body = nullptr;                 // of a round light, which the frame represents for one point
 
   Vec3d to_local(Vec3d p) const { return axes.to_local(p - origin); }
   Vec3d to_world(Vec3d p) const { return origin + axes.to_world(p); }
+
+  // The way from a point towards a place in the plane, up to where nothing more blocks: just before the plane, or before the body.
+  Vec3d way(Vec3d from, Vec3d place) const;
 };
 
 // Sets box and eta from the half sides.

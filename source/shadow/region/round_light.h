@@ -17,6 +17,10 @@ namespace steradian::shadow {
 //   returns  no vertices if nothing is visible
 PreparedPolygon polygon_of_round(const AreaLight& area, Vec3d position, int corners);
 
+// The outline of a tube in up to three flat parts: the segments of circles in which the two ends are seen, and the rectangle between them.
+// Each lies inside the tube: whatever stands outside of the tube and before the parts stands before the tube. Empty from inside.
+std::vector<PreparedPolygon> parts_of_tube(const Capsule& tube, Vec3d radiance, Vec3d position, int corners);
+
 // The same for a sphere or an ellipsoid, returned as a frame along the axes of its visible ellipse, without contours. Returns none if
 // nothing is visible.
 std::optional<LightFrame> frame_of_ellipsoid(const Ellipsoid& light, Vec3d position, int corners);

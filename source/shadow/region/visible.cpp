@@ -148,11 +148,10 @@ void find_in_pieces(const By& by, const LightFrame& frame, Vec3d from, const Blo
     if (p.low() < kHidden / 2 && std::find(levels.begin(), levels.end(), p.low()) == levels.end()) levels.push_back(p.low());
   std::sort(levels.begin(), levels.end());
 
-  const double z = -frame.to_local(from).z;
   const auto free = [&](Place q) {
     ++result.rays;
     const Vec3d there = frame.to_world({q.x / kCells * frame.box_x, q.y / kCells * frame.box_y, 0});
-    return !blockers.between(from, from + (there - from) * std::max((z - frame.eta) / z, 0.0));
+    return !blockers.between(from, from + frame.way(from, there));
   };
   bool thin = false;
   std::int32_t thin_level = 0;

@@ -29,13 +29,24 @@ PreparedPolygon light_of(const VisibleRegion& region, const PreparedPolygon& lig
   return part;
 }
 
-PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift) {
+Occluders Occluders::cut_by(const Body& body) const {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
+  return Occluders(build_edges(mesh.vertices, indices, {&body, 1}));
+}
+
+PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift,
+                             const Body* body) {
   VisibleRegion region;
   const int side = light.side_of(from.position);
   if (side == 0 || (side < 0 && !light.two_sided)) return light_of(region, light, {}, 0, from, lift);
-  const LightFrame frame = light_frame(light, side);
+  LightFrame frame = light_frame(light, side);
+  frame.body = body;
   LocalEdges<double> edges;
-  edges.assign_all(occluders.mesh, frame);
+  const auto& inside = occluders.mesh.inside;
+  edges.assign_all(occluders.mesh, frame,
+                   body != nullptr && !inside.empty() ? std::span<const std::uint32_t>(inside[0]) : std::span<const std::uint32_t>());
   Scratch scratch;
   edges.see(from, scratch.set);
   find_visible(frame, from.position, occluders.rays, scratch, region);

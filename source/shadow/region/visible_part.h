@@ -10,6 +10,8 @@ namespace steradian::shadow {
 // Triangles that block light, prepared once.
 struct Occluders {
   explicit Occluders(EdgeMesh m) : mesh(std::move(m)), rays(mesh) {}
+  // The same triangles, cut along the surface of a body.
+  Occluders cut_by(const Body& body) const;
   EdgeMesh mesh;
   TriangleRays rays;
 };
@@ -23,6 +25,8 @@ PreparedPolygon light_of(const VisibleRegion& region, const PreparedPolygon& lig
 //
 //   lift     directions closer than this to the shading horizon are lifted to it [rad], so that no rounding puts a piece below it: 1e-9
 //   for integrals in double, 1e-6 in float
-PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift);
+//   body     of the round light that the polygon represents for this point; what is inside it does not block
+PreparedPolygon visible_part(const PreparedPolygon& light, const Occluders& occluders, const Viewpoint& from, double lift,
+                             const Body* body = nullptr);
 
 }  // namespace steradian::shadow

@@ -1,12 +1,12 @@
 // Triangles of outlines: they cover the outline's area, and no part of it twice.
-#include "triangulate.h"
+#include "shapes/triangulate.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace steradian::view::triangulate_test {
+namespace steradian::triangulate_test {
 namespace {
 
 double area(const Contours& contours) {
@@ -76,4 +76,4 @@ TEST(ViewTriangles, RefuseOutlinesThatCrossOrTouchThemselves) {
 }
 
 }  // namespace
-}  // namespace steradian::view::triangulate_test
+}  // namespace steradian::triangulate_test

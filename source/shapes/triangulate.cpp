@@ -1,9 +1,9 @@
-#include "triangulate.h"
+#include "shapes/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace steradian::view {
+namespace steradian {
 namespace {
 
 // Twice the area of a triangle, positive where it runs counter-clockwise.
@@ -138,4 +138,4 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> triangles_of(const Cont
   return triangles;
 }
 
-}  // namespace steradian::view
+}  // namespace steradian

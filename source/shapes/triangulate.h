@@ -8,7 +8,7 @@
 
 #include "steradian/vector2.h"
 
-namespace steradian::view {
+namespace steradian {
 
 using Contours = std::vector<std::vector<Vec2d>>;
 
@@ -19,4 +19,4 @@ using Contours = std::vector<std::vector<Vec2d>>;
 // of corners at worst.
 std::optional<std::vector<std::array<std::uint32_t, 3>>> triangles_of(const Contours& contours);
 
-}  // namespace steradian::view
+}  // namespace steradian
