@@ -114,7 +114,7 @@ SampledResult reference::sampled_on_surface(const std::function<bool(Vec3d)>& op
   const auto incident = [&](const SurfaceSampler::Place& place) -> Incident {
     const Vec3d l = frame.to_local(place.direction);
     if (!(place.density > 0) || !(l.z > 0) || !open(place.direction * place.distance)) return {};
-    return {l, place.density};
+    return {l, place.density, options.emission ? options.emission(place.direction) : 1};
   };
   return by_both(
       lobe, light.radiance, options, [&](double u, double v) { return incident(sampler.sample(u, v)); },

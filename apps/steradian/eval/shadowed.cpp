@@ -37,25 +37,27 @@ RadianceResult answer_of(const SampledResult& sampled, Method method) {
   return answer;
 }
 
+// By rays to the light's true surface.
+SampledResult sampled_past(const Query& query, const AreaLight& light, const shadow::Viewpoint& from, const ShadingPoint& at,
+                           const Material& m, const SampledOptions& options) {
+  const auto above = [&](Vec3d to) { return !from.geometric_normal || dot(to, *from.geometric_normal) > 0; };
+  const auto open = [&](Vec3d to) { return above(to) && !query.occluders->rays.between(from.position, from.position + to); };
+  if (!std::holds_alternative<Polygon>(light.shape))
+    return reference::sampled_on_surface([&](Vec3d to) { return open(to * (1 - kBeforeTheLight)); }, light, at, m, options);
+  const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
+  if (polygon.vertices.empty()) return {};
+  const double eta = shadow::margin_of_plane(polygon), height = std::fabs(dot(polygon.centroid - from.position, polygon.normal));
+  const auto sees = [&](Vec3d direction) {
+    return open(direction * std::max((height - eta) / std::fabs(dot(direction, polygon.normal)), 0.0));
+  };
+  return reference::sampled_radiance_past(sees, polygon, at, m, options);
+}
+
 RadianceResult over_visible(const PreparedPolygon& light, const shadow::Viewpoint& from, const shadow::Occluders& occluders,
                             const Body* body, const ShadingPoint& at, const Material& m, const methods::Row& entry,
                             const RadianceOptions& options) {
   const double lift = options.precision == Precision::float_ ? kLiftInFloat : kLift;
   return entry.polygon(shadow::visible_part(light, occluders, from, lift, body), at, m, options);
-}
-
-RadianceResult over_polygon(const PreparedPolygon& light, const shadow::Viewpoint& from, const Query& query, const ShadingPoint& at,
-                            const Material& m, const methods::Row& entry, const RadianceOptions& options) {
-  if (entry.method == Method::sampled) {
-    const double eta = shadow::margin_of_plane(light), height = std::fabs(dot(light.centroid - from.position, light.normal));
-    const auto sees = [&](Vec3d direction) {
-      if (from.geometric_normal && !(dot(direction, *from.geometric_normal) > 0)) return false;
-      const double distance = (height - eta) / std::fabs(dot(direction, light.normal));
-      return !query.occluders->rays.between(from.position, from.position + direction * std::max(distance, 0.0));
-    };
-    return answer_of(reference::sampled_radiance_past(sees, light, at, m, {options.spp, options.seed}), entry.method);
-  }
-  return over_visible(light, from, *query.occluders, nullptr, at, m, entry, options);
 }
 
 // The viewpoint of the query's point.
@@ -72,7 +74,19 @@ shadow::Viewpoint viewpoint_of(const Query& query) {
 // lobe.
 RadianceResult profiled_answer(const Query& query, const AreaLight& light, const ShadingPoint& surface, const Material& m,
                                const methods::Row& entry, const RadianceOptions& options) {
-  if (entry.method == Method::reference || entry.method == Method::sampled)
+  if (entry.method == Method::sampled) {
+    // The factor is that of one channel's intensity; the light's radiance contains the channels.
+    AreaLight bright = light;
+    bright.emission.reset();
+    bright.radiance = light.emission->intensity;
+    LightEmission white = *light.emission;
+    white.intensity = {1, 1, 1};
+    const ShadingPoint at = {viewpoint_of(query).position, surface.normal, surface.view};
+    return answer_of(sampled_past(query, bright, viewpoint_of(query), at, m,
+                                  {options.spp, options.seed, [&](Vec3d towards) { return emitted_radiance(white, -towards).x; }}),
+                     entry.method);
+  }
+  if (entry.method == Method::reference)
     throw Error("method", std::string(entry.name) + " has no profiles past occluders", "leave occluders or the profile out, or use auto");
   AreaLight even = light;
   even.emission.reset();
@@ -112,18 +126,12 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
   }
   const auto& light = std::get<AreaLight>(source);
   if (light.emission) return profiled_answer(query, light, surface, m, entry, options);
+  if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
+  if (entry.method == Method::sampled) return answer_of(sampled_past(query, light, from, at, m, {options.spp, options.seed}), entry.method);
   if (std::holds_alternative<Polygon>(light.shape)) {
     const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
     if (polygon.vertices.empty()) return methods::nothing(entry.method);
-    return over_polygon(polygon, from, query, at, m, entry, options);
-  }
-  if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
-  if (entry.method == Method::sampled) {
-    const auto open = [&](Vec3d to) {
-      if (from.geometric_normal && !(dot(to, *from.geometric_normal) > 0)) return false;
-      return !query.occluders->rays.between(from.position, from.position + to * (1 - kBeforeTheLight));
-    };
-    return answer_of(reference::sampled_on_surface(open, light, at, m, {options.spp, options.seed}), entry.method);
+    return over_visible(polygon, from, *query.occluders, nullptr, at, m, entry, options);
   }
   const bool judge = entry.method == Method::reference;
   const int corners = judge ? kRoundReference : options.quality == Quality::high ? 48 : 24;

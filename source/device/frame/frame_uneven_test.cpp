@@ -64,19 +64,6 @@ AreaLight textured(Polygon shape, Vec3d origin, Vec3d du, Vec3d dv, bool two_sid
   return light;
 }
 
-// Renders 12 triangles under the light; pictures are 96 x 54.
-double expect_same_shadows(const std::string& name, AreaLight light, const char* method) {
-  Scene scene = under_triangles(12);
-  scene.images = {checkers()};
-  scene.area_lights = {std::move(light)};
-  RenderOptions options = small(method);
-  options.shadows = Shadows::on;
-  options.width = 96;
-  options.height = 54;
-  EXPECT_EQ(Frame(scene, options).lacks(), "");
-  return expect_same(name + ", shadows", scene, options);
-}
-
 }  // namespace
 
 // Surfaces of every roughness under checkers in three colours: cells, halves below the smallest of them, and look-ups in mirrors. There
@@ -111,14 +98,14 @@ TEST_F(VulkanFrame, LeavesProfiledRectsAndDisksToTheCpu) {
   expect_rendered_by_cpu(under_lamps(), small("ltc-compact"), "no shader for the profiled light 'lamp'");
 }
 
-// The parts are found as for lights of uniform radiance. Every lobe lights them as a fraction of the whole light.
-TEST_F(VulkanFrame, FindsTheVisiblePartsOfTexturedLights) {
-  const AreaLight square = textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true);
-  for (const char* method : {"auto", "ltc-compact"}) EXPECT_EQ(expect_same_shadows("textured", square, method), 0);
-  // The light has two contours: the host finds the visible part, and the device lights by it.
-  Polygon frame = kSquare;
-  frame.holes = {{{-0.5, 2.5, -0.5}, {-0.5, 2.5, 0.5}, {0.5, 2.5, 0.5}, {0.5, 2.5, -0.5}}};
-  EXPECT_EQ(expect_same_shadows("textured frame", textured(frame, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true), "ltc-compact"), 1);
+// The mean of the visible part of a textured light is found on the CPU alone.
+TEST_F(VulkanFrame, LeavesTexturedLightsWithShadowsToTheCpu) {
+  Scene scene = under_triangles(12);
+  scene.images = {checkers()};
+  scene.area_lights = {textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true)};
+  RenderOptions options = small("ltc-compact");
+  options.shadows = Shadows::on;
+  expect_rendered_by_cpu(scene, options, "no shadows under the textured light");
 }
 
 TEST_F(VulkanFrame, TheValidationLayerFindsNothingUnderUnevenLights) {
@@ -126,13 +113,11 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothingUnderUnevenLights) {
   Scene scene = under_triangles(12);
   scene.images = {checkers()};
   scene.area_lights = {textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true)};
-  for (const Shadows shadows : {Shadows::off, Shadows::on}) {
-    RenderOptions options = small("ltc-compact");
-    options.width = 48;
-    options.height = 27;
-    options.shadows = shadows;
-    Frame(scene, options, device).render();
-  }
+  RenderOptions options = small("ltc-compact");
+  options.width = 48;
+  options.height = 27;
+  options.shadows = Shadows::off;
+  Frame(scene, options, device).render();
   EXPECT_TRUE(device->validation_messages().empty())
       << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
 }

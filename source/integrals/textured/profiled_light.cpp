@@ -85,10 +85,10 @@ ProfiledLight::Sent ProfiledLight::sent(Grid grid, double u, double v, const lob
           lobe.evaluate(frame.to_local(l)) * per_area};
 }
 
-// The fraction of a cell along the axes that is visible; 0 and 1 are exact.
+// The fraction of a cell along the axes that is visible; exactly 0 or 1 where only rounding is missing.
 double ProfiledLight::visible_share(const PlaneRegion& visible, const Cell& cell) {
   const double share = std::fabs(visible.area_in({{cell.u0, cell.v0}, {cell.u1, cell.v1}})) / ((cell.u1 - cell.u0) * (cell.v1 - cell.v0));
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-6;  // the boundary is rounded to 1.2e-7 of the light
   return share < kRounding ? 0 : share > 1 - kRounding ? 1 : share;
 }
 

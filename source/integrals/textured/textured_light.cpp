@@ -62,7 +62,7 @@ class VisibleCells {
     const auto y = [&](int j) { return texels_.bottom + (j - 0.5) * texels_.spacing; };
     const Box2d box{{x(t.left), y(t.bottom)}, {x(t.right), y(t.top)}};
     const double share = std::fabs(visible_.area_in(box)) / (box.size().x * box.size().y);
-    constexpr double kNone = 1e-9;
+    constexpr double kNone = 1e-6;  // the boundary is rounded to 1.2e-7 of the light
     if (share < kNone) return;
     const auto s = seen(cell);
     const bool whole = share > 1 - kNone;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <tuple>
 
+#include "night.h"
 #include "render/direct/lobe_packs.h"
 #include "render/frame/uneven_diffuse.h"
 #include "render/lights/light_list.h"
@@ -140,16 +141,17 @@ TEST(ProfiledRender, EveryLobeAgreesWithTheSampledPicture) {
   }
 }
 
-// Behind an occluder, the mean is that of the whole light. This measures the error where part of the light is visible. docs/lights.md
-// states the errors in penumbras. The bounds are half as much again.
-TEST(ProfiledRender, WhatTheMeanOfAllCostsInPenumbrasIsMeasured) {
+// Behind an occluder, the mean is that of the visible part. The rays' noise is most of the difference, so the bounds are twice what is
+// measured at each number of samples. The mean of the whole light was 0.07 and 0.25 off.
+TEST(ProfiledRender, PenumbrasHaveTheMeanOfTheVisiblePart) {
   const auto narrow = std::make_shared<LightProfile>(*lamp_profile());
   for (std::size_t i = 0; i < narrow->candela.size(); ++i) {
     const double v = narrow->vertical[i % narrow->vertical.size()] / 12;
     narrow->candela[i] = std::exp2(-v * v);
   }
-  for (const auto& [name, profile, most] : {std::tuple{"bright at 40 degrees", lamp_profile(), 0.1},
-                                            {"half at 12 degrees", std::shared_ptr<const LightProfile>(narrow), 0.29}}) {
+  for (const auto& [name, profile, most] :
+       {std::tuple{"bright at 40 degrees", lamp_profile(), test::by_day_or_night(0.03, 0.006)},
+        {"half at 12 degrees", std::shared_ptr<const LightProfile>(narrow), test::by_day_or_night(0.16, 0.06)}}) {
     Scene scene = lit_floor(false, 0.5f, 0);
     set_emission(scene.area_lights[0], profile, {1, 0, 0}, {1, 0.5, 0.25});
     scene.meshes.push_back(scene::quad_mesh({0, 0.75f, -0.5f}, {1, 0.75f, -0.5f}, {1, 0.75f, 0.5f}, {0, 0.75f, 0.5f}, 0));
@@ -158,7 +160,7 @@ TEST(ProfiledRender, WhatTheMeanOfAllCostsInPenumbrasIsMeasured) {
     options.shadows = Shadows::on;
     const Picture ours = render(scene, options);
     options.method = "sampled";
-    options.spp = 1024;
+    options.spp = test::by_day_or_night(1024, 16384);
     const Picture judged = render(scene, options);
     double a = 0, b = 0, squares = 0;
     int count = 0;
@@ -173,7 +175,6 @@ TEST(ProfiledRender, WhatTheMeanOfAllCostsInPenumbrasIsMeasured) {
     const double rms = std::sqrt(squares / count);
     std::printf("%s, %d pixels: mean %.3f of the sampled, rms %.3f of the light without shadows\n", name, count, a / b, rms);
     EXPECT_LT(rms, most) << name;
-    EXPECT_GT(rms, 0.02) << name << ": better than the page says";
   }
 }
 
