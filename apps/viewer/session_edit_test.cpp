@@ -201,13 +201,17 @@ TEST(ViewSession, OverridesLobes) {
 TEST(ViewSession, AddsEveryKindOfLight) {
   Session s(room(), small());
   s.wait_until_settled();
-  for (const char* type : {"rect", "disk", "sphere", "capsule", "polygon", "point", "spot", "directional"}) {
+  const char* last = "directional";
+  for (const char* type : {"rect", "disk", "sphere", "capsule", "polygon", "point", "spot", last}) {
     const Picture before = s.frame().picture;
     s.add_light(type);
     s.wait_until_settled();
     EXPECT_EQ(s.message(), "") << type;
     EXPECT_NE(s.frame().picture.pixels, before.pixels) << type;
     ASSERT_GE(s.selection().node, 0);
+    if (type == last) break;
+    s.remove_selected();  // the next one stands at the same place, and one in the plane of another is ill-posed
+    s.wait_until_settled();
   }
   const std::size_t lamps = s.lamps().size();
   s.remove_selected();

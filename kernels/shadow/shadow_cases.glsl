@@ -17,9 +17,7 @@ vec4 case_shadow_project(CaseInput i) {
     return vec4(h.x, h.y, h.z, shadow_facing(vec3(0.0, 0.0, 1.0), i.b.z, case_xyz(i.a)));
 }
 
-// Error analysis cannot tell into which cell a place is rounded.
-
-// shadow, an edge clipped to the box, in units of it
+// shadow, an edge clipped to the box: the sides that clip it, and the part that one side leaves
 //   a.x  range(-0.4, 0.4)
 //   a.y  range(-0.4, 0.4)
 //   b.x  range(1.5, 3)
@@ -27,9 +25,13 @@ vec4 case_shadow_project(CaseInput i) {
 //   c.x  range(0.5, 1)
 //   c.y  range(0.5, 1)
 // Values: 4
-// Bound: statistical
 vec4 case_shadow_clip(CaseInput i) {
     ShadowSegment s = shadow_clip(vec3(i.a.x, i.a.y, 1.0), vec3(i.b.x, i.b.y, 1.0), vec2(i.c.x, i.c.y));
-    real inverse = select(s.inside, 1.0, 0.0) / shadow_cells();
-    return vec4(s.start.x * inverse, s.start.y * inverse, s.end.x * inverse, s.end.y * inverse);
+    ShadowSpan span;
+    span.t0 = 0.0;
+    span.t1 = 1.0;
+    span.sides = vec2(0.0, 0.0);
+    span.inside = span.t0 < 1.0;
+    span = shadow_clip_side(span, i.c.x - i.a.x, i.c.x - i.b.x, 2.0);
+    return vec4(s.sides.x, select(s.inside, s.sides.y, 0.0), span.t0, span.t1);
 }

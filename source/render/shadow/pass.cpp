@@ -62,7 +62,8 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
 
 ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const {
   thread_local Work work;
-  work.turned = work.whole_outline = work.cut_outs = work.entered = false;
+  work.flat = nullptr;
+  work.turned = work.whole_outline = work.cut_outs = work.in_parts = false;
   work.in_lanes = true;
   work.points = &points.points;
   work.result = &result;
@@ -156,7 +157,7 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
   const bool empty = work.group.empty();
   const bool even = !by_rays && !empty && !work.cut_outs;
-  if (even && work.taker != nullptr && !work.entered &&
+  if (even && work.taker != nullptr && !work.in_parts && (work.flat == nullptr || work.flat->inside.empty()) &&
       work.taker->find({work.group, work.turned ? &work.base : nullptr, work.whole_outline, slots, *work.points, side_at})) {
     for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
     return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "steradian/render.h"
 #include "support/judged_pictures.h"
@@ -71,11 +72,43 @@ TEST(ShadowRender, AgreesWithTheReferenceAtEveryPixel) {
     Scene scene = still_life();
     scene.area_lights = {light};
     const auto [open, analytic, reference] = judged_pictures(scene, small(), 0.02);
-    // Round lights use polygons of 24 corners, against 64 in the reference: 1e-3 of the light at most. That is a larger fraction of the
+    // Round lights use polygons of 24 corners, the reference their surface: 1e-3 of the light at most. That is a larger fraction of the
     // light left in a penumbra.
     const ZTest z = z_test(analytic, reference, std::holds_alternative<Polygon>(light.shape) ? 2e-4 : 5e-3);
     EXPECT_GT(z.tested, 3000u);
     EXPECT_GE(z.share(), 0.9975) << "shape " << light.shape.index() << ", worst " << z.worst;
+  }
+}
+
+// Lights that geometry enters or stands close to: a globe sunk in a ceiling at three depths, a tube through a wall, a tube whose end stands
+// over a shelf, and a tube along a board.
+TEST(ShadowRender, AgreesWithTheReferenceUnderLightsThatGeometryEnters) {
+  const auto ceiling = [](float height, float half) {
+    return quad_mesh({-half, height, -half}, {half, height, -half}, {half, height, half}, {-half, height, half}, 0);
+  };
+  const AreaLight upright{Capsule{{0.2, 1.1, 0.4}, {0.25, 2, 0.4}, 0.06}, {9, 6, 3}};
+  const Mesh wall = quad_mesh({0.4f, 1.5f, -1}, {0.4f, 3, -1}, {0.4f, 3, 1}, {0.4f, 1.5f, 1}, 0);
+  const Mesh shelf = quad_mesh({0, 1, 0.2f}, {0.5f, 1, 0.2f}, {0.5f, 0.98f, 0.6f}, {0, 0.98f, 0.6f}, 0);
+  struct Case {
+    const char* name;
+    AreaLight light;
+    Mesh mesh;
+  };
+  const Case cases[] = {{"globe, a quarter out", ball(), ceiling(2, 3)},
+                        {"globe, half out", ball(), ceiling(2.2f, 3)},
+                        {"globe, three quarters out", ball(), ceiling(2.4f, 3)},
+                        {"tube through a wall", tube(), wall},
+                        {"tube over a shelf", upright, shelf},
+                        {"tube along a board", tube(), ceiling(2.3f, 1)}};
+  for (const Case& c : cases) {
+    Scene scene = still_life();
+    scene.area_lights = {c.light};
+    scene.meshes.push_back(c.mesh);
+    const auto [open, analytic, reference] = judged_pictures(scene, small(), 0.02);
+    const ZTest z = z_test(analytic, reference, 5e-3);
+    EXPECT_GT(z.tested, 2000u) << c.name;
+    EXPECT_GE(z.share(), 0.9975) << c.name << ", worst " << z.worst;
+    std::printf("%s: %zu pixels, share %.5f, worst %.2f\n", c.name, static_cast<std::size_t>(z.tested), z.share(), z.worst);
   }
 }
 

@@ -114,6 +114,25 @@ using Seen = TileShadow::Seen;
 
 namespace {
 
+// Beside a tube, its polygon's plane is that of the rectangle between the ends (shadow::parts_of_tube). At the ends, the plane and the
+// parts differ within this many radii, for points whose place along the axis is no further from an end than this many distances from the
+// axis.
+constexpr double kEndReach = 6, kOblique = 3;
+
+bool is_near_end(const Capsule& tube, const Box3d& box) {
+  const Vec3d reach = Box3d::all(kEndReach * tube.radius);
+  return box.meets({tube.end_a - reach, tube.end_a + reach}) || box.meets({tube.end_b - reach, tube.end_b + reach});
+}
+
+// True for points beyond an end, and for those that see the tube nearly along its axis.
+bool is_oblique(const Capsule& tube, Vec3d position) {
+  const Vec3d axis = tube.end_b - tube.end_a, to = position - tube.end_a;
+  const double size = length(axis);
+  if (!(size > 0)) return true;
+  const double along = dot(to, axis) / size, across = length(to - axis * (along / size));
+  return along < 0 || along > size || std::max(along, size - along) > kOblique * across;
+}
+
 Box3d box_around(const std::vector<Vec3d>& positions) {
   Box3d box;
   for (const Vec3d& p : positions) box.add(p);
@@ -186,7 +205,11 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   work.cut_outs = meets_cut_outs(shaft);
   if (!together) gather_round(flat, shaft, work);
   work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
-  work.entered = !flat.inside.empty() || (work.tube != nullptr && !work.group.crossing().empty());
+  const std::vector<shadow::EdgeArrays::Triangle>& crossing = work.group.crossing();
+  const auto crowds_end = [&](const shadow::EdgeArrays::Triangle& t) { return is_near_end(*work.tube, shadow::box_of(mesh_, t.number)); };
+  work.in_parts = work.tube != nullptr && !crossing.empty() &&
+                  (std::any_of(crossing.begin(), crossing.end(), crowds_end) ||
+                   std::any_of(slots.begin(), slots.end(), [&](std::uint32_t i) { return is_oblique(*work.tube, work.at(i).position); }));
   std::array<std::optional<LightSide>, shadow::kPoints> sides;
   std::size_t next = 0;
   find_group(
@@ -317,7 +340,7 @@ void ShadowPass::add_part(const LightSide& side, std::uint32_t slot, Work& work)
 void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& work) const {
   const Viewpoint& at = work.at(slot);
   ++work.counts->points;
-  if (work.tube != nullptr && work.entered) {
+  if (work.in_parts) {
     find_in_tube(side, sides_of_tube(*work.tube, *work.flat->body, at.position), slot, work);
     if (work.cut_outs && work.result->seen[slot] != Seen::none) pass_cut_outs(side, slot, work);
     return;

@@ -37,7 +37,7 @@ struct ShadowPass::Work {
   bool in_lanes = false;       // the points' sides of the light have the same outline
   bool whole_outline = false;  // parts come with their light's polygon
   bool cut_outs = false;       // the group's shaft meets cut-outs
-  bool entered = false;        // triangles enter the round light, or lie close to the tube
+  bool in_parts = false;       // the group sees the tube in its flat parts
   const Flat* flat = nullptr;  // of the round light
   const Capsule* tube = nullptr;
   struct PlaneEdge {
