@@ -97,6 +97,18 @@ class BoxTree {
   std::vector<std::uint32_t> order_;
 };
 
+// The items of all leaves that meet a box, in the tree's order.
+template <class Volume>
+std::vector<std::uint32_t> near_box(const BoxTree<Volume>& tree, const Volume& box) {
+  std::vector<std::uint32_t> items;
+  tree.any_leaf([&](const auto& node) { return node.volume.meets(box); },
+                [&](std::uint32_t first, std::uint32_t last) {
+                  items.insert(items.end(), tree.order().begin() + first, tree.order().begin() + last);
+                  return false;
+                });
+  return items;
+}
+
 // Puts the `half` items with the least middles along an axis first. Numbers settle ties. Returns `half`.
 template <class Item>
 std::size_t halve(std::span<Item> items, std::size_t half, int axis) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
 
 #include "render/shadow/work.h"
 #include "shadow/rays/shafts.h"
@@ -38,7 +39,9 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
     for (const Vec3f p : mesh.positions) box.add(static_cast<Vec3d>(p));
     cut_outs_.push_back(box);
   }
-  const shadow::Bodies bodies = shadow::bodies_of(scene.area_lights);
+  std::unordered_map<const AreaLight*, std::size_t> body_of;  // numbers of bodies_of
+  for (const AreaLight& light : scene.area_lights)
+    if (Body::of(light.shape)) body_of.emplace(&light, body_of.size());
   for (const PackLight& light : lights) {
     Flat flat;
     if (light.is_polygon()) flat.polygon = light.polygon;
@@ -52,9 +55,9 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
       }
     if (light.is_round() && !is_disk(light)) {
       flat.body = Body::of(light.area->shape);
-      const std::uint32_t number = bodies.of_light[static_cast<std::size_t>(light.area - scene.area_lights.data())];
-      if (number < mesh_.inside.size()) flat.inside = mesh_.inside[number];
-      flat.near = shadow::triangles_near(mesh_, *light.area, flat.inside);
+      const auto number = body_of.find(light.area);
+      if (number != body_of.end() && number->second < mesh_.inside.size()) flat.inside = mesh_.inside[number->second];
+      flat.near = edges_->triangles.near(*light.area, flat.inside);
     }
     flats_.push_back(std::move(flat));
   }

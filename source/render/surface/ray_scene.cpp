@@ -303,7 +303,7 @@ bool RayScene::blocked_towards(Vec3d from, Vec3d direction) const {
 }
 
 bool ShadowEdges::suit(const std::vector<AreaLight>& lights) const {
-  const std::vector<Body> now = shadow::bodies_of(lights).all;
+  const std::vector<Body> now = shadow::bodies_of(lights);
   if (now == bodies) return true;
   const bool cut = std::any_of(mesh.inside.begin(), mesh.inside.end(), [](const auto& list) { return !list.empty(); });
   return !cut && !shadow::may_enter(mesh, now);

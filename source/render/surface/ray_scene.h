@@ -102,7 +102,7 @@ class SceneRays;
 // The edges that cast shadows, and the trees over them and their triangles.
 struct ShadowEdges {
   explicit ShadowEdges(const Scene& scene)
-      : bodies(shadow::bodies_of(scene.area_lights).all), mesh(shadow::build_edges(scene)), edges(mesh), triangles(mesh) {}
+      : bodies(shadow::bodies_of(scene.area_lights)), mesh(shadow::build_edges(scene)), edges(mesh), triangles(mesh) {}
   ShadowEdges(const ShadowEdges&) = delete;
   // True for a scene of the same meshes if its round lights cut them as before.
   bool suit(const std::vector<AreaLight>& lights) const;

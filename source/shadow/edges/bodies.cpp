@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <unordered_map>
 
+#include "core/box_tree.h"
 #include "shapes/triangulate.h"
 
 namespace steradian::shadow {
@@ -12,24 +13,27 @@ namespace {
 
 // A cut this near to an edge's end, as a fraction of the edge, is the end.
 constexpr double kEnd = 1e-9;
-
-bool is_near(const EdgeMesh& mesh, std::uint32_t t, const Body& body) { return box_of(mesh, t).meets(body.box()); }
+// New triangles at most. Lights beyond them find triangles whole: what is inside such a light blocks it.
+constexpr std::size_t kMostParts = 200'000;
 
 class Cutter {
  public:
   Cutter(EdgeMesh& mesh, const Body& body, std::vector<std::uint32_t>& inside, std::vector<std::vector<std::uint32_t>>& of_others)
       : mesh_(mesh), body_(body), inside_(inside), of_others_(of_others) {}
 
-  void cut_all() {
-    const auto count = static_cast<std::uint32_t>(mesh_.triangles.size());
-    for (std::uint32_t t = 0; t < count; ++t)
-      if (is_near(mesh_, t, body_)) cut(t);
-    std::sort(inside_.begin(), inside_.end());
-  }
-
  private:
   using Loop = std::vector<std::uint32_t>;
 
+ public:
+  // Cuts a triangle, if it enters the body; the numbers of new triangles are appended to `added`.
+  void cut(std::uint32_t t, std::vector<std::uint32_t>& added) {
+    if (!box_of(mesh_, t).meets(body_.box())) return;
+    const std::size_t before = mesh_.triangles.size();
+    cut(t);
+    for (std::size_t i = before; i < mesh_.triangles.size(); ++i) added.push_back(static_cast<std::uint32_t>(i));
+  }
+
+ private:
   std::uint32_t add_vertex(Vec3d p) {
     mesh_.vertices.push_back(p);
     return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
@@ -190,14 +194,34 @@ class Cutter {
 
 void cut_by_bodies(EdgeMesh& mesh, std::span<const Body> bodies) {
   mesh.inside.assign(bodies.size(), {});
-  for (std::size_t b = 0; b < bodies.size(); ++b) Cutter(mesh, bodies[b], mesh.inside[b], mesh.inside).cut_all();
+  if (bodies.empty()) return;
+  const std::size_t most = mesh.triangles.size() + kMostParts;
+  const BoxTree<Box3d> tree(
+      mesh.triangles.size(), [&](std::uint32_t t) { return box_of(mesh, t); }, Halving{4});
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> parts;  // of the triangles that have been cut
+  for (std::size_t b = 0; b < bodies.size() && mesh.triangles.size() < most; ++b) {
+    std::vector<std::uint32_t> near = near_box(tree, bodies[b].box());
+    std::sort(near.begin(), near.end());
+    Cutter cutter(mesh, bodies[b], mesh.inside[b], mesh.inside);
+    for (const std::uint32_t t : near) {
+      const auto before = parts.find(t);
+      std::vector<std::uint32_t> all{t}, added;
+      if (before != parts.end()) all.insert(all.end(), before->second.begin(), before->second.end());
+      for (const std::uint32_t part : all) cutter.cut(part, added);
+      if (added.empty()) continue;
+      std::vector<std::uint32_t>& list = parts[t];
+      list.insert(list.end(), added.begin(), added.end());
+    }
+  }
   for (std::vector<std::uint32_t>& list : mesh.inside) std::sort(list.begin(), list.end());
 }
 
 bool may_enter(const EdgeMesh& mesh, std::span<const Body> bodies) {
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    if (std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return is_near(mesh, t, body); })) return true;
-  return false;
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      if (box_of(mesh, t).meets(body.box())) return true;
+    return false;
+  });
 }
 
 }  // namespace steradian::shadow

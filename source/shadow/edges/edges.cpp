@@ -128,16 +128,13 @@ EdgeMesh build_edges(const Scene& scene) {
     for (const Vec3f p : mesh.positions) positions.push_back(static_cast<Vec3d>(p));
     for (const std::uint32_t i : mesh.indices) indices.push_back(first + i);
   }
-  return build_edges(positions, indices, bodies_of(scene.area_lights).all);
+  return build_edges(positions, indices, bodies_of(scene.area_lights));
 }
 
-Bodies bodies_of(const std::vector<AreaLight>& lights) {
-  Bodies bodies;
-  for (const AreaLight& light : lights) {
-    const std::optional<Body> body = Body::of(light.shape);
-    bodies.of_light.push_back(body ? static_cast<std::uint32_t>(bodies.all.size()) : kNoBody);
-    if (body) bodies.all.push_back(*body);
-  }
+std::vector<Body> bodies_of(const std::vector<AreaLight>& lights) {
+  std::vector<Body> bodies;
+  for (const AreaLight& light : lights)
+    if (const std::optional<Body> body = Body::of(light.shape)) bodies.push_back(*body);
   return bodies;
 }
 

@@ -56,12 +56,7 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
 // the scene's area lights (bodies_of).
 EdgeMesh build_edges(const Scene& scene);
 
-// The bodies of the round lights among a scene's area lights, and for each area light the number of its body, or kNoBody.
-inline constexpr std::uint32_t kNoBody = UINT32_MAX;
-struct Bodies {
-  std::vector<Body> all;
-  std::vector<std::uint32_t> of_light;
-};
-Bodies bodies_of(const std::vector<AreaLight>& lights);
+// The bodies of the round lights among a scene's area lights, in their order.
+std::vector<Body> bodies_of(const std::vector<AreaLight>& lights);
 
 }  // namespace steradian::shadow

@@ -134,17 +134,13 @@ double reach_of_polygon(const AreaLight& area) {
   return (std::holds_alternative<Capsule>(area.shape) ? 3.6 : 1.6) * ball_around(area).radius;
 }
 
-std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& area, std::span<const std::uint32_t> inside) {
-  const Ball ball = ball_around(area);
-  const double reach = reach_of_polygon(area);
-  std::vector<std::uint32_t> result;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3d a = mesh.vertices[mesh.triangles[t][0]] - ball.center, b = mesh.vertices[mesh.triangles[t][1]] - ball.center,
-                c = mesh.vertices[mesh.triangles[t][2]] - ball.center;
-    const auto apart = [&](double x, double y, double z) { return std::min({x, y, z}) > reach || std::max({x, y, z}) < -reach; };
-    if (!apart(a.x, b.x, c.x) && !apart(a.y, b.y, c.y) && !apart(a.z, b.z, c.z) && !std::binary_search(inside.begin(), inside.end(), t))
-      result.push_back(t);
-  }
+std::vector<std::uint32_t> TriangleTree::near(const AreaLight& light, std::span<const std::uint32_t> inside) const {
+  const Vec3d center = ball_around(light).center, reach = Box3d::all(reach_of_polygon(light));
+  const Box3d box{center - reach, center + reach};
+  std::vector<std::uint32_t> result = near_box(tree_, box);
+  std::erase_if(result,
+                [&](std::uint32_t t) { return !box_of(mesh_, t).meets(box) || std::binary_search(inside.begin(), inside.end(), t); });
+  std::sort(result.begin(), result.end());
   return result;
 }
 

@@ -62,6 +62,9 @@ class TriangleTree {
   // out of the light's box.
   bool is_open(Viewers& viewers, const Box3d& light, double margin) const;
 
+  // Triangles whose box meets the box of any polygon of a round light, ascending, except those inside the light.
+  std::vector<std::uint32_t> near(const AreaLight& light, std::span<const std::uint32_t> inside) const;
+
  private:
   bool separates(std::uint32_t triangle, Viewers& viewers, const Box3d& light, double margin) const;
 
@@ -87,8 +90,5 @@ double reach_of_polygon(const AreaLight& light);
 // A frame whose shaft contains a sphere, ellipsoid or tube for all points of a group: a square behind its bounding ball. Returns none if
 // the group is too near or too wide for one.
 std::optional<LightFrame> frame_behind(const AreaLight& light, const std::vector<Vec3d>& points);
-
-// Triangles whose box meets the box of any such polygon, except those inside the light.
-std::vector<std::uint32_t> triangles_near(const EdgeMesh& mesh, const AreaLight& light, std::span<const std::uint32_t> inside = {});
 
 }  // namespace steradian::shadow
