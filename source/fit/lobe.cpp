@@ -57,8 +57,6 @@ const LobeFamily& lobe_family(const std::string& name) {
 
 // Broad lobes: Charlie sheen, Disney diffuse, Oren-Nayar.
 
-namespace {}  // namespace
-
 Lobe charlie_lobe(double alpha, Vec3d v) {
   Lobe lobe;
   lobe.view = v;

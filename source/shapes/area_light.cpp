@@ -9,8 +9,6 @@
 #include "steradian/error.h"
 
 namespace steradian {
-namespace {}
-
 double luminance(Vec3d rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
 
 PolygonLight equal_area_polygon(const Ellipse& ellipse, Vec3d radiance, int vertices) {

@@ -74,30 +74,25 @@ shadow::Viewpoint viewpoint_of(const Query& query) {
 // lobe.
 RadianceResult profiled_answer(const Query& query, const AreaLight& light, const ShadingPoint& surface, const Material& m,
                                const methods::Row& entry, const RadianceOptions& options) {
+  const shadow::Viewpoint from = viewpoint_of(query);
+  AreaLight even = light;
+  even.emission.reset();
+  even.radiance = {1, 1, 1};
   if (entry.method == Method::sampled) {
-    // The factor is that of one channel's intensity; the light's radiance contains the channels.
-    AreaLight bright = light;
-    bright.emission.reset();
+    AreaLight bright = even;
     bright.radiance = light.emission->intensity;
-    LightEmission white = *light.emission;
-    white.intensity = {1, 1, 1};
-    const ShadingPoint at = {viewpoint_of(query).position, surface.normal, surface.view};
-    return answer_of(sampled_past(query, bright, viewpoint_of(query), at, m,
-                                  {options.spp, options.seed, [&](Vec3d towards) { return emitted_radiance(white, -towards).x; }}),
+    const ShadingPoint at = {from.position, surface.normal, surface.view};
+    return answer_of(sampled_past(query, bright, from, at, m, {options.spp, options.seed, methods::emission_factor(*light.emission)}),
                      entry.method);
   }
   if (entry.method == Method::reference)
     throw Error("method", std::string(entry.name) + " has no profiles past occluders", "leave occluders or the profile out, or use auto");
-  AreaLight even = light;
-  even.emission.reset();
-  even.radiance = {1, 1, 1};
   RadianceResult answer = shadowed_answer(query, even, surface, m, entry, options,
                                           [&] { return methods::curved_light_answer(even, surface, m, entry, options); });
   const double integral = std::max({answer.radiance.x, answer.radiance.y, answer.radiance.z});
   if (!(integral > 0)) return answer;
   const ProfiledLight profiled(light);
-  const PreparedPolygon part =
-      shadow::visible_part(prepare_polygon(flat_polygon(light, kProfileCorners)), *query.occluders, viewpoint_of(query), kLift);
+  const PreparedPolygon part = shadow::visible_part(prepare_polygon(flat_polygon(light, kProfileCorners)), *query.occluders, from, kLift);
   PlaneRegion visible;
   for (std::size_t i = 0; i + 1 < part.vertices.size(); i += 2)
     visible.add(profiled.coordinates_of(part.vertices[i]), profiled.coordinates_of(part.vertices[i + 1]));

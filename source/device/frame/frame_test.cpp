@@ -162,13 +162,13 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   options.width = 160;  // in smaller pictures of lamp_shade, one pixel has a light whose nodes change with a rounding
   options.height = 90;
   options.shadows = Shadows::on;
-  // A few points see thin regions. The host sees tubes in their flat parts where triangles stand close.
-  for (const auto& [name, most] : {std::pair{"gallery", 0.01}, {"lamp_shade", 0.01}, {"tubes", 1.0}}) {
-    const Scene scene = scene_of(name);
-    const double share = expect_same(std::string(name) + ", shadows", scene, options);
+  for (const char* name : {"gallery", "lamp_shade"}) {
+    const double share = expect_same(std::string(name) + ", shadows", scene_of(name), options);
     std::printf("%s: %.1f %% of the parts by the host\n", name, 100 * share);
-    EXPECT_LE(share, most) << name;
+    EXPECT_LE(share, 0.01) << name;  // a few points see thin regions
   }
+  // The host sees tubes in their flat parts, since walls stand close to them.
+  EXPECT_GT(expect_same("tubes, shadows", scene_of("tubes"), options), 0.01);
   // Coats under bumps see other parts of lights than the layers below them.
   Scene scene = everything();
   scene.images.push_back({"", 1, 1, {150, 110, 240, 255}});

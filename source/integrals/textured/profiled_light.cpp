@@ -286,6 +286,12 @@ int most_cells(Quality quality) { return quality == Quality::draft ? 64 : qualit
 
 }  // namespace
 
+EmissionFactor emission_factor(const LightEmission& emission) {
+  LightEmission white = emission;
+  white.intensity = {1, 1, 1};
+  return [white = std::move(white)](Vec3d towards) { return emitted_radiance(white, -towards).x; };
+}
+
 RadianceResult profiled_light_answer(const AreaLight& light, const ShadingPoint& at, const Material& m, const Row& entry,
                                      const RadianceOptions& options) {
   AreaLight even = light;
@@ -305,13 +311,9 @@ RadianceResult profiled_light_answer(const AreaLight& light, const ShadingPoint&
     answer.bound = r.bound;
     return answer;
   }
-  // The factor is that of one channel's intensity; the light's radiance contains the channels.
-  LightEmission white = *light.emission;
-  white.intensity = {1, 1, 1};
   PolygonLight polygon = flat_polygon(light, kFineVertices);
   polygon.radiance = light.emission->intensity;
-  const SampledResult r = sampled_radiance(prepare_polygon(polygon), at, m,
-                                           {options.spp, options.seed, [&](Vec3d towards) { return emitted_radiance(white, -towards).x; }});
+  const SampledResult r = sampled_radiance(prepare_polygon(polygon), at, m, {options.spp, options.seed, emission_factor(*light.emission)});
   answer.radiance = r.radiance;
   answer.standard_error = r.standard_error;
   return answer;

@@ -72,6 +72,9 @@ class ProfiledLight {
 
 namespace methods {
 
+// The emission of one channel of intensity 1, as a factor for `sampled`: the light's radiance is then the intensity of the channels.
+EmissionFactor emission_factor(const LightEmission& emission);
+
 // Radiance that one lobe sends to the view, by a method of the table: that method's integral times the mean. `reference` and `sampled` use
 // the emission itself, as a factor on their integrand.
 RadianceResult profiled_light_answer(const AreaLight& light, const ShadingPoint& at, const Material& material, const Row& entry,

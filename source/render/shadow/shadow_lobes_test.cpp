@@ -123,7 +123,7 @@ struct Light {
   double error = 0;  // error of the shape's approximation
 };
 
-// A textured light differs from a flat light's own penumbra by its mean colour alone (docs/shadows.md).
+// A textured light whose lobes see almost its mean everywhere: its penumbra is that of an even light to two hundredths.
 AreaLight textured_panel(Scene& scene) {
   Image image{"stripes", 8, 1, {}};
   for (std::uint8_t i = 0; i < 8; ++i) {

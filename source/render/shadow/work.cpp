@@ -114,9 +114,9 @@ using Seen = TileShadow::Seen;
 
 namespace {
 
-// Beside a tube, its polygon's plane is that of the rectangle between the ends (shadow::parts_of_tube). At the ends, the plane and the
-// parts differ within this many radii, for points whose place along the axis is no further from an end than this many distances from the
-// axis.
+// Beside a tube, its polygon's plane is that of the rectangle between the ends (shadow::parts_of_tube). In the directions of an end, plane
+// and part differ near the end alone: rays that graze the end of radius r meet the plane within r (1 + s / d) of it, for a point at
+// distance d from the axis and s along it from the end. With s / d of at most kOblique that is 4 r, and half as much again is a margin.
 constexpr double kEndReach = 6, kOblique = 3;
 
 bool is_near_end(const Capsule& tube, const Box3d& box) {

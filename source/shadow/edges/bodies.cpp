@@ -21,10 +21,6 @@ class Cutter {
   Cutter(EdgeMesh& mesh, const Body& body, std::vector<std::uint32_t>& inside, std::vector<std::vector<std::uint32_t>>& of_others)
       : mesh_(mesh), body_(body), inside_(inside), of_others_(of_others) {}
 
- private:
-  using Loop = std::vector<std::uint32_t>;
-
- public:
   // Cuts a triangle, if it enters the body; the numbers of new triangles are appended to `added`.
   void cut(std::uint32_t t, std::vector<std::uint32_t>& added) {
     if (!box_of(mesh_, t).meets(body_.box())) return;
@@ -34,6 +30,8 @@ class Cutter {
   }
 
  private:
+  using Loop = std::vector<std::uint32_t>;
+
   std::uint32_t add_vertex(Vec3d p) {
     mesh_.vertices.push_back(p);
     return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
