@@ -108,8 +108,8 @@ vec2 edge_integral(Edge e, float edge_length, Emission emission, float from, flo
             sum.y += value;
     }
     if (!emission.linear) return sum;
-    float centroid = min(max(sum.y / max(sum.x, smallest_divisor()), from), to);
-    float share = clamp(share_at_foot + share_by_slope * centroid, 0.0, 1.0);
+    float place = min(max(sum.y / max(sum.x, smallest_divisor()), from), to);
+    float share = clamp(share_at_foot + share_by_slope * place, 0.0, 1.0);
     return sum.x * vec2(1.0 - share, share);
 }
 

@@ -148,8 +148,8 @@ class SegmentIntegral {
   double d_, low_, high_;  // tangents of the curve's ends
 };
 
-// Arcs in the parameter tau, in which nothing is singular at the tangents: 8-point Gauss-Legendre on pieces with little turn and a small
-// angle.
+// Arcs in the parameter tau, in which nothing is singular at the tangents: 8-point Gauss-Legendre on pieces with little turn and no longer
+// than their distance.
 class ArcQuadrature {
  public:
   ArcQuadrature(const Curve& curve, const PlaneEmission& emission, Vec2d from) : curve_(curve), emission_(emission), from_(from) {}
@@ -189,9 +189,13 @@ class ArcQuadrature {
   }
 
   void add_part(double t0, double t1, int depth, PlaneLight& sum) const {
-    const Vec2d p = curve_.ellipse.at(t0) - from_, q = curve_.ellipse.at(t1) - from_;
-    const double seen = std::fabs(std::atan2(cross(p, q), dot(p, q)));
-    if (depth < 40 && (std::fabs(t1 - t0) > 0.4 || seen > 0.2)) {
+    const Ellipse& e = curve_.ellipse;
+    const auto along = [&](double tau) { return e.y * std::cos(tau) - e.x * std::sin(tau); };
+    const Vec2d p = e.at(t0) - from_, q = e.at(t1) - from_, d0 = along(t0), d1 = along(t1);
+    // Singularities are at the point, and where the curve turns: in terms of half the part, they are at least 3 away from its middle. Eight
+    // nodes are then off by the order of 5.8^-16.
+    const bool long_part = length(q - p) > std::min(length(p), length(q)), turns = std::fabs(cross(d0, d1)) > 0.4 * dot(d0, d1);
+    if (depth < 40 && (std::fabs(t1 - t0) > 0.4 || turns || long_part)) {
       add_part(t0, 0.5 * (t0 + t1), depth + 1, sum);
       add_part(0.5 * (t0 + t1), t1, depth + 1, sum);
       return;
@@ -199,8 +203,7 @@ class ArcQuadrature {
     for (int i = 0; i < 4; ++i)
       for (double sign : {-1.0, 1.0}) {
         const double tau = 0.5 * (t0 + t1) + 0.5 * (t1 - t0) * sign * kNode[i];
-        const Ellipse& e = curve_.ellipse;
-        const Vec2d hit = e.at(tau), v = hit - from_, dv = e.y * std::cos(tau) - e.x * std::sin(tau);
+        const Vec2d hit = e.at(tau), v = hit - from_, dv = along(tau);
         const double r = length(v), d_angle = std::fabs(cross(v, dv)) / (r * r);
         const Vec2d u = v / r;
         const double w = window(r, emission_.range) * profile_at(emission_, curve_, hit, u, r);

@@ -96,11 +96,13 @@ class Builder {
   void add_arc(const Curve& c) {
     const Vec2d p = c.ellipse.to_unit(from_);
     const double d = length(p);
+    const double middle = angle_of(p);
     if (d <= 1) {
-      if (seen_inside(c)) add_clipped(c, c.tau0, 2 * pi, true);
+      // The place nearest to the point is in the middle of a quarter: rounding of the ends of quarters beside the point would turn them.
+      if (seen_inside(c)) add_clipped(c, middle + 0.25 * pi, 2 * pi, true);
       return;
     }
-    const double middle = angle_of(p), half = std::acos(1 / d);
+    const double half = std::acos(1 / d);
     add_clipped(c, middle - half, 2 * half, false);
     if (seen_inside(c)) add_clipped(c, middle + half, 2 * pi - 2 * half, true);
   }
