@@ -57,6 +57,7 @@ class SegmentIntegral {
     normal_ = {-along_.y, along_.x};
     d_ = dot(curve.a - from, normal_);
     if (d_ < 0) normal_ = -normal_, d_ = -d_;
+    d_ = std::max(d_, 1e-12);  // fourth powers of tangents stay finite
     low_ = dot(curve.a - from, along_) / d_;
     high_ = low_ + size / d_;
   }

@@ -143,4 +143,19 @@ TEST(PlaneGradients, AreNotNegativeUnderARange) {
   std::printf("gradients under a range: %d of %d negative, the worst off by %.1e\n", negative, tried, worst);
 }
 
+TEST(PlaneGradients, AreDarkFromTheirOwnLine) {
+  PlaneEmission e;
+  e.gradient = PlaneGradient{{3, 0}, {5, 0}, {{0, {1, 1, 1}}, {1, {2, 2, 2}}}};
+  Curve curve;
+  curve.a = {3, 0};
+  curve.b = {5, 0};
+  for (PlaneProfile profile : {PlaneProfile::uniform, PlaneProfile::lambert, PlaneProfile::inverse}) {
+    e.profile = profile;
+    PlaneLight sum;
+    add_emission({-1e-14, 1e-14, &curve, false}, e, {1, 0}, EmissionParts::radiance_and_moments, sum);
+    EXPECT_NEAR(sum.radiance.x, 0, 1e-12) << static_cast<int>(profile);
+    EXPECT_NEAR(sum.moment_x.x, 0, 1e-12) << static_cast<int>(profile);
+  }
+}
+
 }  // namespace steradian::plane::emission_test
