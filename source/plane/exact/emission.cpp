@@ -159,9 +159,11 @@ class ArcQuadrature {
     const int parts = 1 + static_cast<int>((end - begin) / 1.0);
     for (int i = 0; i < parts; ++i) {
       const double t0 = parameter(begin + (end - begin) * i / parts, back);
-      double t1 = parameter(begin + (end - begin) * (i + 1) / parts, back);
-      if (back && t1 < t0) t1 += 2 * pi;
-      if (!back && t1 > t0) t1 -= 2 * pi;
+      // The near side runs clockwise. Rounding may reverse a narrow part: it is empty, not all the way around.
+      const double sign = back ? 1 : -1, turn = sign * (parameter(begin + (end - begin) * (i + 1) / parts, back) - t0);
+      double span = turn < 0 ? turn + 2 * pi : turn;
+      if (span > 2 * pi - 1e-9) span = 0;
+      const double t1 = t0 + sign * span;
       if (emission_.gradient)
         add_between_stops(t0, t1, sum);
       else

@@ -55,9 +55,9 @@ TEST(PlaneGradientFrames, AreNotNegativeBesideMuchBrighterStops) {
         double bound = 1e-5 * std::max({ratio, 2.0, truth.x, truth.y, truth.z});
         if (e.profile == PlaneProfile::inverse) {
           double nearest = 1e300;
-          for (std::size_t c = 0; c < world.impl().first_curve[1]; ++c)
+          for (std::size_t k = 0; k < world.impl().first_curve[1]; ++k)
             nearest =
-                std::min(nearest, distance_to(world.impl().curves[c], Vec2d{x + 0.5, y + 0.5} * world.impl().scale) / world.impl().scale);
+                std::min(nearest, distance_to(world.impl().curves[k], Vec2d{x + 0.5, y + 0.5} * world.impl().scale) / world.impl().scale);
           bound *= 3 + 0.1 / nearest;
         }
         if (!(error <= bound) && ++off <= 3) ADD_FAILURE() << "scene " << s << ", (" << x << ", " << y << ") is off by " << error / bound;
