@@ -147,6 +147,18 @@ TEST(PlaneOnCurves, AllOfALightsOutlineIsWithinIt) {
   std::printf("on lights' outlines: %d of %d are not within\n", off, tried);
 }
 
+// Looking at a place in which two outlines touch does not make the farther one visible.
+TEST(PlaneOnCurves, OutlinesThatTouchInTheMiddleOfTheViewKeepTheirOrder) {
+  PlaneScene scene;
+  scene.width = scene.height = 100;
+  scene.bodies = {plane_circle({50, 50}, 10), plane_circle({43, 50}, 3)};
+  scene.bodies[0].light.emplace().radiance = {1, 0, 0};
+  scene.bodies[1].light.emplace().radiance = {0, 1, 0};
+  const Vec3d light = PlaneWorld(scene).query({20, 50}).radiance;
+  EXPECT_NEAR(light.x, std::asin(10.0 / 30) / pi, 1e-12);
+  EXPECT_NEAR(light.y, 0, 1e-12);
+}
+
 TEST(PlaneOnCurves, DistanceIsThatOfTheCurve) {
   const Curve arc = outline_of(plane_circle({10, 20}, 5), 0).front();
   EXPECT_NEAR(distance_to(arc, {13 + 3e-6, 24 + 4e-6}), 5e-6, 1e-14);

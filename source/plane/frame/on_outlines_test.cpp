@@ -15,13 +15,17 @@ namespace {
 
 Picture frame_of(const PlaneScene& scene) { return render_plane(PlaneWorld(scene), {}); }
 
-// Number of pixels that are off by more than a frame may be.
-int pixels_off(const PlaneScene& scene, const Picture& picture, double bound, const std::string& what) {
+// Number of pixels on outlines that are off by more than a frame may be.
+int pixels_off(const PlaneScene& scene, const Picture& picture, double bound, const std::string& what, int& tried) {
   const PlaneWorld world(scene);
+  const World& impl = world.impl();
   int off = 0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const Vec3d truth = world.query({x + 0.5, y + 0.5}).radiance;
+      const Vec2d p{x + 0.5, y + 0.5};
+      if (impl.around(p * impl.scale).on.empty()) continue;
+      ++tried;
+      const Vec3d truth = world.query(p).radiance;
       const Vec3f pixel = picture.at(x, y);
       const double error = std::max({std::fabs(truth.x - static_cast<double>(pixel.x)), std::fabs(truth.y - static_cast<double>(pixel.y)),
                                      std::fabs(truth.z - static_cast<double>(pixel.z))});
@@ -81,8 +85,7 @@ TEST(PlaneOnOutlines, FramesEqualTheQueryThere) {
       scene.bodies.push_back(body);
     }
     const Picture picture = frame_of(scene);
-    off += pixels_off(scene, picture, 1e-5, "scene " + std::to_string(s));
-    tried += picture.width * picture.height;
+    off += pixels_off(scene, picture, 1e-5, "scene " + std::to_string(s), tried);
     if (s % 10 != 0) continue;
     PlaneStage stage(scene);
     EXPECT_TRUE(stage.draw().pixels == picture.pixels) << "the stage of scene " << s;
