@@ -155,8 +155,11 @@ vec3 arc_light(uint at) {
         if (to > from) {
             if (plain)
                 sum.x += trig_atan2_unwrapped(to - from, 1.0 + from * to);
-            else
-                sum += arc_integral(arc, place_on_arc(arc, axis, from), place_on_arc(arc, axis, to));
+            else {
+                // A narrow part that rounding reverses is empty.
+                float first = place_on_arc(arc, axis, from);
+                sum += arc_integral(arc, first, max(place_on_arc(arc, axis, to), first));
+            }
         }
         from = after_gap(k, from);
     }

@@ -60,14 +60,20 @@ class Builder {
     add_range(angle_of(back ? a : b), angle_of(back ? a : b) + width, c, back);
   }
 
+  // At the end of an arc, the next curve of its outline begins, to the last bit.
+  static Vec2d place_at(const Curve& c, double tau) {
+    if (c.tau_span >= 2 * pi - 1e-12) return c.ellipse.at(tau);
+    if (tau - c.tau0 < 1e-14) return c.a;
+    return c.tau0 + c.tau_span - tau < 1e-14 ? c.b : c.ellipse.at(tau);
+  }
+
   // Adds the part of the arc on which tau runs from t0 over `span`, all on one face.
   void add_arc_part(const Curve& c, double t0, double span, bool back) {
     if (span <= 0) return;
     // The part is cut so that no piece spans more than half a turn: its width is then the angle between its ends.
     const int parts = back ? 4 : 1;
     for (int i = 0; i < parts; ++i) {
-      const Vec2d p = c.ellipse.at(t0 + span * i / parts) - from_;
-      const Vec2d q = c.ellipse.at(t0 + span * (i + 1) / parts) - from_;
+      const Vec2d p = place_at(c, t0 + span * i / parts) - from_, q = place_at(c, t0 + span * (i + 1) / parts) - from_;
       const double width = std::atan2(cross(p, q), dot(p, q));  // negative: tau runs against the angle
       if (back) {
         // A quarter near the point may span more than half a turn; one that rounding reverses is empty.

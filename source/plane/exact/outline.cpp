@@ -199,13 +199,15 @@ std::vector<Curve> outline_of(const PlaneBody& body, int index) {
       const Vec2d p = body.contours.at(0).at(0), q = body.contours.at(0).at(1);
       const double length_pq = length(q - p), r = body.radius;
       const Vec2d along = length_pq > 0 ? (q - p) / length_pq : Vec2d{1, 0}, left{-along.y, along.x};
+      const Curve last = arc({q, along * r, left * r}, -pi / 2, pi, index), first = arc({p, along * r, left * r}, pi / 2, pi, index);
       if (length_pq > 0) {
-        append_edges({p - left * r, q - left * r}, false, index, curves);
-        append_edges({q + left * r, p + left * r}, false, index, curves);
+        // They share their ends to the last bit.
+        append_edges({first.b, last.a}, false, index, curves);
+        append_edges({last.b, first.a}, false, index, curves);
         for (Curve& c : curves) c.two_sided = false;
       }
-      curves.push_back(arc({q, along * r, left * r}, -pi / 2, pi, index));
-      curves.push_back(arc({p, along * r, left * r}, pi / 2, pi, index));
+      curves.push_back(last);
+      curves.push_back(first);
       break;
     }
   }

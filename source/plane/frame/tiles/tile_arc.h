@@ -36,10 +36,12 @@ class ArcIntegrand {
 
   // Adds the light between two slopes.
   STERADIAN_INLINE void add(const Axis& axis, PackReal from, PackReal to, EndWeights& sum) const {
+    // A narrow part that rounding reverses is empty.
+    const PackReal low = sine_of(axis, from), high = max(sine_of(axis, to), low);
     if (light_.arc.nodes > 0)
-      add_smooth(incidence(sine_of(axis, from)), incidence(sine_of(axis, to)), sum);
+      add_smooth(incidence(low), max(incidence(high), incidence(low)), sum);
     else
-      add_halving(place_of(sine_of(axis, from)), place_of(sine_of(axis, to)), sum);
+      add_halving(place_of(low), max(place_of(high), place_of(low)), sum);
   }
 
  private:
