@@ -36,12 +36,10 @@ class ArcIntegrand {
 
   // Adds the light between two slopes.
   STERADIAN_INLINE void add(const Axis& axis, PackReal from, PackReal to, EndWeights& sum) const {
-    // A narrow part that rounding reverses is empty.
-    const PackReal low = sine_of(axis, from), high = max(sine_of(axis, to), low);
     if (light_.arc.nodes > 0)
-      add_smooth(incidence(low), max(incidence(high), incidence(low)), sum);
+      add_smooth(incidence(sine_of(axis, from)), incidence(sine_of(axis, to)), sum);
     else
-      add_halving(place_of(low), max(place_of(high), place_of(low)), sum);
+      add_halving(place_of(sine_of(axis, from)), place_of(sine_of(axis, to)), sum);
   }
 
  private:
@@ -63,6 +61,9 @@ class ArcIntegrand {
     return select(sine < PackReal(0.0), -angle, angle);
   }
 
+  // A narrow part that rounding reverses is empty.
+  STERADIAN_INLINE static PackReal half_between(PackReal from, PackReal to) { return max(PackReal(0.5) * (to - from), PackReal(0.0)); }
+
   // Accurate to 1e-7 within a right angle: the series omit x^13 / 13! and x^14 / 14!.
   STERADIAN_INLINE static void sine_and_cosine(PackReal x, PackReal& s, PackReal& c) {
     const PackReal q = x * x;
@@ -78,7 +79,7 @@ class ArcIntegrand {
   // Gauss' rule in the angle of incidence; nodes in pairs around the middle share the sine and cosine of their distance from it.
   STERADIAN_INLINE void add_smooth(PackReal from, PackReal to, EndWeights& sum) const {
     const ArcRule& rule = arc_rule(light_.arc.nodes);
-    const PackReal half = PackReal(0.5) * (to - from);
+    const PackReal half = half_between(from, to);
     PackReal middle_s, middle_c, begin(0.0), end(0.0);
     sine_and_cosine(PackReal(0.5) * (from + to), middle_s, middle_c);
     for (int i = 0; i < light_.arc.nodes / 2; ++i) {
@@ -183,7 +184,7 @@ class ArcIntegrand {
                                          0, 0.381830050505118945, 0, 0.417959183673469388};
     static constexpr double kNull[8] = {0.009991356662876932, -0.025246739496563773, 0.029058304001152294,  -0.019997310073577482,
                                         0.000805380980923889, 0.022153524494280635,  -0.040392629162145345, 0.047256225186105581};
-    const PackReal middle = PackReal(0.5) * (from + to), half = PackReal(0.5) * (to - from);
+    const PackReal middle = PackReal(0.5) * (from + to), half = half_between(from, to);
     EndWeights kronrod, gauss, null;
     const auto add_weighted = [](double weight, const EndWeights& node, EndWeights& rule) {
       rule.begin += PackReal(weight) * node.begin;
