@@ -57,7 +57,7 @@ TEST(ViewPlaneBody, TurnsAndScalesAboutAPoint) {
   EXPECT_NEAR(length(s.center - Vec2d{30, 0}), 0, 1e-12);
   EXPECT_NEAR(length(s.x_axis), 6, 1e-12);
   EXPECT_EQ(s.light->spot_axis, (Vec2d{1, 0}));
-  EXPECT_NEAR(bounds_of(s).high.x, 36, 1e-12);
+  EXPECT_NEAR(bounds_of(s).high.x, 36, 3e-12);
 }
 
 TEST(ViewDrawing, ADraggedLampIsDrawnAsASceneFromScratchWouldBe) {

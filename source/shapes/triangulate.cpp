@@ -138,7 +138,12 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> triangles_of(const Cont
     for (const double allowed : {slack, 0.0})
       for (std::size_t i = 0; i < outline.size() && ear == outline.size(); ++i)
         if (is_ear(all.points, outline, i, allowed)) ear = i;
-    if (ear == outline.size()) return {};
+    if (ear == outline.size()) {
+      std::vector<Vec2d> rest;
+      for (const std::uint32_t k : outline) rest.push_back(all.points[k]);
+      if (std::fabs(area_of(rest)) > slack * static_cast<double>(rest.size())) return {};
+      return triangles;  // what is left lies on one line
+    }
     const std::size_t n = outline.size();
     triangles.push_back({outline[(ear + n - 1) % n], outline[ear], outline[(ear + 1) % n]});
     outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(ear));

@@ -73,7 +73,7 @@ TEST(ViewTriangles, CoverTrianglesThatAreCutThroughASide) {
     Vec2d a{place(random), place(random)}, b{place(random), place(random)}, c{place(random), place(random)};
     if (cross(b - a, c - a) < 0) std::swap(b, c);
     const double height = cross(b - a, c - a) / length(b - a);
-    if (height < 0.1) continue;
+    if (height < 0.1 || dot(c - a, b - a) < 0 || dot(c - b, a - b) < 0) continue;
     const double first = part(random), second = part(random), begin = std::min(first, second), end = std::max(first, second);
     const Vec2d from = a + (b - a) * begin, to = a + (b - a) * end, middle = (from + to) * 0.5;
     // Half an ellipse over the cut side, low enough to stay within the triangle.
