@@ -83,6 +83,7 @@ VerbOption& VerbOption::needs(const std::string& other) { return option_->needs(
 VerbOption& VerbOption::excludes(const std::string& other) { return option_->excludes(verb_->get_option(other)), *this; }
 VerbOption& VerbOption::separator(char c) { return option_->delimiter(c), *this; }
 VerbOption& VerbOption::default_text(const std::string& text) { return option_->default_str(text), *this; }
+VerbOption& VerbOption::value_name(const std::string& name) { return option_->type_name(name), *this; }
 VerbOption& VerbOption::accepts(const std::string& what) {
   option_->description(option_->get_description() + ": " + what);
   return *this;

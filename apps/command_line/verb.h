@@ -42,6 +42,7 @@ class VerbOption {
   VerbOption& excludes(const std::string& other);
   VerbOption& separator(char c);                      // one argument holds several values
   VerbOption& default_text(const std::string& text);  // the default as --help shows it
+  VerbOption& value_name(const std::string& name);    // the value as --help shows it
   // --help prints the words and the range behind the description.
   VerbOption& words(const std::vector<std::string>& allowed);
   VerbOption& range(int low, int high);

@@ -304,6 +304,7 @@ void add_render(CommandLine& line) {
   verb.add("--light", options->lights, "extra light; may be repeated").words(words::names<AddedLight>()).group("Light");
   verb.add("--environment", options->load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
   verb.add("--environment-rotation", options->load.environment_rotation, "degrees about +y, counter-clockwise from above")
+      .value_name("N")
       .range(-360.0, 360.0)
       .group("Light");
 
