@@ -31,18 +31,6 @@ struct Cell {
   friend bool operator<(const Cell& a, const Cell& b) { return a.error() < b.error(); }
 };
 
-// Error estimate after QUADPACK. Kronrod's rule is more exact than its distance from Gauss's tells, the more so the smaller it is. This one
-// uses the power 5/4 of the distance instead of QUADPACK's 3/2, times ten. In the tails of narrow lobes, and over sharp lobes that a near
-// light fills, the power 3/2 is too small. It is too small by up to 8 (one of 1,500 random configurations) or 20 (one of 4,000).
-//
-//   variation  integral of the distance from the mean
-double error_estimate(double difference, double variation) {
-  if (!(variation > 0) || !(difference > 0)) return std::fabs(difference);
-  constexpr double kSafety = 10;
-  const double share = 200 * difference / variation;
-  return kSafety * (share < 1 ? variation * share * std::sqrt(std::sqrt(share)) : std::max(variation, difference));
-}
-
 class Cubature {
  public:
   Cubature(const SphericalRegion& region, const Lobe& lobe)

@@ -14,6 +14,10 @@ bool on_segment(Vec2d a, Vec2d b, Vec2d p) {
 }
 
 bool meet(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
+  // Rounding may see ends of two segments of one line on different sides of it.
+  if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) || std::max(a.y, b.y) < std::min(c.y, d.y) ||
+      std::max(c.y, d.y) < std::min(a.y, b.y))
+    return false;
   const auto sign = [](double x) { return (x > 0) - (x < 0); };
   const int abc = sign(turn(a, b, c)), abd = sign(turn(a, b, d)), cda = sign(turn(c, d, a)), cdb = sign(turn(c, d, b));
   if (abc != abd && cda != cdb) return true;
@@ -93,7 +97,9 @@ bool bridge(const Polygon& p, std::vector<std::uint32_t>& outline, std::uint32_t
   return true;
 }
 
-bool is_ear(const std::vector<Vec2d>& points, const std::vector<std::uint32_t>& outline, std::size_t i) {
+// slack: twice the area up to which a corner beside the ear's edge counts as one on it. A corner that rounding put beside the edge on which
+// it was made would otherwise be left alone behind the ear.
+bool is_ear(const std::vector<Vec2d>& points, const std::vector<std::uint32_t>& outline, std::size_t i, double slack) {
   const std::size_t n = outline.size();
   const std::uint32_t ia = outline[(i + n - 1) % n], ib = outline[i], ic = outline[(i + 1) % n];
   const Vec2d a = points[ia], b = points[ib], c = points[ic];
@@ -101,7 +107,7 @@ bool is_ear(const std::vector<Vec2d>& points, const std::vector<std::uint32_t>& 
   return std::none_of(outline.begin(), outline.end(), [&](std::uint32_t k) {
     if (k == ia || k == ib || k == ic) return false;
     const Vec2d p = points[k];
-    return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+    return turn(a, b, p) >= -slack && turn(b, c, p) >= -slack && turn(c, a, p) >= -slack;
   });
 }
 
@@ -123,11 +129,15 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> triangles_of(const Cont
     first += count;
   }
 
+  double largest = 0;
+  for (const Vec2d& p : all.points) largest = std::max({largest, std::fabs(p.x - all.points[0].x), std::fabs(p.y - all.points[0].y)});
+  const double slack = 1e-13 * largest * largest;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   while (outline.size() > 3) {
     std::size_t ear = outline.size();
-    for (std::size_t i = 0; i < outline.size() && ear == outline.size(); ++i)
-      if (is_ear(all.points, outline, i)) ear = i;
+    for (const double allowed : {slack, 0.0})
+      for (std::size_t i = 0; i < outline.size() && ear == outline.size(); ++i)
+        if (is_ear(all.points, outline, i, allowed)) ear = i;
     if (ear == outline.size()) return {};
     const std::size_t n = outline.size();
     triangles.push_back({outline[(ear + n - 1) % n], outline[ear], outline[(ear + 1) % n]});

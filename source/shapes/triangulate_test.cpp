@@ -65,6 +65,32 @@ TEST(ViewTriangles, CoverRandomOutlinesAroundAPoint) {
   }
 }
 
+// A triangle that a round body enters through one side: the corners on that side are on it to rounding only.
+TEST(ViewTriangles, CoverTrianglesThatAreCutThroughASide) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> place(-1, 1), part(0.05, 0.95);
+  for (int trial = 0; trial < 1000; ++trial) {
+    Vec2d a{place(random), place(random)}, b{place(random), place(random)}, c{place(random), place(random)};
+    if (cross(b - a, c - a) < 0) std::swap(b, c);
+    const double height = cross(b - a, c - a) / length(b - a);
+    if (height < 0.1) continue;
+    const double first = part(random), second = part(random), begin = std::min(first, second), end = std::max(first, second);
+    const Vec2d from = a + (b - a) * begin, to = a + (b - a) * end, middle = (from + to) * 0.5;
+    // Half an ellipse over the cut side, low enough to stay within the triangle.
+    const Vec2d up{-(b - a).y / length(b - a), (b - a).x / length(b - a)};
+    const double low = 0.4 * height * std::min(begin, 1 - end);
+    Contours contours(1);
+    contours[0] = {a, from};
+    for (int k = 1; k < 24; ++k) {
+      const double angle = 3.14159265358979324 * k / 24;
+      contours[0].push_back(middle + (from - middle) * std::cos(angle) + up * (low * std::sin(angle)));
+    }
+    contours[0].insert(contours[0].end(), {to, b, c});
+    ASSERT_TRUE(triangles_of(contours)) << trial;
+    EXPECT_NEAR(covered(contours), area(contours), 1e-13) << trial;
+  }
+}
+
 TEST(ViewTriangles, RefuseOutlinesThatCrossOrTouchThemselves) {
   EXPECT_FALSE(triangles_of({}));
   EXPECT_FALSE(triangles_of({{{0, 0}, {1, 0}}}));

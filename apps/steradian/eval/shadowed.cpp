@@ -6,6 +6,7 @@
 #include "integrals/curved_light.h"
 #include "integrals/point_light.h"
 #include "integrals/textured/profiled_light.h"
+#include "reference/past_occluders.h"
 #include "reference/sampled.h"
 #include "shadow/edges/bodies.h"
 #include "shadow/region/round_light.h"
@@ -17,7 +18,6 @@ namespace steradian::eval {
 namespace {
 
 constexpr double kLift = 1e-9, kLiftInFloat = 1e-6;
-constexpr int kRoundReference = 512;
 constexpr int kProfileCells = 1024, kProfileCorners = 96;
 constexpr double kBeforeTheLight = 1e-9;  // fraction of the way that is left out, so that nothing at the surface itself blocks
 constexpr double kFar = 1e9;              // distance to parallel light
@@ -60,6 +60,18 @@ RadianceResult over_visible(const PreparedPolygon& light, const shadow::Viewpoin
   return entry.polygon(shadow::visible_part(light, occluders, from, lift, body), at, m, options);
 }
 
+// By quadrature over the light's true surface.
+RadianceResult reference_past(const Query& query, const AreaLight& light, const ShadingPoint& at, const Material& m,
+                              const EmissionFactor& emission = {}) {
+  const shadow::EdgeMesh& mesh = query.occluders->mesh;
+  std::vector<reference::Blocker> blockers;
+  for (const auto& [a, b, c] : mesh.triangles) blockers.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  // A profile's table has kinks all over the light, and every triangle makes some.
+  const ReferenceOptions options = emission ? ReferenceOptions{1e-7, 0, 4'000'000} : ReferenceOptions{1e-9, 1e-13, 20'000'000};
+  const ReferenceResult r = reference::radiance_past(blockers, light, at, query.geometric_normal.value_or(at.normal), m, options, emission);
+  return {r.radiance, r.bound, std::nullopt, Method::reference};
+}
+
 // The viewpoint of the query's point.
 shadow::Viewpoint viewpoint_of(const Query& query) {
   const Vec3d geometric = query.geometric_normal.value_or(query.normal);
@@ -85,8 +97,7 @@ RadianceResult profiled_answer(const Query& query, const AreaLight& light, const
     return answer_of(sampled_past(query, bright, from, at, m, {options.spp, options.seed, methods::emission_factor(*light.emission)}),
                      entry.method);
   }
-  if (entry.method == Method::reference)
-    throw Error("method", std::string(entry.name) + " has no profiles past occluders", "leave occluders or the profile out, or use auto");
+  if (entry.method == Method::reference) return reference_past(query, light, surface, m, methods::emission_factor(*light.emission));
   RadianceResult answer = shadowed_answer(query, even, surface, m, entry, options,
                                           [&] { return methods::curved_light_answer(even, surface, m, entry, options); });
   const double integral = std::max({answer.radiance.x, answer.radiance.y, answer.radiance.z});
@@ -123,13 +134,13 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
   if (light.emission) return profiled_answer(query, light, surface, m, entry, options);
   if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
   if (entry.method == Method::sampled) return answer_of(sampled_past(query, light, from, at, m, {options.spp, options.seed}), entry.method);
+  if (entry.method == Method::reference) return reference_past(query, light, surface, m);
   if (std::holds_alternative<Polygon>(light.shape)) {
     const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
     if (polygon.vertices.empty()) return methods::nothing(entry.method);
     return over_visible(polygon, from, *query.occluders, nullptr, at, m, entry, options);
   }
-  const bool judge = entry.method == Method::reference;
-  const int corners = judge ? kRoundReference : options.quality == Quality::high ? 48 : 24;
+  const int corners = options.quality == Quality::high ? 48 : 24;
   const std::optional<Body> body = Body::of(light.shape);
   std::optional<shadow::Occluders> cut;
   if (body && shadow::may_enter(query.occluders->mesh, {&*body, 1})) cut.emplace(query.occluders->cut_by(*body));
@@ -139,10 +150,8 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
   for (const PreparedPolygon& polygon : polygons_of(light, from.position, corners)) {
     const RadianceResult r = over_visible(polygon, from, occluders, body ? &*body : nullptr, at, m, entry, options);
     part.radiance += r.radiance;
-    if (r.bound) part.bound = part.bound.value_or(0) + *r.bound;
-    if (!judge) all += entry.polygon(polygon, at, m, options).radiance;
+    all += entry.polygon(polygon, at, m, options).radiance;
   }
-  if (judge) return part;
   const auto share = [](double a, double b) { return b > 0 ? a / b : 0.0; };
   RadianceResult answer = unoccluded();
   answer.radiance = answer.radiance * Vec3d{share(part.radiance.x, all.x), share(part.radiance.y, all.y), share(part.radiance.z, all.z)};

@@ -11,8 +11,9 @@ namespace steradian::eval {
 // The radiance that one lobe sends to the view from one of the query's lights behind query.occluders, by a method of the table. The point
 // is moved off its surface along the geometric normal. Nothing below that normal's horizon arrives.
 //
-// Polygons: the visible part is exact, and the method integrates over it; `sampled` traces rays. Round lights: the value without occluders
-// times the visible fraction of a polygon of 24 corners (quality high: 48); `reference` and `sampled` use a polygon of 512 corners.
+// Polygons: the visible part is exact, and the method integrates over it. Round lights: the value without occluders times the visible
+// fraction of a polygon of 24 corners (quality high: 48). `reference` and `sampled` share none of it: they take the light's true surface
+// and every triangle, by quadrature and by rays.
 RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& at, const Material& material,
                                const methods::Row& entry, const RadianceOptions& options,
                                const std::function<RadianceResult()>& unoccluded);
