@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "integrals/methods.h"
+#include "integrals/point_light.h"
 #include "render/direct/lobe_packs.h"
 #include "steradian/ellipse_light.h"
 #include "support/random_configurations.h"
@@ -186,6 +187,40 @@ TEST(LobePacks, NeighboursNextToTheRimChangeNothing) {
         if (i % 3 == 0) continue;
         EXPECT_NEAR(with[i], without[i], 1e-5f * (1 + with[i])) << c.name << " " << name_of(simd) << " " << i;
       }
+    }
+}
+
+// A light without extent is the lobe of the tables in one direction.
+TEST(LobePacks, FollowOnePointAtATimeUnderPunctualLights) {
+  Random random(33);
+  Cloud cloud = any_cloud(random);
+  PunctualLight lamp;
+  lamp.position = {0.3, -0.2, 1.5};
+  PackLight light;
+  light.shape = packed::prepare(lamp);
+  std::vector<float> plain(kPoints), fresnel(kPoints);
+  for (const auto& [method, quality] :
+       {std::pair{Method::ltc, Quality::normal}, {Method::ltc, Quality::high}, {Method::ltc_compact, Quality::normal}})
+    for (const Simd simd : available_simd()) {
+      const LtcPackTables tables = ltc_pack_tables(method, quality);
+      lobe_packs_for(simd).punctual_ltc(light, cloud.points(), {{}, {method, quality}, &tables}, {plain.data(), fresnel.data()});
+      int lit = 0;
+      double worst = 0;
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        Material m;
+        m.brdf = Brdf::ggx;
+        m.alpha_x = m.alpha_y = static_cast<double>(cloud.of(12)[i]);
+        m.f0 = {0.5, 0.5, 0.5};
+        m.f90 = {1, 1, 1};
+        const PointLight point = {lamp.position, {1, 1, 1}};
+        const double truth = methods::point_light_radiance(point, cloud.point(i), m, methods::row_of(method), {method, quality}).x;
+        const double p = static_cast<double>(plain[i]), f = static_cast<double>(fresnel[i]);
+        worst = std::max(worst, std::fabs(0.5 * (p - f) + f - truth) / (truth + 0.01));
+        lit += truth > 1e-3;
+      }
+      EXPECT_GT(lit, 100);
+      // Single precision, and lobes up to 20 times as narrow as a cosine.
+      EXPECT_LT(worst, 1e-4) << name_of(method) << " " << name_of(simd);
     }
 }
 
