@@ -79,8 +79,8 @@ enum class Share : std::uint8_t {
 };
 
 // For each light: its treatment, and the error of irradiance for radiance 1. `plain` is the base error, `grazing` is added for each unit
-// of Fresnel loss. `most` is the largest irradiance. All three apply to elements: outlines only have rounding errors, and those differ from
-// receiver to receiver.
+// of Fresnel loss. `most` is the largest irradiance in a polynomial. All three apply to elements: outlines only have rounding errors, and
+// those differ from receiver to receiver.
 struct Judged {
   Share* share;
   float *plain, *grazing, *most;
@@ -90,11 +90,8 @@ struct Judged {
 inline constexpr float kUnit = 0x1p-24f;
 
 // Rounding of a light's irradiance vector, as a fraction of the light's largest irradiance, for elements: arithmetic takes a few dozen
-// roundings. Positions are rounded by units of their coordinates, which turns the light and changes its distance. The same, with the slope
-// 2 of far_light.glsl, covers the light that a point has no side of (packed::kRounding2).
-//
-//   places    lengths of the positions of light and receiver together, over their least distance
-inline constexpr float kRoundings = 32, kRoundingsOfPlaces = 24;
+// roundings. A light's place is rounded by a unit of its coordinates, with the slope 2 of far_light.glsl over the least distance.
+inline constexpr float kRoundings = 32, kRoundingsOfPlaces = 2;
 
 // The same for an outline, as a fraction of the angle that it subtends along its edges. Round lights have formulas of their own.
 inline constexpr float kRoundingsOfRound = 256;

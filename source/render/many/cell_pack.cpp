@@ -115,8 +115,7 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const PackReal with_four = k.far_error_of_four(of(far.third), of(far.fourth), of(far.symmetric) > PackReal(0.5), r2);
   const PackReal nodes = j.over_axes([&](int n, const PackReal& half) { return k.far_error_of_nodes(n, half, r); });
   const PackReal growth(j.lebesgue_xyz);
-  const PackReal rounding =
-      PackReal(kUnit) * (PackReal(kRoundings) + PackReal(kRoundingsOfPlaces) * (distance + PackReal(2.0) * j.magnitude) / r);
+  const PackReal rounding = PackReal(kUnit) * (PackReal(kRoundings) + PackReal(kRoundingsOfPlaces) * (distance + j.magnitude) / r);
 
   // Error of one element of a flat light that the horizon may cut (far_error_across_horizon).
   const PackVec3 reach_a = of(far.reach_a), reach_b = of(far.reach_b);
@@ -161,9 +160,11 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   // The offers run from the most expensive to the cheapest.
   const auto offer = [&](const Mask& possible, const Vec2<PackReal>& e, Share share, const PackReal& most) {
     const Mask takes = possible && e.x + j.loss * e.y < most;
-    const PackReal with_rounding = e.x + rounding * (share == Share::one || share == Share::four ? growth : one);
+    const bool together = share == Share::one || share == Share::four;
+    // Points and balls at the receivers have their rounding there: add_elements.
+    const PackReal with_rounding = e.x + (together ? rounding * growth : select(flat, rounding, zero));
     v = {select(takes, code(share), v.share), select(takes, weight * with_rounding, v.plain), select(takes, weight * e.y, v.grazing),
-         select(takes, weight, v.most)};
+         select(takes, together ? weight : zero, v.most)};
   };
   offer(clear && flat, four_at_points, Share::four_at_points, allowed);
   // Next to a light even a small fraction of the most it can send is much. Lights that a horizon cuts err in one direction: half as much
@@ -441,7 +442,6 @@ __attribute__((flatten)) void add_elements(const Elements& elements, Receivers& 
     const PackReal loss = load(points.fresnel_loss + i);
     const bool lossy = any_lane(loss > PackReal(0.0));
     const PackReal sky = k.lambert_grazing_of_sky(dot(n, v));
-    const PackReal places = sqrt(dot(p, p));
     PackVec3 total(0.0, 0.0, 0.0), sum(0.0, 0.0, 0.0), rounding(0.0, 0.0, 0.0);
     const auto end_part = [&] {
       total = total + sum;
@@ -465,7 +465,7 @@ __attribute__((flatten)) void add_elements(const Elements& elements, Receivers& 
       const PackVec3 r = broadcast(e.center) - p;
       const Sent sent = from_ball(broadcast(e.area.x), r);
       add(sent, r, e.radiance);
-      const PackReal of_places = PackReal(kRoundingsOfPlaces) * (broadcast(length(e.center)) + places) * sent.inverse;
+      const PackReal of_places = PackReal(kRoundingsOfPlaces) * broadcast(length(e.center)) * sent.inverse;
       const PackReal most = broadcast(e.area.x) * (sent.inverse * sent.inverse);
       rounding = rounding + broadcast(e.radiance) * (most * (PackReal(kRoundings) + of_places));
     };
@@ -492,13 +492,31 @@ __attribute__((flatten)) void add_outline(const FarLights& far, std::uint32_t nu
   const Vec3f middle = at(far.center), radiance = at(far.radiance);
   const PackVec3 center = broadcast(middle), normal = broadcast(at(far.normal)), light = broadcast(radiance);
   const PackReal radius = broadcast(far.radius[number]), outline = broadcast(far.outline[number]), places = broadcast(length(middle));
-  const PackReal roundings(far.is_flat[number] > 0 && far.lights[number]->is_polygon() ? kRoundings : kRoundingsOfRound);
+  const bool is_flat = far.is_flat[number] > 0;
+  const PackReal of_arithmetic(is_flat && far.lights[number]->is_polygon() ? kRoundings : kRoundingsOfRound);
+  const PackReal of_places = PackReal(kRoundingsOfPlaces) * (places + radius);
+  // Rounded corners tilt the light's plane; no edge subtends more than pi.
+  const PackReal tilt = PackReal(kUnit) * of_places * outline / max(broadcast(far.area[number]), PackReal(1e-30));
+  const auto* polygon = std::get_if<packed::Polygon>(&far.lights[number]->shape);
+  const PackReal edges(3.14159265 * static_cast<double>(polygon != nullptr ? polygon->vertices.size() : 2));
   for (std::size_t i = 0; i < receivers.filled; i += kLanes) {
     const PackVec3 p = vector_at(arrays_of(receivers.position), i), from = p - center;
-    const PackReal least = max(sqrt(dot(from, from)) - radius, abs(dot(from, normal)));
+    const PackReal height = dot(from, normal), least = max(sqrt(dot(from, from)) - radius, abs(height));
     const PackReal inverse = PackReal(1.0) / max(least, PackReal(1e-9));
-    const PackReal of_places = PackReal(kRoundingsOfPlaces) * (sqrt(dot(p, p)) + places) * inverse;
-    const PackReal rounding = min(PackReal(kUnit) * (outline * inverse) * (roundings + of_places), PackReal(3.14159265));
+    PackReal roundings = of_places * inverse;
+    // The plane of a flat light is a band without a side (packed::kRounding2): what the light sends there is missing.
+    if (is_flat) {
+      const PackReal band2 = PackReal(packed::kRounding2) * (dot(p, p) + places * places) * PackReal(1.01);
+      roundings = roundings + select(height * height <= band2, sqrt(band2) * inverse * PackReal(1 / kUnit), PackReal(0.0));
+    }
+    // Behind its plane and above the horizon, the directions to a one-sided light lie between two planes: their cosines are small.
+    PackReal most(3.14159265);
+    if (is_flat && !(far.two_sided[number] > 0)) {
+      const PackVec3 apart = vector_at(arrays_of(receivers.normal), i) - normal;
+      most = min(most, PackReal(6.2831853) * (sqrt(dot(apart, apart)) + tilt));
+    }
+    const PackReal angle = outline * inverse;
+    const PackReal rounding = PackReal(kUnit) * of_arithmetic * min(angle, edges) + min(PackReal(kUnit) * angle * roundings, most);
     const PackReal irradiance = load(sent + i);
     const auto put = [&](TilePlane& to, TilePlane& error, const PackReal& r) {
       store(to.data() + i, load(to.data() + i) + r * irradiance);

@@ -241,14 +241,14 @@ void ManyLights::add_to_some(ReceiverSpan points, const Cell& cell, Numbers exac
   for (std::size_t k = 0; k < exact.count; ++k) add_outline(exact[k], cell, receivers);
   if (!elements.empty()) packs_.add_elements(elements, receivers);
   // Sums over lights, and a sum over the nodes for each fit and for the receiver.
-  const auto of_most = kUnit * (static_cast<float>(kPart + far_.count / kPart) +
-                                static_cast<float>(2 * kMostNodes * lebesgue(cell.grid)) * static_cast<float>(outer.fits));
+  const auto of_sums = static_cast<float>(kPart + far_.count / kPart);
+  const float of_most = kUnit * (of_sums + static_cast<float>(2 * kMostNodes * lebesgue(cell.grid)) * static_cast<float>(outer.fits));
   Received* received = work.received + (points.data() - work.first);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3f lobe = points[k].albedo * std::numbers::inv_pi_v<float>;
     const Vec3f irradiance = get(receivers.irradiance, k);
     const Vec3f rounding =
-        get(receivers.rounding, k) + outer.bound.most * of_most + irradiance * (kUnit * static_cast<float>(exact.count + 8));
+        get(receivers.rounding, k) + outer.bound.most * of_most + irradiance * (kUnit * (of_sums + static_cast<float>(exact.count + 8)));
     received[k] = {lobe * irradiance, lobe * (outer.bound.plain + outer.bound.grazing * receivers.loss[k] + rounding)};
   }
 }
