@@ -25,7 +25,7 @@ Vec3d direction(Random& random) {
 }
 
 // Receivers on a patch of a plane, and lights about it.
-struct Field {
+struct LightField {
   Scene scene;
   lights::ReceiverSet receivers;
   double error = 0;
@@ -33,8 +33,8 @@ struct Field {
 };
 
 // Lights in the receivers' plane, across it, parallel above it, and anywhere; radiances over eight orders of magnitude.
-Field any_field(Random& random) {
-  Field field;
+LightField any_field(Random& random) {
+  LightField field;
   const char* const kKinds[] = {"in the plane", "across the plane", "nearly in the plane", "above the plane", "anywhere"};
   const auto kind = static_cast<std::size_t>(random.uniform(0, 5));
   field.kind = kKinds[kind];
@@ -79,20 +79,20 @@ Field any_field(Random& random) {
   return field;
 }
 
-struct Judged {
+struct FieldVerdict {
   double over = 0;   // largest error over its bound
   double error = 0;  // the error there, over the largest light of a receiver
   double bound = 0;
   int beyond = 0;  // receivers beyond their bound
 };
 
-Judged judge(Field& field) {
+FieldVerdict judge(LightField& field) {
   const std::vector<PackLight> prepared = prepare_lights(field.scene);
   const lights::ManyLights many(prepared, {0, 100, 0}, static_cast<float>(field.error));
   const auto work = lights::ManyLights::make_work();
   many.add_diffuse(field.receivers, *work);
   Material lambert;
-  Judged judged;
+  FieldVerdict judged;
   std::vector<double> truths;
   for (const lights::Receiver& q : field.receivers.points) {
     const ShadingPoint at = {static_cast<Vec3d>(q.position), static_cast<Vec3d>(q.normal), static_cast<Vec3d>(q.normal)};
@@ -119,8 +119,8 @@ TEST(ManyLightsTruth, NoReceiverIsBeyondItsBound) {
   const int fields = test::by_day_or_night(60, 600);
   int beyond = 0;
   for (int i = 0; i < fields; ++i) {
-    Field field = any_field(random);
-    const Judged judged = judge(field);
+    LightField field = any_field(random);
+    const FieldVerdict judged = judge(field);
     beyond += judged.beyond > 0;
     EXPECT_EQ(judged.beyond, 0) << i << ": lights " << field.kind << ", " << field.scene.area_lights.size() << ", error " << field.error
                                 << ", over bound " << judged.over << ", error " << judged.error << " bound " << judged.bound;
