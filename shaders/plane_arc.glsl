@@ -22,6 +22,7 @@ struct Arc {
     float inverse_d2;
     float det;
     vec2 ramp;
+    float ramp_at_center;
     float inverse_range;
     int profile;
     bool linear;
@@ -34,7 +35,7 @@ float place_on_arc(Arc arc, vec2 axis, float m) {
     return s / (1.0 + sqrt(max(1.0 - s * s, 0.0)));
 }
 
-// Light that arrives from a place, and the same times the ramp.
+// Weights of the radiance at both ends of the ramp, for the light from a place.
 vec2 arc_node(Arc arc, float z) {
     float over = 1.0 / (1.0 + z * z);
     float s = 2.0 * z * over;
@@ -57,7 +58,9 @@ vec2 arc_node(Arc arc, float z) {
         float window = max(1.0 - t * t * m2 * arc.inverse_range * arc.inverse_range, 0.0);
         weight *= window * window;
     }
-    return vec2(weight, arc.linear ? weight * dot(from_unit(arc.shape, hit), arc.ramp) : 0.0);
+    if (!arc.linear) return vec2(weight, 0.0);
+    float share = clamp(dot(from_unit(arc.shape, hit), arc.ramp) + arc.ramp_at_center, 0.0, 1.0);
+    return weight * vec2(1.0 - share, share);
 }
 
 vec2 arc_integral(Arc arc, float from, float to) {
@@ -85,7 +88,8 @@ vec2 arc_integral(Arc arc, float from, float to) {
         vec2 part = half_length * kronrod;
         vec2 off = abs(half_length * (kronrod - gauss));
         vec2 null_off = abs(half_length * null_rule);
-        float scale = arc.profile == 2 ? abs(part.x) : max(1.0, abs(part.x));
+        float own = part.x + part.y;
+        float scale = arc.profile == 2 ? own : max(1.0, own);
         bool good = max(off.x, off.y) <= 2.0e-4 * scale && max(null_off.x, null_off.y) <= 1.2e-4 * scale;
         kronrod = vec2(0.0);
         gauss = vec2(0.0);
@@ -109,7 +113,7 @@ vec2 arc_integral(Arc arc, float from, float to) {
 }
 
 vec3 arc_light(uint at) {
-    uint own = at + uint(kLightArc);  // ends, ends and middle in unit space, least cosine, whole, between tangents, det, ramp
+    uint own = at + uint(kLightArc);  // ends, ends and middle in unit space, least cosine, whole, between tangents, det, ramp, its value at the centre
     Arc arc;
     arc.shape = round_at(at + uint(kLightShape));
     arc.unit = to_unit(arc.shape, eye - arc.shape.center);
@@ -117,6 +121,7 @@ vec3 arc_light(uint at) {
     arc.inverse_d2 = 1.0 / arc.d2;
     arc.det = number(own + 13u);
     arc.ramp = pair_of_numbers(own + 14u);
+    arc.ramp_at_center = number(own + 16u);
     arc.inverse_range = number(at + uint(kLightInverseRange));
     arc.profile = int(lists[at + uint(kLightProfile)]);
     arc.linear = lists[at + uint(kLightLinear)] == 1u;
@@ -150,10 +155,13 @@ vec3 arc_light(uint at) {
         if (to > from) {
             if (plain)
                 sum.x += trig_atan2_unwrapped(to - from, 1.0 + from * to);
-            else
-                sum += arc_integral(arc, place_on_arc(arc, axis, from), place_on_arc(arc, axis, to));
+            else {
+                // A narrow part that rounding reverses is empty.
+                float first = place_on_arc(arc, axis, from);
+                sum += arc_integral(arc, first, max(place_on_arc(arc, axis, to), first));
+            }
         }
         from = after_gap(k, from);
     }
-    return (colour_at(at + uint(kLightColour)) * sum.x + colour_at(at + uint(kLightSlope)) * sum.y) * inverse_two_pi();
+    return (colour_at(at + uint(kLightColour)) * sum.x + colour_at(at + uint(kLightColourEnd)) * sum.y) * inverse_two_pi();
 }

@@ -91,7 +91,9 @@ void take_lens(uint at, uint light, vec2 axis) {
     for (int i = 0; i < count; i++) {
         uint c = crossings + uint(i * kCrossing);
         vec2 v = pair_of_numbers(c) - eye;
-        seen[i] = dot(v, pair_of_numbers(c + 2u)) < 0.0 && dot(v, pair_of_numbers(c + 4u)) < 0.0;
+        // One that rounding hides counts: it is at the end of what is visible, and decides the order there.
+        float slack = 1.0e-5 * (abs(v.x) + abs(v.y));
+        seen[i] = dot(v, pair_of_numbers(c + 2u)) < slack && dot(v, pair_of_numbers(c + 4u)) < slack;
         vec2 along = along_axis(axis, v);
         places[i] = slope(along.x, along.y, 0.0);
         any_seen = any_seen || seen[i];

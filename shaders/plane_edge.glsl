@@ -49,43 +49,68 @@ struct Emission {
     int profile;
 };
 
-// Integrals over slopes: light at the edge's foot, and its change along the edge.
-vec2 edge_integral(Edge e, Emission emission, float from, float to) {
+// Gauss-Legendre, three nodes.
+const float kOuterNode = 0.774596669241483377;
+
+// A node, -1 to 1, and its weight, of number 0, 1 or 2.
+vec2 gauss_node(int i) { return i == 1 ? vec2(0.0, 8.0 / 9.0) : vec2(i == 0 ? -kOuterNode : kOuterNode, 5.0 / 9.0); }
+
+// Integral of a power of the cosine, 0 or 1, without a difference that cancels.
+float cosine_integral(int power, float from, float to) {
+    float product = from * to;
+    if (power == 0) return trig_atan2_unwrapped(to - from, 1.0 + product);
+    float c0 = inversesqrt(1.0 + from * from);
+    float c1 = inversesqrt(1.0 + to * to);
+    float c = c0 * c1;
+    return product > 0.0 ? (to - from) * c * (c0 + c1) / (1.0 + (1.0 + product) * c) : to * c1 - from * c0;
+}
+
+// Weights of the radiance at both ends of an edge, for its light between two slopes. x is enough if its radiance is the same everywhere.
+vec2 edge_integral(Edge e, float edge_length, Emission emission, float from, float to) {
     int power = emission.profile == 0 ? 0 : 1;
-    vec2 sum = vec2(0.0);
-    // Adds plane_edge_integral's terms one by one, so that drivers compile only one. A range has the terms 1, -2 q and q^2, times powers
-    // that fall by 2.
+    float share_at_foot = (e.foot - e.begin) / edge_length;
+    float share_by_slope = e.d / edge_length;
+    float half_width = 0.5 * (to - from);
+    float middle = 0.5 * (from + to);
+    float nearest = max(max(from, -to), 0.0);
+    if (half_width * half_width <= 0.01 * (1.0 + nearest * nearest)) {
+        vec2 sum = vec2(0.0);
+        for (int i = 0; i < 3; i++) {
+            vec2 node = gauss_node(i);
+            float t = middle + node.x * half_width;
+            float sec2 = 1.0 + t * t;
+            float weight = half_width * node.y / sec2;
+            if (power == 1) weight *= inversesqrt(sec2);
+            if (emission.ranged) {
+                float window = 1.0 - e.q * sec2;
+                weight *= window * window;
+            }
+            float share = clamp(share_at_foot + share_by_slope * t, 0.0, 1.0);
+            sum += emission.linear ? weight * vec2(1.0 - share, share) : vec2(weight, 0.0);
+        }
+        return sum;
+    }
+    // The measure and the integral of the slope. Adds plane_edge_integral's terms one by one, so that drivers compile only one. A range has
+    // the terms 1, -2 q and q^2, times powers that fall by 2.
+    vec2 sum = vec2(cosine_integral(power, from, to), 0.0);
     int terms = emission.ranged ? 3 : 1;
     int degrees = emission.linear ? 2 : 1;
     for (int i = 0; i < 2 * terms * degrees; i++) {
         float t = (i & 1) == 0 ? from : to;
         int degree = (i >> 1) % degrees;
         int term = (i >> 1) / degrees;
+        if (degree == 0 && term == 0) continue;
         float share = term == 0 ? 1.0 : term == 1 ? -2.0 * e.q : e.q * e.q;
-        float value = ((i & 1) == 0 ? -share : share) * plane_term(degree, power - 2 * term, t, trig_atan2(t, 1.0));
+        float value = ((i & 1) == 0 ? -share : share) * plane_term(degree, power - 2 * term, t, t);
         if (degree == 0)
             sum.x += value;
         else
             sum.y += value;
     }
-    return sum;
-}
-
-// For an edge that every pixel sees as small, with uniform or linear radiance and no range. Between two of its points, at distances r0 and
-// r1, the angle is atan(cross / dot). ln(r1 / r0), the integral of tan f, is atanh((r1^2 - r0^2) / (r1^2 + r0^2)). Both arguments are
-// below 1/5, so the first term that the series omit is x^9 / 9 < 6e-8.
-float odd_series(float x, float sign_of_thirds) {
-    float x2 = x * x;
-    return x * (1.0 + x2 * (sign_of_thirds / 3.0 + x2 * (0.2 + x2 * (sign_of_thirds / 7.0))));
-}
-
-// Returns the angle and the logarithm. a, b: two points of the edge, relative to the pixel.
-vec2 small_sums(vec2 a, vec2 b) {
-    vec2 along = b - a;
-    vec2 twice = a + b;
-    // r1^2 - r0^2 and r1^2 + r0^2, without squares that cancel.
-    return vec2(odd_series(cross2(a, b) / dot(a, b), -1.0),
-                odd_series(dot(along, twice) / (0.5 * (dot(twice, twice) + dot(along, along))), 1.0));
+    if (!emission.linear) return sum;
+    float place = min(max(sum.y / max(sum.x, smallest_divisor()), from), to);
+    float share = clamp(share_at_foot + share_by_slope * place, 0.0, 1.0);
+    return sum.x * vec2(1.0 - share, share);
 }
 
 // Fraction of the edge at which a slope of the run's axis meets it.
@@ -95,35 +120,41 @@ float share_at(float m, vec2 begin, vec2 end) {
     return clamp(g0 / max(g0 - g1, smallest_divisor()), 0.0, 1.0);
 }
 
+// Light of an edge that every pixel sees as small, with linear radiance and no range. From one end of it by the vector `along`, the angle
+// grows by cross / r^2, which is smooth.
 vec3 small_part_light(uint part, vec2 run_axis, bool whole) {
-    vec2 normal = pair_of_numbers(part + 2u);
     vec2 begin = pair_of_numbers(part + 12u) - eye;
-    vec2 end = pair_of_numbers(part + 14u) - eye;
+    vec2 along = pair_of_numbers(part + 14u) - pair_of_numbers(part + 12u);
     vec2 seen_begin = along_axis(run_axis, begin);
-    vec2 seen_end = along_axis(run_axis, end);
+    vec2 seen_end = seen_begin + along_axis(run_axis, along);
     vec2 sum = vec2(0.0);
     float from = low;
     for (int k = 0; k <= taken; k++) {
         float to = gap_end(k);
         float first = whole ? 0.0 : share_at(from, seen_begin, seen_end);
         float last = whole ? 1.0 : share_at(to, seen_begin, seen_end);
-        if (to > from && last > first) sum += small_sums(begin + first * (end - begin), begin + last * (end - begin));
+        if (to > from && last > first) {
+            for (int i = 0; i < 3; i++) {
+                vec2 node = gauss_node(i);
+                float share = 0.5 * (first + last) + 0.5 * (last - first) * node.x;
+                vec2 at = begin + share * along;
+                sum += 0.5 * (last - first) * node.y / dot(at, at) * vec2(1.0 - share, share);
+            }
+        }
         from = after_gap(k, from);
     }
-    sum *= inverse_two_pi();
-    // The direction towards the edge is against its normal; the direction along the edge is (y, -x) of that.
-    float foot = cross2(normal, begin);
-    float d = -dot(normal, begin);
-    return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * (foot * sum.x + d * sum.y);
+    sum *= max(cross2(begin, along), 0.0) * inverse_two_pi();
+    return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * sum.y;
 }
 
-// Light from one edge of a run, or from an edge that is its own run, over the slopes left of the run's chord.
+// Light from one edge of a run, or from an edge on its own, over the slopes left of the run's chord.
 vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range) {
     Edge e = edge_of(pair_of_numbers(part), pair_of_numbers(part + 2u), number(part + 4u), inverse_range);
     // An edge of a run may face away.
     if (!(e.d > 1.0e-6)) return vec3(0.0);
-    float own_low = slope_along(e, number(part + 4u));
-    float own_high = slope_along(e, number(part + 5u));
+    float end = number(part + 5u);
+    float own_low = slope_along(e, e.begin);
+    float own_high = slope_along(e, end);
     if (emission.ranged) {
         float reach = reach_of(e);
         own_low = max(own_low, -reach);
@@ -143,13 +174,13 @@ vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range
             bool ahead = a.x > 1.0e-12 || b.x > 1.0e-12;
             float own_from = max(slope(a.x, a.y, -kBeyond), own_low);
             float own_to = min(slope(b.x, b.y, kBeyond), own_high);
-            if (ahead && own_to > own_from) sum += edge_integral(e, emission, own_from, own_to);
+            if (ahead && own_to > own_from) sum += edge_integral(e, end - e.begin, emission, own_from, own_to);
         }
         from = after_gap(k, from);
     }
     sum *= inverse_two_pi();
     if (emission.profile == 2) sum *= e.inverse_d;
-    return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * ((e.foot - e.begin) * sum.x + sum.y * e.d);
+    return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * sum.y;
 }
 
 // An edge that emits equally in all directions and at all distances has no parts. Neither has a chord that replaces such edges.

@@ -28,19 +28,11 @@ void put_disks(Words& to, const TileDisk* disks, int count) {
   for (int i = 0; i < count; ++i) put(to, disks[i].x, disks[i].y, disks[i].radius);
 }
 
-// An edge that is no run but depends on direction or distance is its own only part.
-bool is_own_part(const TileLight& light) {
-  return light.kind == TileKind::edge && light.part_count == 0 && (light.inverse_range > 0 || light.linear || light.profile != 0);
-}
-
 void put_parts(Words& to, const TileLight& light) {
-  if (is_own_part(light))
-    put(to, light.x, light.y, light.nx, light.ny, light.begin, light.end, light.red, light.green, light.blue, light.red_slope,
-        light.green_slope, light.blue_slope, 0, 0, 0, 0, 0);
   for (int i = 0; i < light.part_count; ++i) {
     const TilePart& p = light.parts[i];
-    put(to, p.x, p.y, p.nx, p.ny, p.begin, p.end, p.red, p.green, p.blue, p.red_slope, p.green_slope, p.blue_slope, p.from_x, p.from_y,
-        p.to_x, p.to_y,
+    put(to, p.x, p.y, p.nx, p.ny, p.begin, p.end, p.red, p.green, p.blue, p.red_end, p.green_end, p.blue_end, p.from_x, p.from_y, p.to_x,
+        p.to_y,
         !p.small               ? 0
         : light.all_parts_seen ? kSmallAndSeen
                                : kSmallPart);
@@ -50,15 +42,15 @@ void put_parts(Words& to, const TileLight& light) {
 // The order is that of shaders/plane_layout.glsl.
 void put_header(Words& to, const TileLight& light) {
   put(to, static_cast<int>(light.kind), light.x, light.y, light.radius, light.nx, light.ny, light.begin, light.end, light.inverse_range,
-      light.red, light.green, light.blue, light.red_slope, light.green_slope, light.blue_slope, light.profile, light.linear);
+      light.red, light.green, light.blue, light.red_end, light.green_end, light.blue_end, light.profile, light.linear);
   const TileSpot& spot = light.spot;
   put(to, !spot.present ? 0 : spot.wide ? 2 : 1, spot.low_x, spot.low_y, spot.high_x, spot.high_y);
   put_round(to, light.shape);
-  put(to, light.part_count + (is_own_part(light) ? 1 : 0), light.low_count, light.high_count, light.low_disk_count, light.high_disk_count,
-      light.disk_count, light.span_count, light.body_count, light.chord_count, light.deep_count, light.round_count, light.lens_count);
+  put(to, light.part_count, light.low_count, light.high_count, light.low_disk_count, light.high_disk_count, light.disk_count,
+      light.span_count, light.body_count, light.chord_count, light.deep_count, light.round_count, light.lens_count);
   const TileArc& a = light.arc;
   put(to, a.x0, a.y0, a.x1, a.y1, a.u0, a.v0, a.u1, a.v1, a.um, a.vm, a.least_cosine, a.whole, a.between_tangents, a.det, a.ramp_x,
-      a.ramp_y);
+      a.ramp_y, a.ramp_c);
 }
 
 void put_lists(Words& to, const TileLight& light) {

@@ -372,7 +372,7 @@ class Solver {
   PlaneBounceStats stats_;
 };
 
-// Calls f with every visible piece of a wall that reflects.
+// Calls f with every visible piece of a wall that reflects, and the place from which it is seen.
 template <class F>
 void for_each_wall(const PlaneBounces::Impl& bounces, Vec2d p, F f) {
   const World& world = *bounces.world;
@@ -381,8 +381,8 @@ void for_each_wall(const PlaneBounces::Impl& bounces, Vec2d p, F f) {
   thread_local std::vector<const Curve*> curves;
   curves.clear();
   for (const Curve& c : world.curves) curves.push_back(&c);
-  for (const Visible& v : lower_envelope(curves, p, world.scene.bodies, {-1}))
-    if (bounces.elements.reflects(v, world)) f(v);
+  for (const Visible& v : lower_envelope(curves, inside.at, world.scene.bodies, {-1}))
+    if (bounces.elements.reflects(v, world)) f(v, inside.at);
 }
 
 }  // namespace
@@ -416,9 +416,9 @@ PlaneLight PlaneBounces::query(Vec2d position) const {
   const Vec2d p = position * impl_->world->scale, axes[2] = {{1, 0}, {0, 1}};
   PlaneLight sum;
   Vec3d* parts[3] = {&sum.radiance, &sum.moment_x, &sum.moment_y};
-  plane::for_each_wall(*impl_, p, [&](const plane::Visible& v) {
+  plane::for_each_wall(*impl_, p, [&](const plane::Visible& v, Vec2d from) {
     for (int k = 0; k < 3; ++k)
-      plane::weigh(*impl_->world, impl_->elements, v, p, k == 0 ? nullptr : &axes[k - 1], [&](std::size_t i, double w0, double w1) {
+      plane::weigh(*impl_->world, impl_->elements, v, from, k == 0 ? nullptr : &axes[k - 1], [&](std::size_t i, double w0, double w1) {
         const plane::Element& e = impl_->elements.all()[i];
         *parts[k] += (e.constant * w0 + e.slope * w1) / (2 * std::numbers::pi);
       });
@@ -429,8 +429,8 @@ PlaneLight PlaneBounces::query(Vec2d position) const {
 Vec3d PlaneBounces::error(Vec2d position) const {
   const Vec2d p = position * impl_->world->scale;
   Vec3d sum;
-  plane::for_each_wall(*impl_, p, [&](const plane::Visible& v) {
-    plane::weigh(*impl_->world, impl_->elements, v, p, nullptr,
+  plane::for_each_wall(*impl_, p, [&](const plane::Visible& v, Vec2d from) {
+    plane::weigh(*impl_->world, impl_->elements, v, from, nullptr,
                  [&](std::size_t i, double w0, double) { sum += impl_->elements.all()[i].error * w0 / (2 * std::numbers::pi); });
   });
   return sum;

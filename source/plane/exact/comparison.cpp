@@ -147,8 +147,7 @@ double distance_bound(const Curve& c, Vec2d p) {
 
 }  // namespace
 
-PlaneLight sampled_light(const World& world, Vec2d from, const PlaneSampling& sampling) {
-  const int inside = world.inside(from).body;
+PlaneLight sampled_light(const World& world, Vec2d from, int inside, const PlaneSampling& sampling) {
   return mean_over_directions(from, sampling, [&](Vec2d u) -> Vec3d {
     const RayHit hit = world.grid.first_hit(from, u, inside);
     if (hit.curve == nullptr || !body_of(world, *hit.curve).light) return {};
@@ -159,11 +158,10 @@ PlaneLight sampled_light(const World& world, Vec2d from, const PlaneSampling& sa
 }
 
 // Hart, "Sphere tracing", 1996: step by the distance to the nearest surface until it is within a hundredth of a unit.
-PlaneLight marched_light(const World& world, Vec2d from, const PlaneSampling& sampling) {
+PlaneLight marched_light(const World& world, Vec2d from, int inside, const PlaneSampling& sampling) {
   constexpr double kHit = 0.01;
   constexpr int kMostSteps = 256;
-  const int inside = world.inside(from).body;
-  if (inside >= 0) return sampled_light(world, from, sampling);
+  if (inside >= 0) return sampled_light(world, from, inside, sampling);
   Box2d all;
   for (const Box2d& box : world.boxes) all.add(box);
   const double reach = length({std::max(from.x - all.low.x, all.high.x - from.x), std::max(from.y - all.low.y, all.high.y - from.y)});

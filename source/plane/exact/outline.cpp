@@ -19,6 +19,25 @@ double gradient_offset(const PlaneGradient& g, Vec2d p) {
   return length2 > 0 ? dot(p - g.from, axis) / length2 : 0;
 }
 
+// The two stops around a position; the first or the last one twice, outside of all.
+class StopsAround {
+ public:
+  StopsAround(const PlaneGradient& g, double t) : before_(&g.stops.front()), next_(before_) {
+    if (!(t > before_->offset)) return;
+    const auto next =
+        std::lower_bound(g.stops.begin() + 1, g.stops.end(), t, [](const PlaneStop& stop, double at) { return stop.offset < at; });
+    before_ = &*(next - 1);
+    next_ = next == g.stops.end() ? before_ : &*next;
+  }
+  Vec3d radiance_at(double t) const {
+    const double width = next_->offset - before_->offset, s = width > 0 ? std::clamp((t - before_->offset) / width, 0.0, 1.0) : 1;
+    return before_->radiance * (1 - s) + next_->radiance * s;
+  }
+
+ private:
+  const PlaneStop *before_, *next_;
+};
+
 // Turns every edge so that the body lies to its left. Edges that meet others are split there, and parts within the body are removed. If
 // there are too many meetings, edges become two-sided instead, which costs time and changes no value.
 void orient(const PlaneBody& body, const EdgeRows& rows, std::vector<Curve>& edges) {
@@ -105,14 +124,8 @@ void check(const PlaneBody& body, int index) {
 
 Vec3d radiance_at(const PlaneEmission& emission, Vec2d p) {
   if (!emission.gradient) return emission.radiance;
-  const std::vector<PlaneStop>& stops = emission.gradient->stops;
   const double t = gradient_offset(*emission.gradient, p);
-  if (!(t > stops.front().offset)) return stops.front().radiance;
-  const auto next = std::lower_bound(stops.begin() + 1, stops.end(), t, [](const PlaneStop& stop, double at) { return stop.offset < at; });
-  if (next == stops.end()) return stops.back().radiance;
-  const PlaneStop& before = *(next - 1);
-  const double width = next->offset - before.offset, s = width > 0 ? (t - before.offset) / width : 1;
-  return before.radiance * (1 - s) + next->radiance * s;
+  return StopsAround(*emission.gradient, t).radiance_at(t);
 }
 
 std::vector<double> gradient_cuts(const PlaneGradient& gradient, const Curve& c) {
@@ -158,9 +171,11 @@ Curve part_of(const Curve& c, double from, double to) {
 }
 
 RadianceEnds radiance_ends(const PlaneEmission& emission, Vec2d a, Vec2d b) {
-  // Just inside: two stops may share an offset.
-  const Vec2d inside = (b - a) * 1e-9;
-  return {radiance_at(emission, a + inside), radiance_at(emission, b - inside)};
+  if (!emission.gradient) return {emission.radiance, emission.radiance};
+  // The stops around its middle: at an end, two of them may share an offset.
+  const PlaneGradient& gradient = *emission.gradient;
+  const StopsAround around(gradient, gradient_offset(gradient, (a + b) * 0.5));
+  return {around.radiance_at(gradient_offset(gradient, a)), around.radiance_at(gradient_offset(gradient, b))};
 }
 
 std::vector<Curve> outline_of(const PlaneBody& body, int index) {
@@ -184,13 +199,15 @@ std::vector<Curve> outline_of(const PlaneBody& body, int index) {
       const Vec2d p = body.contours.at(0).at(0), q = body.contours.at(0).at(1);
       const double length_pq = length(q - p), r = body.radius;
       const Vec2d along = length_pq > 0 ? (q - p) / length_pq : Vec2d{1, 0}, left{-along.y, along.x};
+      const Curve last = arc({q, along * r, left * r}, -pi / 2, pi, index), first = arc({p, along * r, left * r}, pi / 2, pi, index);
       if (length_pq > 0) {
-        append_edges({p - left * r, q - left * r}, false, index, curves);
-        append_edges({q + left * r, p + left * r}, false, index, curves);
+        // They share their ends to the last bit.
+        append_edges({first.b, last.a}, false, index, curves);
+        append_edges({last.b, first.a}, false, index, curves);
         for (Curve& c : curves) c.two_sided = false;
       }
-      curves.push_back(arc({q, along * r, left * r}, -pi / 2, pi, index));
-      curves.push_back(arc({p, along * r, left * r}, pi / 2, pi, index));
+      curves.push_back(last);
+      curves.push_back(first);
       break;
     }
   }
@@ -235,7 +252,8 @@ Box2d bounds_of(const PlaneBody& body) {
           box.add(p + Vec2d{body.radius, body.radius});
         }
   }
-  return box;
+  const double margin = 0x1p-44 * std::max({-box.low.x, -box.low.y, box.high.x, box.high.y});
+  return {box.low - Vec2d{margin, margin}, box.high + Vec2d{margin, margin}};
 }
 
 }  // namespace steradian::plane

@@ -53,6 +53,7 @@ struct RadianceEnds {
 };
 RadianceEnds radiance_ends(const PlaneEmission& emission, Vec2d a, Vec2d b);
 
+// With a margin for points that are on the outline up to rounding.
 Box2d bounds_of(const PlaneBody& body);
 
 // Crossings of two curves.

@@ -23,6 +23,8 @@ class RayGrid {
   // The first curve in direction u (unit); inner faces count for two-sided curves and those of body `inside`.
   RayHit first_hit(Vec2d from, Vec2d u, int inside) const;
 
+  bool is_empty() const { return columns_ == 0; }
+
   // Bodies whose boxes may hold p.
   const std::vector<int>& bodies_near(Vec2d p) const;
 

@@ -9,6 +9,7 @@
 #include "core/budget.h"
 #include "core/words.h"
 #include "plane/exact/emission.h"
+#include "plane/exact/on_curve.h"
 #include "plane/extras/extras.h"
 #include "plane/extras/sight.h"
 #include "plane/extras/trace.h"
@@ -22,15 +23,49 @@ PlaneMethod plane_method_from_name(const std::string& name) {
   throw Error("method", "unknown method '" + name + "' for a plane scene", "use " + words::choices<PlaneMethod>());
 }
 
-PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
-  Inside result;
-  for (int i : grid.bodies_near(p)) {
-    const std::size_t k = static_cast<std::size_t>(i);
-    if (!boxes[k].contains(p) || !contains(k, p)) continue;
-    if (!scene.bodies[k].light) return {i, true};
-    result.body = std::max(result.body, i);
-  }
+PlaneWorld::Impl::Around PlaneWorld::Impl::around(Vec2d p) const {
+  Around result{p, {}, {}};
+  const auto look_at = [&](std::size_t k) {
+    if (!boxes[k].contains(p)) return;
+    const std::size_t before = result.on.size();
+    for (std::size_t c = first_curve[k]; c < first_curve[k + 1]; ++c)
+      if (plane::is_on(curves[c], p)) result.on.push_back(&curves[c]);
+    const bool in_light = scene.bodies[k].light && scene.bodies[k].shape != PlaneBody::Shape::polyline && result.on.size() > before;
+    if (in_light || contains(k, p)) result.holders.push_back(static_cast<int>(k));
+  };
+  if (grid.is_empty())
+    for (std::size_t k = 0; k < boxes.size(); ++k) look_at(k);
+  else
+    for (int i : grid.bodies_near(p)) look_at(static_cast<std::size_t>(i));
   return result;
+}
+
+PlaneWorld::Impl::Around PlaneWorld::Impl::off_outlines(Around here) const {
+  if (here.on.empty()) return here;
+  const auto last_light = [&](const Around& a) {
+    int last = -1;
+    for (int i : a.holders)
+      if (scene.bodies[static_cast<std::size_t>(i)].light) last = i;
+    return last;
+  };
+  Around best;
+  int rank = 0;
+  for (Vec2d q : plane::places_beside(here.on, here.at)) {
+    Around there = around(q);
+    if (!there.on.empty() || !std::includes(here.holders.begin(), here.holders.end(), there.holders.begin(), there.holders.end())) continue;
+    const int its = there.holders == here.holders ? 3 : last_light(there) == last_light(here) ? 2 : 1;
+    if (its > rank) rank = its, best = std::move(there);
+    if (rank == 3) break;
+  }
+  return rank > 0 ? best : here;
+}
+
+PlaneWorld::Impl::Inside PlaneWorld::Impl::inside(Vec2d p) const {
+  const Around here = around(p);
+  for (int i : here.holders)
+    if (!scene.bodies[static_cast<std::size_t>(i)].light) return {i, true, p};
+  const Around beside = off_outlines(here);
+  return {beside.holders.empty() ? -1 : beside.holders.back(), false, beside.at};
 }
 
 int PlaneWorld::Impl::occluder_at(Vec2d p) const {
@@ -64,7 +99,7 @@ PlaneLight envelope_sum(const World& world, const std::vector<const Curve*>& cur
     else
       add_emission(v, *light, from, parts, sum);
   }
-  // On a light's edge its own outline leaves directions open: the point counts as inside.
+  // Its own outline may leave directions open, by rounding.
   if (inside >= 0 && open > 0) sum.radiance += radiance_at(*world.scene.bodies[static_cast<std::size_t>(inside)].light, from) * open;
   const double scale = 1 / (2 * pi);
   return {sum.radiance * scale, sum.moment_x * scale, sum.moment_y * scale};
@@ -139,19 +174,6 @@ double nearest_in(const Box2d& box, Vec2d p) {
 }
 double farthest_in(const Box2d& box, Vec2d p) {
   return length({std::max(p.x - box.low.x, box.high.x - p.x), std::max(p.y - box.low.y, box.high.y - p.y)});
-}
-
-// A point on an edge of the light that holds it would not see that edge: it is moved a hair's breadth inside.
-Vec2d off_outline(const World& world, Vec2d p, std::size_t light) {
-  constexpr double kOn = 1e-9;
-  for (std::size_t c = world.first_curve[light]; c < world.first_curve[light + 1]; ++c) {
-    const Curve& edge = world.curves[c];
-    if (edge.kind != Curve::Kind::segment || edge.two_sided) continue;
-    const Vec2d along = edge.b - edge.a, to = p - edge.a;
-    const double size = length(along), at = dot(to, along) / size;
-    if (std::fabs(cross(along, to)) <= kOn * size && at >= 0 && at <= size) return p + Vec2d{-along.y, along.x} * (2 * kOn / size);
-  }
-  return p;
 }
 
 // Only curves nearer than the farthest light that reaches the point can matter. From within a light, that light counts at any distance.
@@ -311,8 +333,7 @@ bool PlaneWorld::Impl::contains(std::size_t i, Vec2d p) const {
 PlaneLight PlaneWorld::Impl::light_at(Vec2d p) const {
   const Inside in = inside(p);
   if (in.dark) return {};
-  const Vec2d from = in.body < 0 ? p : plane::off_outline(*this, p, static_cast<std::size_t>(in.body));
-  return plane::envelope_light(*this, plane::curves_that_matter(*this, from, in.body), from, in.body);
+  return plane::envelope_light(*this, plane::curves_that_matter(*this, in.at, in.body), in.at, in.body);
 }
 
 PlaneWorld::PlaneWorld(PlaneScene scene, const Limits& limits) : impl_(std::make_unique<Impl>(std::move(scene), limits)) {}
@@ -339,10 +360,11 @@ PlaneLight PlaneWorld::query(Vec2d position, PlaneMethod method, const PlaneSamp
     return plane::par_light(*impl_, position);
   }
   if (method == PlaneMethod::exact) return impl_->light_at(position);
-  if (impl_->inside(position).dark) return {};
+  const Impl::Inside in = impl_->inside(position);
+  if (in.dark) return {};
   switch (method) {
-    case PlaneMethod::sampled: return plane::sampled_light(*impl_, position, sampling);
-    default: return plane::marched_light(*impl_, position, sampling);
+    case PlaneMethod::sampled: return plane::sampled_light(*impl_, in.at, in.body, sampling);
+    default: return plane::marched_light(*impl_, in.at, in.body, sampling);
   }
 }
 

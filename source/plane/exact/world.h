@@ -48,10 +48,23 @@ struct PlaneWorld::Impl {
   std::unique_ptr<const plane::Extras> extras;  // suns, fog and other features that this file does not handle; null: none
   const PlaneBody* beyond_par = nullptr;        // a light whose radiance depends on place or direction: `par` does not support it
 
+  // Bodies that hold a point, and curves on which it lies, up to rounding. A light's outline is within the light, so that all of it is on
+  // one side.
+  struct Around {
+    Vec2d at;
+    std::vector<int> holders;  // by rising index
+    std::vector<const plane::Curve*> on;
+  };
+  Around around(Vec2d p) const;
+  // The same of a point beside it that is on no curve, in the same bodies if there is one. Bodies that meet in this point only leave it in
+  // some of them, the last light among these if possible.
+  Around off_outlines(Around around) const;
+
   // The body that fills the point: an occluder wins, then the last light. -1: nothing.
   struct Inside {
     int body = -1;
     bool dark = false;
+    Vec2d at;  // off outlines
   };
   Inside inside(Vec2d p) const;
   // The exact light at a place, in these units, without the light of extras.
@@ -77,7 +90,7 @@ Vec3d light_between(const World& world, const std::vector<Curve>& parts, Vec2d f
 // covered. It measures the benefit of merging.
 enum class ParOverlaps { merged, added };
 PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps = ParOverlaps::merged);
-PlaneLight sampled_light(const World& world, Vec2d from, const PlaneSampling& sampling);
-PlaneLight marched_light(const World& world, Vec2d from, const PlaneSampling& sampling);
+PlaneLight sampled_light(const World& world, Vec2d from, int inside_light, const PlaneSampling& sampling);
+PlaneLight marched_light(const World& world, Vec2d from, int inside_light, const PlaneSampling& sampling);
 
 }  // namespace steradian::plane

@@ -22,7 +22,7 @@ using Curves = std::vector<const Curve*>;
 class Seen {
  public:
   Seen(const World& world, const View& view, Vec2d from, const SightRules& rules)
-      : world_(world), view_(view), rules_(rules), from_(from), start_(start_at(world, from)) {
+      : world_(world), view_(view), rules_(rules), start_(start_at(world, from)), from_(start_.at) {
     for (int body : start_.deep)
       for (std::size_t c = world.first_curve[static_cast<std::size_t>(body)]; c < world.first_curve[static_cast<std::size_t>(body) + 1];
            ++c)
@@ -57,7 +57,7 @@ class Seen {
         add_light(v, direct);
     }
     add_suns(envelope, -pi, pi, direct);
-    // On a light's edge its own outline leaves directions open: the point counts as inside.
+    // Its own outline may leave directions open, by rounding.
     if (lights && start_.light >= 0 && open > 0)
       sum_.radiance += radiance_at(*world_.scene.bodies[static_cast<std::size_t>(start_.light)].light, from_) * open;
     add_hard_suns(std::move(blocking));
@@ -320,8 +320,8 @@ class Seen {
   const World& world_;
   const View& view_;
   const SightRules& rules_;
-  Vec2d from_;
   Start start_;
+  Vec2d from_;
   Curves deep_;  // curves of the absorbing bodies that hold the point
   PlaneLight sum_;
 };

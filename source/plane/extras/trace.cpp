@@ -46,16 +46,21 @@ bool meets(const World& world, std::span<const Curve* const> curves, Vec2d from,
 }  // namespace
 
 Start start_at(const World& world, Vec2d p) {
+  const World::Around here = world.around(p);
   Start start;
-  for (int i : world.grid.bodies_near(p)) {
-    const auto k = static_cast<std::size_t>(i);
-    if (world.extras->matter[k] == Matter::clear || !world.boxes[k].contains(p) || !world.contains(k, p)) continue;
-    if (world.extras->matter[k] == Matter::deep)
+  start.at = p;
+  const auto matter_of = [&](int i) { return world.extras->matter[static_cast<std::size_t>(i)]; };
+  const auto lit = [&](int i) { return world.scene.bodies[static_cast<std::size_t>(i)].light.has_value(); };
+  start.dark = std::any_of(here.holders.begin(), here.holders.end(),
+                           [&](int i) { return matter_of(i) != Matter::clear && matter_of(i) != Matter::deep && !lit(i); });
+  if (start.dark) return start;
+  const World::Around beside = world.off_outlines(here);
+  start.at = beside.at;
+  for (int i : beside.holders) {
+    if (matter_of(i) == Matter::deep)
       start.deep.push_back(i);
-    else if (world.scene.bodies[k].light)
-      start.light = std::max(start.light, i);
-    else
-      start.dark = true;
+    else if (matter_of(i) != Matter::clear)
+      start.light = i;
   }
   return start;
 }

@@ -15,6 +15,7 @@ struct Start {
   bool dark = false;      // within an occluder that lets no light in
   int light = -1;         // index of the last light
   std::vector<int> deep;  // bodies that absorb light
+  Vec2d at;               // off outlines
 };
 Start start_at(const World& world, Vec2d p);
 
@@ -31,7 +32,7 @@ class Tracer {
  public:
   // Among the curves, those of one body that transmits light must be contiguous.
   Tracer(const World& world, std::span<const Curve* const> curves, Vec2d from)
-      : world_(world), curves_(curves), from_(from), start_(start_at(world, from)) {}
+      : world_(world), curves_(curves), start_(start_at(world, from)), from_(start_.at) {}
 
   // Radiance from direction u (of length 1), except suns without width.
   Vec3d radiance(Vec2d u) const { return start_.dark ? Vec3d{} : look(u, nullptr); }
@@ -47,8 +48,8 @@ class Tracer {
 
   const World& world_;
   std::span<const Curve* const> curves_;
-  Vec2d from_;
   Start start_;
+  Vec2d from_;
 };
 
 PlaneLight traced_light(const World& world, Vec2d from, const PlaneSampling& sampling);

@@ -15,23 +15,20 @@ using std::numbers::pi;
 // In the space where an ellipse is round, floats lose precision with the ratio of its half axes: 1e-7 times this in a direction.
 constexpr double kThinnestEmitter = 60;
 
-// A gradient between two of its stops: radiance c + slope dot(axis, p - origin), for all p whose colour lies between them.
-struct Ramp {
-  Vec3d at_origin, slope;
-  Vec2d axis;
-};
-Ramp ramp_at(const PlaneGradient& g, Vec2d origin, Vec2d p) {
+// An arc on which the gradient lies between two stops: radiance runs from one to the other.
+void set_ramp(const PlaneGradient& g, Emitter& arc) {
   const Vec2d along = g.to - g.from;
   const double length2 = dot(along, along);
-  if (length2 == 0) return {g.stops.front().radiance, {}, {}};
-  const auto offset = [&](Vec2d at) { return dot(at - g.from, along) / length2; };
-  const double t = offset(p);
-  const auto next = std::find_if(g.stops.begin(), g.stops.end(), [&](const PlaneStop& stop) { return t < stop.offset; });
-  if (next == g.stops.begin()) return {g.stops.front().radiance, {}, {}};
-  if (next == g.stops.end()) return {g.stops.back().radiance, {}, {}};
-  const PlaneStop& before = *(next - 1);
-  const Vec3d slope = (next->radiance - before.radiance) / (next->offset - before.offset);
-  return {before.radiance + slope * (offset(origin) - before.offset), slope, along / length2};
+  const auto offset = [&](Vec2d at) { return length2 > 0 ? dot(at - g.from, along) / length2 : 0; };
+  const double t = offset(arc.ellipse.at(arc.tau0 + 0.5 * arc.tau_span));
+  auto next = std::find_if(g.stops.begin(), g.stops.end(), [&](const PlaneStop& stop) { return t < stop.offset; });
+  const auto before = next == g.stops.begin() ? next : next - 1;
+  if (next == g.stops.end()) next = before;
+  arc.radiance = {before->radiance, next->radiance};
+  if (before == next) return;
+  const double width = next->offset - before->offset;
+  arc.ramp = along / (length2 * width);
+  arc.ramp_at_center = (offset(arc.ellipse.center) - before->offset) / width;
 }
 
 class Taking {
@@ -99,13 +96,8 @@ class Taking {
         e.whole = whole;
         e.tau_span = part.tau_span / pieces;
         e.tau0 = part.tau0 + i * e.tau_span;
-        e.radiance.a = light_.radiance;
-        if (light_.gradient) {
-          const Ramp ramp = ramp_at(*light_.gradient, e.a, part.ellipse.at(e.tau0 + 0.5 * e.tau_span));
-          e.radiance.a = ramp.at_origin;
-          e.radiance.b = ramp.slope;
-          e.ramp = ramp.axis;
-        }
+        e.radiance = {light_.radiance, light_.radiance};
+        if (light_.gradient) set_ramp(*light_.gradient, e);
         add(e);
       }
     }
@@ -171,9 +163,9 @@ Emitter arc_of(const Curve& curve, const Element& element) {
   e.radius = e.bound = is_round(curve.ellipse) ? std::sqrt(xx) : std::sqrt(xx + yy);
   e.tau0 = curve.tau0 + curve.tau_span * element.from;
   e.tau_span = curve.tau_span * (element.to - element.from);
-  e.ramp = element.along / element.half;
-  e.radiance.a = element.constant + element.slope * dot(e.ramp, e.center - element.middle);
-  e.radiance.b = element.slope;
+  e.ramp = element.along / (2 * element.half);
+  e.ramp_at_center = dot(e.ramp, e.center - element.middle) + 0.5;
+  e.radiance = {element.constant - element.slope, element.constant + element.slope};
   return e;
 }
 

@@ -23,8 +23,9 @@ struct Emitter {
   int body = 0;
   Vec2d a, b;             // an edge's ends, lit side to the right of a -> b; a disk's or an ellipse's centre, twice
   double radius = 0;      // disk; arc: its ellipse, around its centre; run: how far from its chord a -> b, or its middle, it reaches
-  RadianceEnds radiance;  // edge: linear between its ends. Arc: a + b dot(ramp, p - centre)
+  RadianceEnds radiance;  // edge: linear between its ends. Arc: from a to b as dot(ramp, p - centre) + ramp_at_center goes from 0 to 1
   Vec2d ramp;
+  double ramp_at_center = 0;
   Ellipse ellipse;  // arc: counter-clockwise from tau0 over at most half a turn, or the whole outline
   double tau0 = 0, tau_span = 0;
   bool whole = false;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plane/exact/on_curve.h"
+
 namespace steradian::plane {
 
 Filling::Filling(const FrameScene& frame, const PixelGrid& grid) : frame_(frame), world_(*frame.world), grid_(grid) {
@@ -12,6 +14,7 @@ Filling::Filling(const FrameScene& frame, const PixelGrid& grid) : frame_(frame)
 void Filling::find(const std::vector<int>& bodies, int x0, int y0, const TileArea& tile) {
   for (int i : marked_) inside_[i] = kOutside;
   marked_.clear();
+  on_own_outline_.reset();
   tile_ = tile;
   interior_body_ = -1;
   x0_ = x0;
@@ -52,21 +55,24 @@ void Filling::find(const std::vector<int>& bodies, int x0, int y0, const TileAre
       }
     }
   }
-  if (!frame_.light_at || frame_.any_general) return;
+  if (!frame_.light_at) return;
   for (int index : bodies) find_on_outlines(static_cast<std::size_t>(index));
 }
 
-// Finds pixels within a hair's breadth of a segment; an ellipse is tested in its unit space.
+// Finds pixels within a hair's breadth of a curve.
 void Filling::find_on_outlines(std::size_t body) {
   constexpr double kHair = 1e-4;  // fraction of the picture, whose larger side is 1024 to 2048
   const Vec2d first = grid_.at(x0_, y0_);
   for (std::size_t c = world_.first_curve[body]; c < world_.first_curve[body + 1]; ++c) {
     const Curve& curve = world_.curves[c];
     if (curve.kind == Curve::Kind::arc) {
-      const double hair = kHair / std::sqrt(std::fabs(cross(curve.ellipse.x, curve.ellipse.y)));
+      // A bound of the change of |unit|^2 over that breadth.
+      const Ellipse& e = curve.ellipse;
+      const double steepest = std::sqrt(dot(e.x, e.x) + dot(e.y, e.y)) / std::fabs(cross(e.x, e.y)), h = kHair * steepest;
       for (int i = 0; i < columns_ * rows_; ++i) {
-        const Vec2d unit = curve.ellipse.to_unit(grid_.at(x0_ + i % columns_, y0_ + i / columns_));
-        if (std::fabs(dot(unit, unit) - 1) < hair) mark_on_outline(i % columns_, i / columns_);
+        const Vec2d p = grid_.at(x0_ + i % columns_, y0_ + i / columns_), unit = e.to_unit(p);
+        if (std::fabs(dot(unit, unit) - 1) <= h * (2 + h) && distance_to(curve, p) <= kHair)
+          mark_on_outline(body, i % columns_, i / columns_);
       }
       continue;
     }
@@ -85,9 +91,11 @@ void Filling::find_on_outlines(std::size_t body) {
       }
     };
     if (rows)
-      walk(a.y, b.y, grid_.step.y, rows_, a.x, along.x / along.y, grid_.step.x, columns_, [&](int y, int x) { mark_on_outline(x, y); });
+      walk(a.y, b.y, grid_.step.y, rows_, a.x, along.x / along.y, grid_.step.x, columns_,
+           [&](int y, int x) { mark_on_outline(body, x, y); });
     else
-      walk(a.x, b.x, grid_.step.x, columns_, a.y, along.y / along.x, grid_.step.y, rows_, [&](int x, int y) { mark_on_outline(x, y); });
+      walk(a.x, b.x, grid_.step.x, columns_, a.y, along.y / along.x, grid_.step.y, rows_,
+           [&](int x, int y) { mark_on_outline(body, x, y); });
   }
 }
 
@@ -111,9 +119,14 @@ void Filling::guess_row(const PlaneBody& body, double y, double first, int& begi
 void Filling::draw(Picture& picture) {
   for (int i : marked_) {
     const int x = x0_ + i % kTileSide, y = y0_ + i / kTileSide, inside = inside_[i];
-    picture.at(x, y) = inside == kDark        ? Vec3f{}
-                       : inside == kOnOutline ? static_cast<Vec3f>(frame_.light_at(grid_.at(x, y)))
-                                              : static_cast<Vec3f>(interior(static_cast<std::size_t>(inside), grid_.at(x, y)));
+    const Vec2d p = grid_.at(x, y);
+    Vec3d light;
+    if (inside == kOnOutline)
+      light = frame_.light_at(p);
+    else if (inside != kDark)
+      light = interior(static_cast<std::size_t>(inside),
+                       on_own_outline_[static_cast<std::size_t>(i)] ? world_.off_outlines(world_.around(p)).at : p);
+    picture.at(x, y) = static_cast<Vec3f>(light);
   }
 }
 

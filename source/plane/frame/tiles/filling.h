@@ -29,9 +29,14 @@ class Filling {
  private:
   static constexpr int kOutside = -1, kDark = -2, kOnOutline = -3;
   void find_on_outlines(std::size_t body);
-  void mark_on_outline(int x, int y) {
-    int& inside = inside_[y * kTileSide + x];
-    if (inside == kOutside) inside = kOnOutline, marked_.push_back(y * kTileSide + x);
+  void mark_on_outline(std::size_t body, int x, int y) {
+    const int pixel = y * kTileSide + x;
+    int& inside = inside_[pixel];
+    if (inside == kOutside) marked_.push_back(pixel);
+    if (inside == static_cast<int>(body))
+      on_own_outline_.set(static_cast<std::size_t>(pixel));
+    else if (inside != kDark)
+      inside = kOnOutline;
   }
   void guess_row(const PlaneBody& body, double y, double first, int& begin, int& end) const;
   Vec3d interior(std::size_t body, Vec2d p);
@@ -42,9 +47,10 @@ class Filling {
   const PixelGrid& grid_;
   TileArea tile_;
   int x0_ = 0, y0_ = 0, columns_ = 0, rows_ = 0;
-  int inside_[kTilePixels];  // the body that fills each pixel, row by row
-  std::vector<int> marked_;  // pixels that are filled
-  int interior_body_ = -1;   // the body whose curves these are, of those that matter to the tile
+  int inside_[kTilePixels];                  // the body that fills each pixel, row by row
+  std::bitset<kTilePixels> on_own_outline_;  // pixels within a light and near its outline
+  std::vector<int> marked_;                  // pixels that are filled
+  int interior_body_ = -1;                   // the body whose curves these are, of those that matter to the tile
   std::vector<const Curve*> interior_curves_;
   SeenWithin seen_within_, seen_from_;  // within a polygon: for the tile, for a pixel
 };

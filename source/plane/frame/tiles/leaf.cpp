@@ -315,6 +315,7 @@ TileArc LeafBuilder::arc_of(const Emitter& e) const {
                         longer / emission.range);
   arc.ramp_x = f(e.ramp.x);
   arc.ramp_y = f(e.ramp.y);
+  arc.ramp_c = f(e.ramp_at_center);
   return arc;
 }
 
@@ -344,12 +345,12 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
   light.inverse_range = emission.range < 1e300 ? f(1 / emission.range) : 0;
   light.profile = static_cast<int>(emission.profile);
   light.spot = spot_of(emission);
-  Vec3d from = emission.radiance, slope;
+  Vec3d from = emission.radiance, to = from;
   if (e.kind == Emitter::Kind::arc) {
     light.kind = TileKind::arc;
     light.arc = arc_of(e);
     from = e.radiance.a;
-    slope = e.radiance.b;
+    to = e.radiance.b;
   }
   if (seen_.edge) {
     light.kind = TileKind::edge;
@@ -359,25 +360,26 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
     light.begin = f(dot(light_.b, t));
     light.end = f(dot(light_.a, t));
     from = e.radiance.b;
-    if (!is_run(e)) slope = (e.radiance.a - e.radiance.b) / length(e.b - e.a);
+    to = is_run(e) ? from : e.radiance.a;
   } else {
     light.shape = round_of(light_.ellipse);
   }
-  light.linear = slope.x != 0 || slope.y != 0 || slope.z != 0;
+  light.linear = from.x != to.x || from.y != to.y || from.z != to.z;
   light.x = f(light_.a.x);
   light.y = f(light_.a.y);
   light.radius = f(light_.radius);
   light.red = f(from.x);
   light.green = f(from.y);
   light.blue = f(from.z);
-  light.red_slope = f(slope.x);
-  light.green_slope = f(slope.y);
-  light.blue_slope = f(slope.z);
+  light.red_end = f(to.x);
+  light.green_end = f(to.y);
+  light.blue_end = f(to.z);
   return light;
 }
 
 void LeafBuilder::look_at_edges(const Emitter& run) {
   edges_.clear();
+  if (!is_run(run)) edges_.push_back({&run, facing(run, tile_)});
   for (const Emitter* e = &run + 1; e < &run + run.group; ++e)
     if (!is_run(*e)) edges_.push_back({e, facing(*e, tile_)});
 }
@@ -422,10 +424,10 @@ void LeafBuilder::add_parts(TileLight& light) {
     const Emitter& e = *seen.edge;
     const Vec2d a = e.a - tile_.center, b = e.b - tile_.center, n = e.normal, t{n.y, -n.x};
     const double size = length(e.b - e.a), least = kSmallParts * size + tile_.radius;
-    const Vec3d from = e.radiance.b, slope = (e.radiance.a - e.radiance.b) / size;
+    const Vec3d from = e.radiance.b, to = e.radiance.a;
     const bool small = seen.facing == Facing::all && length(a) > least && length(b) > least;
-    parts_.push_back({f(a.x), f(a.y), f(n.x), f(n.y), f(dot(b, t)), f(dot(a, t)), f(from.x), f(from.y), f(from.z), f(slope.x), f(slope.y),
-                      f(slope.z), f(b.x), f(b.y), f(a.x), f(a.y), small});
+    parts_.push_back({f(a.x), f(a.y), f(n.x), f(n.y), f(dot(b, t)), f(dot(a, t)), f(from.x), f(from.y), f(from.z), f(to.x), f(to.y),
+                      f(to.z), f(b.x), f(b.y), f(a.x), f(a.y), small});
   }
   light.parts = parts_.data();
   light.part_count = static_cast<int>(parts_.size());
@@ -455,10 +457,13 @@ LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, st
   if (shadows_.hidden()) return {{}, false};
   TileLight light = light_of(e);
   shadows_.write(light);
-  if (is_run(e)) {
-    light.linear = e.wall || emission_of(frame_, e).gradient.has_value();
+  if (seen_.edge) {
     look_at_edges(e);
-    add_corners(e, light);
+    light.all_parts_seen = true;
+    if (is_run(e)) {
+      light.linear = e.wall || emission_of(frame_, e).gradient.has_value();
+      add_corners(e, light);
+    }
     if (light.linear || light.profile != 0 || light.inverse_range > 0) add_parts(light);
   }
   const std::size_t needed = 32 * shadows_.intervals();

@@ -64,17 +64,17 @@ struct TileArc {
   float det;                     // determinant of the half axes
   float det_if_round;            // 0 if they differ
   int nodes;                     // number of nodes of Gauss' rule that serves all of the tile; 0: none does
-  float ramp_x, ramp_y;          // radiance at p: red + red_slope dot(ramp, p - centre), ...
+  float ramp_x, ramp_y, ramp_c;  // radiance at p runs from `red` to `red_end` as dot(ramp, p - centre) + ramp_c does from 0 to 1, ...
 };
 
 // One edge of a run.
 struct TilePart {
-  float x, y;                                // a point of its line
-  float nx, ny, begin, end;                  // as of an edge
-  float red, green, blue;                    // at `begin` ...
-  float red_slope, green_slope, blue_slope;  // ... and their change per distance along it
-  float from_x, from_y, to_x, to_y;          // its ends
-  bool small;                                // it faces all pixels, and none is nearer to it than five times its length
+  float x, y;                          // a point of its line
+  float nx, ny, begin, end;            // as of an edge
+  float red, green, blue;              // at `begin` ...
+  float red_end, green_end, blue_end;  // ... and at `end`, linear between
+  float from_x, from_y, to_x, to_y;    // its ends
+  bool small;                          // it faces all pixels, and none is nearer to it than five times its length
 };
 
 // Directions in which a spot's light arrives: counter-clockwise from low to high.
@@ -94,13 +94,13 @@ struct TileLight {
   // to a direction in which all of it is ahead of every pixel.
   float x, y, radius;
   float nx, ny, begin, end;
-  float inverse_range;                       // 0: no range
-  float red, green, blue;                    // at the disk, or at `begin` ...
-  float red_slope, green_slope, blue_slope;  // ... and their change per distance along the edge
-  int profile;                               // PlaneProfile as int
+  float inverse_range;                 // 0: no range
+  float red, green, blue;              // a disk, a uniform edge, the start of an arc's ramp ...
+  float red_end, green_end, blue_end;  // ... and its end
+  int profile;                         // PlaneProfile as int
   bool linear;
 
-  const TilePart* parts;  // run whose edges have different emissions
+  const TilePart* parts;  // edges, unless they emit the same in all directions and at all distances
   int part_count;
   bool all_parts_seen;            // none of them is occluded by others
   const TileVertex* low_corners;  // run: visible from the first of these

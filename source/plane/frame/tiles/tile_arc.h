@@ -7,14 +7,10 @@
 // intervals halved if necessary.
 #pragma once
 
-#include "plane/frame/tiles/tile_cut.h"
+#include "plane/frame/tiles/tile_edge.h"
 
 namespace steradian::plane::STERADIAN_ISA {
 namespace {
-
-struct ArcSum {
-  PackReal constant{0.0}, ramp{0.0};  // integrals over directions: of 1, and of TileArc's ramp; times profile and range
-};
 
 // Gauss-Legendre, the nodes above 0: exact to polynomials of degree 2 n - 1. Abramowitz and Stegun, table 25.4.
 struct ArcRule {
@@ -39,7 +35,7 @@ class ArcIntegrand {
       : light_(light), eye_(eye), d2_(max(eye.outside2, PackReal(1e-6)) + PackReal(1.0)), inverse_d2_(PackReal(1.0) / d2_) {}
 
   // Adds the light between two slopes.
-  STERADIAN_INLINE void add(const Axis& axis, PackReal from, PackReal to, ArcSum& sum) const {
+  STERADIAN_INLINE void add(const Axis& axis, PackReal from, PackReal to, EndWeights& sum) const {
     if (light_.arc.nodes > 0)
       add_smooth(incidence(sine_of(axis, from)), incidence(sine_of(axis, to)), sum);
     else
@@ -65,6 +61,9 @@ class ArcIntegrand {
     return select(sine < PackReal(0.0), -angle, angle);
   }
 
+  // A narrow part that rounding reverses is empty.
+  STERADIAN_INLINE static PackReal half_between(PackReal from, PackReal to) { return max(PackReal(0.5) * (to - from), PackReal(0.0)); }
+
   // Accurate to 1e-7 within a right angle: the series omit x^13 / 13! and x^14 / 14!.
   STERADIAN_INLINE static void sine_and_cosine(PackReal x, PackReal& s, PackReal& c) {
     const PackReal q = x * x;
@@ -78,31 +77,31 @@ class ArcIntegrand {
   }
 
   // Gauss' rule in the angle of incidence; nodes in pairs around the middle share the sine and cosine of their distance from it.
-  STERADIAN_INLINE void add_smooth(PackReal from, PackReal to, ArcSum& sum) const {
+  STERADIAN_INLINE void add_smooth(PackReal from, PackReal to, EndWeights& sum) const {
     const ArcRule& rule = arc_rule(light_.arc.nodes);
-    const PackReal half = PackReal(0.5) * (to - from);
-    PackReal middle_s, middle_c, constant(0.0), ramp(0.0);
+    const PackReal half = half_between(from, to);
+    PackReal middle_s, middle_c, begin(0.0), end(0.0);
     sine_and_cosine(PackReal(0.5) * (from + to), middle_s, middle_c);
     for (int i = 0; i < light_.arc.nodes / 2; ++i) {
       PackReal s, c;
       sine_and_cosine(half * broadcast(rule.node[i]), s, c);
       const PackReal ss = middle_s * c, sc = middle_c * s, cc = middle_c * c, cs = middle_s * s;
-      const Node a = at(ss - sc, max(cc + cs, PackReal(0.0))), b = at(ss + sc, max(cc - cs, PackReal(0.0)));
-      constant += broadcast(rule.weight[i]) * (a.weight + b.weight);
-      ramp += broadcast(rule.weight[i]) * (a.ramp + b.ramp);
+      const EndWeights a = at(ss - sc, max(cc + cs, PackReal(0.0))), b = at(ss + sc, max(cc - cs, PackReal(0.0)));
+      begin += broadcast(rule.weight[i]) * (a.begin + b.begin);
+      end += broadcast(rule.weight[i]) * (a.end + b.end);
     }
-    sum.constant += half * constant;
-    sum.ramp += half * ramp;
+    sum.begin += half * begin;
+    sum.end += half * end;
   }
 
   // Halves intervals for which 15 nodes are not enough. Beside the outline, directions change within a small part of the arc; the halves
   // then shrink towards it. An interval that still fails after the most halvings, or is not a number, is accepted as it is. The right half
   // of a half waits in its place, so that the depth alone would not end the loop.
-  STERADIAN_INLINE void add_halving(PackReal from, PackReal to, ArcSum& sum) const {
+  STERADIAN_INLINE void add_halving(PackReal from, PackReal to, EndWeights& sum) const {
     alignas(64) float ends[kDeepest * kLanes];
     int waiting = 0, halvings = 0;
     for (;;) {
-      ArcSum part;
+      EndWeights part;
       const bool good = add_part(from, to, part);
       if (!good && waiting < kDeepest && halvings < kMostHalvings) {
         ++halvings;
@@ -110,8 +109,8 @@ class ArcIntegrand {
         to = PackReal(0.5) * (from + to);
         continue;
       }
-      sum.constant += part.constant;
-      sum.ramp += part.ramp;
+      sum.begin += part.begin;
+      sum.end += part.end;
       if (waiting == 0) return;
       from = to;
       to = load(ends + static_cast<std::size_t>(--waiting) * kLanes);
@@ -126,21 +125,15 @@ class ArcIntegrand {
   // part, the 15 nodes are then off by 1.1e-5 at most, and by 4e-2 without it.
   static constexpr double kOff = 2e-4, kNullOff = 1.2e-4;
 
-  struct Node {
-    PackReal weight, ramp;
-  };
-
-  // Value for each unit of an angle of incidence with this sine and cosine.
-  STERADIAN_INLINE Node at(PackReal s, PackReal c) const {
+  // Both ends' weights for each unit of an angle of incidence with this sine and cosine.
+  STERADIAN_INLINE EndWeights at(PackReal s, PackReal c) const {
     const TileRound& r = light_.shape;
     const PackReal root2 = max(d2_ - s * s, PackReal(1e-12)), inverse_root = inversesqrt(root2), root = root2 * inverse_root, t = root - c;
-    Node node;
-    node.ramp = PackReal(0.0);
     // d psi = c / root d beta.
-    node.weight = c * inverse_root;
+    PackReal weight = c * inverse_root;
     PackReal far2, u, v;
     if (light_.arc.det_if_round > 0.0f) {
-      if (light_.profile == 1) node.weight *= c;
+      if (light_.profile == 1) weight *= c;
       far2 = t * t * broadcast(light_.arc.det_if_round);
       if (light_.linear) u = (-eye_.u * root + eye_.v * s) * inverse_d2_, v = (-eye_.v * root - eye_.u * s) * inverse_d2_;
     } else {
@@ -148,37 +141,41 @@ class ArcIntegrand {
       // in the plane is det / m2 times as large.
       u = (-eye_.u * root + eye_.v * s) * inverse_d2_, v = (-eye_.v * root - eye_.u * s) * inverse_d2_;
       const PackReal x = u * broadcast(r.xx) + v * broadcast(r.yx), y = u * broadcast(r.xy) + v * broadcast(r.yy), m2 = x * x + y * y;
-      node.weight *= quotient(broadcast(light_.arc.det), m2);
+      weight *= quotient(broadcast(light_.arc.det), m2);
       if (light_.profile == 1) {
         const PackReal hit_u = eye_.u + u * t, hit_v = eye_.v + v * t;
         const PackReal nx = hit_u * broadcast(r.yx) - hit_v * broadcast(r.xx), ny = hit_u * broadcast(r.yy) - hit_v * broadcast(r.xy);
-        node.weight *= c * broadcast(light_.arc.det) * inversesqrt(max((nx * nx + ny * ny) * m2, PackReal(1e-30)));
+        weight *= c * broadcast(light_.arc.det) * inversesqrt(max((nx * nx + ny * ny) * m2, PackReal(1e-30)));
       }
       far2 = t * t * m2;
     }
-    if (light_.profile == 2) node.weight *= inversesqrt(max(far2, PackReal(1e-24)));
+    if (light_.profile == 2) weight *= inversesqrt(max(far2, PackReal(1e-24)));
     if (light_.inverse_range > 0.0f) {
       const PackReal window = max(PackReal(1.0) - far2 * broadcast(light_.inverse_range * light_.inverse_range), PackReal(0.0));
-      node.weight *= window * window;
+      weight *= window * window;
     }
+    EndWeights node;
     if (light_.linear) {
       const PackReal hit_u = eye_.u + u * t, hit_v = eye_.v + v * t;
       const PackReal hx = hit_u * broadcast(r.xx) + hit_v * broadcast(r.yx), hy = hit_u * broadcast(r.xy) + hit_v * broadcast(r.yy);
-      node.ramp = node.weight * (hx * broadcast(light_.arc.ramp_x) + hy * broadcast(light_.arc.ramp_y));
+      const PackReal share = hx * broadcast(light_.arc.ramp_x) + hy * broadcast(light_.arc.ramp_y) + broadcast(light_.arc.ramp_c);
+      node.add(weight, clamp(share, PackReal(0.0), PackReal(1.0)));
+    } else {
+      node.begin = weight;
     }
     return node;
   }
-  STERADIAN_INLINE Node at_place(PackReal z) const {
+  STERADIAN_INLINE EndWeights at_place(PackReal z) const {
     const PackReal over = PackReal(1.0) / (PackReal(1.0) + z * z);
-    Node node = at(PackReal(2.0) * z * over, (PackReal(1.0) - z * z) * over);
+    EndWeights node = at(PackReal(2.0) * z * over, (PackReal(1.0) - z * z) * over);
     // d beta = 2 dz over.
-    node.weight *= PackReal(2.0) * over;
-    node.ramp *= PackReal(2.0) * over;
+    node.begin *= PackReal(2.0) * over;
+    node.end *= PackReal(2.0) * over;
     return node;
   }
 
   // Gauss-Kronrod, 7 and 15 nodes; Piessens et al., QUADPACK, 1983. Returns false if the two differ, or the null rule is not near 0.
-  STERADIAN_INLINE bool add_part(PackReal from, PackReal to, ArcSum& sum) const {
+  STERADIAN_INLINE bool add_part(PackReal from, PackReal to, EndWeights& sum) const {
     static constexpr double kNode[8] = {0.991455371120812639, 0.949107912342758525, 0.864864423359769073, 0.741531185599394440,
                                         0.586087235467691130, 0.405845151377397167, 0.207784955007898468, 0.0};
     static constexpr double kKronrod[8] = {0.022935322010529225, 0.063092092629978553, 0.104790010322250184, 0.140653259715525919,
@@ -187,25 +184,26 @@ class ArcIntegrand {
                                          0, 0.381830050505118945, 0, 0.417959183673469388};
     static constexpr double kNull[8] = {0.009991356662876932, -0.025246739496563773, 0.029058304001152294,  -0.019997310073577482,
                                         0.000805380980923889, 0.022153524494280635,  -0.040392629162145345, 0.047256225186105581};
-    const PackReal middle = PackReal(0.5) * (from + to), half = PackReal(0.5) * (to - from);
-    PackReal gauss(0.0), ramp_gauss(0.0), null(0.0), ramp_null(0.0), constant(0.0), ramp(0.0);
+    const PackReal middle = PackReal(0.5) * (from + to), half = half_between(from, to);
+    EndWeights kronrod, gauss, null;
+    const auto add_weighted = [](double weight, const EndWeights& node, EndWeights& rule) {
+      rule.begin += PackReal(weight) * node.begin;
+      rule.end += PackReal(weight) * node.end;
+    };
     for (int i = 0; i < 15; ++i) {
       const int k = i < 8 ? i : 14 - i;
       const PackReal place(i < 8 ? -kNode[k] : kNode[k]);
-      const Node node = at_place(middle + half * place);
-      constant += PackReal(kKronrod[k]) * node.weight;
-      ramp += PackReal(kKronrod[k]) * node.ramp;
-      gauss += PackReal(kGauss[k]) * node.weight;
-      ramp_gauss += PackReal(kGauss[k]) * node.ramp;
-      null += PackReal(kNull[k]) * node.weight;
-      ramp_null += PackReal(kNull[k]) * node.ramp;
+      const EndWeights node = at_place(middle + half * place);
+      add_weighted(kKronrod[k], node, kronrod);
+      add_weighted(kGauss[k], node, gauss);
+      add_weighted(kNull[k], node, null);
     }
-    sum.constant = half * constant;
-    sum.ramp = half * ramp;
-    const PackReal own = abs(sum.constant), scale = light_.profile == 2 ? own : max(PackReal(1.0), own);
+    sum.begin = half * kronrod.begin;
+    sum.end = half * kronrod.end;
+    const PackReal own = sum.begin + sum.end, scale = light_.profile == 2 ? own : max(PackReal(1.0), own);
     const PackReal limit = PackReal(kOff) * scale, null_limit = PackReal(kNullOff) * scale;
-    return all_lanes(abs(half * (constant - gauss)) <= limit && abs(half * null) <= null_limit) &&
-           all_lanes(abs(half * (ramp - ramp_gauss)) <= limit && abs(half * ramp_null) <= null_limit);
+    return all_lanes(abs(sum.begin - half * gauss.begin) <= limit && abs(half * null.begin) <= null_limit) &&
+           all_lanes(abs(sum.end - half * gauss.end) <= limit && abs(half * null.end) <= null_limit);
   }
 
   const TileLight& light_;

@@ -241,7 +241,9 @@ STERADIAN_INLINE void take_lens(const TileLens& lens, const TileLight& light, co
   for (int i = 0; i < lens.count; ++i) {
     const TileLens::Crossing& c = lens.crossings[i];
     const PackReal x = broadcast(c.x) - axis.px, y = broadcast(c.y) - axis.py;
-    seen[i] = x * broadcast(c.lx) + y * broadcast(c.ly) < PackReal(0.0) && x * broadcast(c.bx) + y * broadcast(c.by) < PackReal(0.0);
+    // One that rounding hides counts: it is at the end of what is visible, and decides the order there.
+    const PackReal slack = PackReal(1e-5) * (abs(x) + abs(y));
+    seen[i] = x * broadcast(c.lx) + y * broadcast(c.ly) < slack && x * broadcast(c.bx) + y * broadcast(c.by) < slack;
     at[i] = slope(axis.w(x, y), axis.t(x, y), PackReal(0.0));
     any = any || seen[i];
   }

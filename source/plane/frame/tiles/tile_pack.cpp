@@ -32,8 +32,8 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
     cut.high = clamp((broadcast(light.end) - foot) * inverse_d, PackReal(-kBeyond), PackReal(kBeyond));
     cut.high = select(lit, cut.high, cut.low);
   }
-  const PackReal q = d * d * broadcast(light.inverse_range * light.inverse_range);
-  if (light.inverse_range > 0.0f && light.part_count == 0) {
+  if (light.inverse_range > 0.0f && light.low_corner_count == 0) {
+    const PackReal q = d * d * broadcast(light.inverse_range * light.inverse_range);
     const PackReal reach = sqrt(max(PackReal(1.0) / max(q, PackReal(1e-30)) - PackReal(1.0), PackReal(0.0)));
     cut.low = max(cut.low, -reach);
     cut.high = min(cut.high, reach);
@@ -43,25 +43,12 @@ STERADIAN_INLINE void add_edge(const TileLight& light, TileBuffer& tile, int i) 
   if (light.part_count > 0)
     return add_parts(light, tile, i, axis, cut, light.all_parts_seen && cut.count == 0 && all_lanes(cut.low <= low && cut.high >= high));
 
-  const int power = light.profile == 0 ? 0 : 1;
-  PackReal constant(0.0), slope(0.0);
-  cut.for_each_gap([&](PackReal from, PackReal to) {
-    if (light.inverse_range > 0.0f || light.linear || power != 0) {
-      const PackReal f0 = k.trig_atan2(from, PackReal(1.0)), f1 = k.trig_atan2(to, PackReal(1.0));
-      constant += k.plane_edge_integral(0, power, to, f1, q) - k.plane_edge_integral(0, power, from, f0, q);
-      if (light.linear) slope += k.plane_edge_integral(1, power, to, f1, q) - k.plane_edge_integral(1, power, from, f0, q);
-    } else {
-      constant += k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
-    }
-  });
-  PackReal scale = PackKernels().inverse_two_pi();
-  if (light.profile == 2) scale *= inverse_d;
-  // Radiance at the foot, and its change per slope.
-  constant = constant * scale;
-  const PackReal at_foot = (foot - broadcast(light.begin)) * constant + slope * scale * d;
-  add(tile.red + i, broadcast(light.red) * constant + broadcast(light.red_slope) * at_foot);
-  add(tile.green + i, broadcast(light.green) * constant + broadcast(light.green_slope) * at_foot);
-  add(tile.blue + i, broadcast(light.blue) * constant + broadcast(light.blue_slope) * at_foot);
+  PackReal sum(0.0);
+  cut.for_each_gap([&](PackReal from, PackReal to) { sum += k.trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to); });
+  sum *= PackKernels().inverse_two_pi();
+  add(tile.red + i, broadcast(light.red) * sum);
+  add(tile.green + i, broadcast(light.green) * sum);
+  add(tile.blue + i, broadcast(light.blue) * sum);
 }
 
 // The slopes of an arc that face the pixels, by its tangents and ends.
@@ -101,19 +88,19 @@ STERADIAN_INLINE void add_arc(const TileLight& light, TileBuffer& tile, int i) {
   cut.kept = light.scratch;
   open_arc(light, eye, axis, cut);
   if (cut.dark() || !cut_blockers(light, axis, cut)) return;
-  ArcSum sum;
+  EndWeights sum;
   const bool plain = light.profile == 0 && light.inverse_range == 0.0f && !light.linear;
   const ArcIntegrand integrand(light, eye);
   cut.for_each_gap([&](PackReal from, PackReal to) {
     if (plain)
-      sum.constant += PackKernels().trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
+      sum.begin += PackKernels().trig_atan2_unwrapped(to - from, PackReal(1.0) + from * to);
     else
       integrand.add(axis, from, to, sum);
   });
-  const PackReal scale = PackKernels().inverse_two_pi(), constant = sum.constant * scale, ramp = sum.ramp * scale;
-  add(tile.red + i, broadcast(light.red) * constant + broadcast(light.red_slope) * ramp);
-  add(tile.green + i, broadcast(light.green) * constant + broadcast(light.green_slope) * ramp);
-  add(tile.blue + i, broadcast(light.blue) * constant + broadcast(light.blue_slope) * ramp);
+  const PackReal scale = PackKernels().inverse_two_pi(), begin = sum.begin * scale, end = sum.end * scale;
+  add(tile.red + i, broadcast(light.red) * begin + broadcast(light.red_end) * end);
+  add(tile.green + i, broadcast(light.green) * begin + broadcast(light.green_end) * end);
+  add(tile.blue + i, broadcast(light.blue) * begin + broadcast(light.blue_end) * end);
 }
 
 // A call of its own: add_light would flatten it once more.
