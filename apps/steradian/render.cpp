@@ -66,6 +66,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"passes", passes},
           {"environment_spots", stats.environment_spots},
           {"diffuse_residual", stats.diffuse_residual},
+          {"specular_residual", stats.specular_residual},
           {"shadow_fallback", stats.shadow_fallback},
           {"shadow_on_host", stats.shadow_on_host},
           {"light_sum", stats.light_tree ? "tree" : "all"},
@@ -98,10 +99,12 @@ std::string identity_of(const RenderArguments& options, const Scene& scene) {
   const RenderOptions& r = options.render;
   const LoadOptions& load = options.load;
   return fmt::format(
-             "steradian {} {} | files {} | lights {} {} {} | environment {} {} | camera {} | method {} {} | shadows {} {} | scattering {}",
+             "steradian {} {} | files {} | lights {} {} {} | environment {} {} {} | camera {} | method {} {} | shadows {} {} | scattering "
+             "{}",
              version(), name_of(active_simd()), fingerprint({options.scene, load.environment}, scene), load.max_lights.value_or(0),
-             fmt::join(options.lights, ","), words::name_of(load.light_units), load.environment, words::name_of(r.background), r.camera,
-             r.method, words::name_of(r.quality), words::name_of(r.shadows), words::name_of(r.terminator), options.multiple_scattering) +
+             fmt::join(options.lights, ","), words::name_of(load.light_units), load.environment, load.environment_rotation,
+             words::name_of(r.background), r.camera, r.method, words::name_of(r.quality), words::name_of(r.shadows),
+             words::name_of(r.terminator), options.multiple_scattering) +
          fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", words::name_of(r.indirect.mode),
                      r.indirect.virtual_lights, options.indirect_shadows, r.indirect.kept_pairs, words::name_of(r.indirect.quads),
                      words::name_of(r.indirect.soften), options.size, r.aa, r.spp, r.target_error, r.seed);
@@ -150,10 +153,12 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  verb.refuse({"--quality",          "--table",          "--terminator",     "--multiple-scattering", "--indirect",    "--vpls",
-               "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",      "--max-lights",  "--light",
-               "--lights",           "--light-error",    "--environment",    "--background",          "--light-units", "--camera",
-               "--target-error",     "--resume",         "--animation"},
+  verb.refuse({"--quality",        "--table",          "--terminator",       "--multiple-scattering",
+               "--indirect",       "--vpls",           "--indirect-shadows", "--indirect-pairs",
+               "--indirect-quads", "--indirect-clamp", "--max-lights",       "--light",
+               "--lights",         "--light-error",    "--environment",      "--environment-rotation",
+               "--background",     "--light-units",    "--camera",           "--target-error",
+               "--resume",         "--animation"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -221,7 +226,8 @@ void run(const Verb& verb, RenderArguments& options) {
   const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
-  verb.refuse_without_effect({{"--background", loaded.scene.environment != nullptr, "--environment, or a file with one"}});
+  for (const char* option : {"--background", "--environment-rotation"})
+    verb.refuse_without_effect({{option, loaded.scene.environment != nullptr, "--environment, or a file with one"}});
   loaded.scene.multiple_scattering = options.multiple_scattering;
 
   std::unique_ptr<Progress> progress;
@@ -246,8 +252,11 @@ void run(const Verb& verb, RenderArguments& options) {
   for (const std::string& warning : stats.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
   if (loaded.scene.environment && stats.method != "sampled" && stats.method != "reference")
-    fmt::print(stderr, "steradian: environment: {:.1f} % of its light as polygons, diffuse light of the rest within {:.2g} % rms\n",
-               100 * stats.environment_spots, 100 * stats.diffuse_residual);
+    fmt::print(
+        stderr,
+        "steradian: environment: {:.1f} % of its light as polygons, diffuse light of the rest within {:.2g} % rms, rough metal within "
+        "{:.2g} % rms\n",
+        100 * stats.environment_spots, 100 * stats.diffuse_residual, 100 * stats.specular_residual);
 
   const float exposure = fixed_exposure.value_or(auto_exposure(picture));
   if (!fixed_exposure && options.output.ends_with(".png")) fmt::print(stderr, "steradian: --exposure {:.2f} (auto)\n", exposure);
@@ -294,6 +303,9 @@ void add_render(CommandLine& line) {
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");
   verb.add("--light", options->lights, "extra light; may be repeated").words(words::names<AddedLight>()).group("Light");
   verb.add("--environment", options->load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
+  verb.add("--environment-rotation", options->load.environment_rotation, "degrees about +y, counter-clockwise from above")
+      .range(-360.0, 360.0)
+      .group("Light");
 
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels").group("Picture");
   verb.add("--aa", r.aa, "primary samples a pixel").range(1, 4096).group("Picture");

@@ -37,7 +37,8 @@ struct LoadOptions {
   // light, up to 65,536.
   std::optional<int> max_lights = {};
   Limits limits{};
-  std::string environment = {};  // as load_environment takes it; empty: the file's own (EXT_lights_image_based), if any
+  std::string environment = {};     // as load_environment takes it; empty: the file's own (EXT_lights_image_based), if any
+  double environment_rotation = 0;  // of the environment about +y, counter-clockwise from above [degrees]
   LightUnits light_units = LightUnits::from_generator;
   double aspect = 16.0 / 9;                        // width over height of the picture that a default camera fills
   std::vector<AddedLight> lights = {};             // empty: standard if the file's own lights are too weak for a picture

@@ -76,6 +76,7 @@ struct RenderStats {
   std::size_t triangles = 0;
   double environment_spots = 0;       // fraction of the environment's light that polygon lights carry
   double diffuse_residual = 0;        // bound of the rms error of the rest's irradiance over its mean
+  double specular_residual = 0;       // rms error of the rest's light on rough metal over the mean of all the map's (docs/environments.md)
   bool light_tree = false;            // many lights were summed together; the layer "light_bound" gives each pixel's possible error
   double light_elements = 0;          // lights that were one or four elements at a point by themselves, on average over diffuse points
   double light_outlines = 0;          // and lights whose outline was walked

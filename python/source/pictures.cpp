@@ -27,6 +27,7 @@ LoadedScene load(const std::string& path, const py::dict& o) {
   LoadOptions options;
   if (!o["max_lights"].is_none()) options.max_lights = o["max_lights"].cast<int>();
   options.environment = o["environment"].cast<std::string>();
+  options.environment_rotation = o["environment_rotation"].cast<double>();
   options.light_units = value_of<LightUnits>(o["light_units"], "light_units");
   options.aspect = o["aspect"].cast<double>();
   for (const py::handle name : o["lights"]) options.lights.push_back(value_of<AddedLight>(name, "lights"));

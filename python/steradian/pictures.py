@@ -30,12 +30,13 @@ class Fit(NamedTuple):
     largest_error: float
 
 
-def load_scene(path: Path, *, max_lights: Optional[int] = None, environment: str = "", lights: Sequence[str] = (), light_units: str = "auto",
-               aspect: float = 16 / 9, max_memory: int = 4_000_000_000, max_work: int = 2_000_000_000) -> _core.Scene:
+def load_scene(path: Path, *, max_lights: Optional[int] = None, environment: str = "", environment_rotation: float = 0,
+               lights: Sequence[str] = (), light_units: str = "auto", aspect: float = 16 / 9, max_memory: int = 4_000_000_000, max_work: int = 2_000_000_000) -> _core.Scene:
     """Reads a glTF 2.0 file (.gltf or .glb).
 
     max_lights   area lights kept, strongest first; None: 256, and each mesh and single light
     environment  light from all around: a map's path, "white" or "sky"; empty: the file's own
+    environment_rotation  degrees about +y, counter-clockwise from above
     lights       beside the file's: "default", "none", "sun", "studio"
     light_units  of punctual lights beside emission: "auto", "candela" or "watt"
     aspect       width over height of the picture that a default camera fills
@@ -43,7 +44,8 @@ def load_scene(path: Path, *, max_lights: Optional[int] = None, environment: str
     Returns a Scene: its `warnings` say what was dropped, defaulted or not supported; `lights` are its area lights as
     dictionaries for radiance(); `cameras` and `materials` are names.
     """
-    return _core.load_scene(os.fspath(path), dict(max_lights=max_lights, environment=environment, lights=list(lights),
+    return _core.load_scene(os.fspath(path), dict(max_lights=max_lights, environment=environment,
+                                                  environment_rotation=environment_rotation, lights=list(lights),
                                                   light_units=light_units, aspect=aspect, max_memory=max_memory, max_work=max_work))
 
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/turned_environment.h"
 #include "steradian/error.h"
 #include "support/gltf_test_file.h"
 
@@ -63,6 +64,23 @@ TEST(Environment, TheClearSkyLightsTheGroundAsStated) {
   const Vec3f zenith = radiance_from(sky, {0, 1, 0}), sun = radiance_from(sky, normalized(Vec3d{-0.4, 0.8, 0.6}));
   EXPECT_GT(zenith.z, 2 * zenith.x);
   EXPECT_GT(sun.y, 2 * zenith.y);
+}
+
+// A turn by whole columns moves the texels. By -90 degrees, the middle (-z) comes to +x, as Blender and three.js show a map.
+TEST(Environment, TurnsCounterClockwiseFromAbove) {
+  for (const int columns : {0, 1, 3, 12, -5}) {
+    Environment environment{"test", Picture(16, 8), {}, 0};
+    for (std::size_t i = 0; i < environment.map.pixels.size(); ++i) environment.map.pixels[i] = {static_cast<float>(i), 1, 0};
+    const Picture before = environment.map;
+    turn(environment, columns * 22.5);
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 16; ++i) EXPECT_EQ(environment.map.at(i, j), before.at((i + columns + 16) % 16, j)) << columns;
+  }
+  Environment environment{"test", Picture(16, 8), IrradianceCoefficients{}, 0};
+  environment.map.at(8, 4) = {1, 1, 1};
+  turn(environment, -90);
+  EXPECT_EQ(environment.map.at(12, 4).x, 1);
+  EXPECT_NEAR(length(environment.irradiance->z - Vec3d{-1, 0, 0}), 0, 1e-12);  // z goes to -x as -z goes to +x
 }
 
 // Coefficients of a constant and of a linear radiance. Their irradiances are pi and 2 pi / 3 times the radiance.

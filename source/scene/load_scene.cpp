@@ -13,6 +13,7 @@
 #include "scene/gltf/gltf_materials.h"
 #include "scene/gltf/gltf_meshes.h"
 #include "scene/gltf/gltf_nodes.h"
+#include "scene/turned_environment.h"
 
 namespace steradian::scene {
 namespace {
@@ -125,6 +126,11 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
       warnings.say(counted(environment.repaired, "value") + " of the environment " + environment.name +
                    " that no radiance has (negative, infinite, none) made 0 or the largest of the others");
     scene.environment = std::make_shared<const Environment>(std::move(environment));
+  }
+  if (scene.environment && options.environment_rotation != 0) {
+    Environment turned = *scene.environment;
+    turn(turned, options.environment_rotation);
+    scene.environment = std::make_shared<const Environment>(std::move(turned));
   }
   if (scene.cameras.empty()) {
     scene.cameras.push_back(framing_camera(scene, options.aspect));

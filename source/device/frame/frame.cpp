@@ -298,6 +298,7 @@ struct Frame::Parts {
       stats.passes.push_back(surfaces.environment_time(threads));
       stats.environment_spots = environment->share_of_spots();
       stats.diffuse_residual = environment->diffuse_residual();
+      stats.specular_residual = environment->specular_residual();
     }
     if (bounced) stats.passes.push_back(capture_clock.time(threads));
     for (PassTime& pass : stats.passes) pass.ms -= std::exchange(reported[pass.name], pass.ms);

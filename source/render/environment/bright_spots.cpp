@@ -1,21 +1,26 @@
 #include "render/environment/bright_spots.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <optional>
 
+#include "render/environment/convex_patch.h"
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian::environment {
 namespace {
 
-constexpr double kMostSolidAngle = 0.5, kLeastFill = 0.6, kLeastShare = 0.005;
-constexpr std::size_t kMostSpots = 16, kMostCorners = 16;
+constexpr double kLeastShare = 0.005;  // of the map's power: weaker spots stay in the rest
+// A part is cut if it leaves more light than these in the map: a fraction of the map's power, and of its own. A part of one radiance that
+// fills nine tenths of its polygon leaves a fifth.
+constexpr double kLeastError = 0.0015, kLeastOwnError = 0.2;
+constexpr std::size_t kMostSpots = 16, kMostLights = 48, kMostCorners = 16;
 
 using Cell = DirectionGrid::Cell;
 
 struct Spot {
   std::vector<Cell> cells;
-  double solid_angle = 0, power = 0;
+  double power = 0;
 };
 
 double luminance_of(const DirectionGrid& grid, Cell c) { return luminance(static_cast<Vec3d>(grid.map.at(c.column, c.row))); }
@@ -49,7 +54,6 @@ std::vector<Spot> bright_parts(const DirectionGrid& grid, double least) {
       seen[index({i, j})] = 1;
       for (std::size_t next = 0; next < spot.cells.size(); ++next) {
         const Cell c = spot.cells[next];
-        spot.solid_angle += grid.solid_angle(c.row);
         spot.power += luminance_of(grid, c) * grid.solid_angle(c.row);
         for (int dj = -1; dj <= 1; ++dj)
           for (int di = -1; di <= 1; ++di) {
@@ -62,68 +66,6 @@ std::vector<Spot> bright_parts(const DirectionGrid& grid, double least) {
       spots.push_back(std::move(spot));
     }
   return spots;
-}
-
-struct Point {
-  double x, y;
-};
-double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
-// Counter-clockwise hull.
-// Source: Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
-std::vector<Point> convex_hull(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::vector<Point> hull;
-  const auto add_chain = [&](auto first, auto last) {
-    const std::size_t start = hull.size();
-    for (auto p = first; p != last; ++p) {
-      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), *p) <= 0) hull.pop_back();
-      hull.push_back(*p);
-    }
-    hull.pop_back();
-  };
-  add_chain(points.begin(), points.end());
-  add_chain(points.rbegin(), points.rend());
-  return hull;
-}
-
-// Removes the corners that cost the least area.
-void simplify(std::vector<Point>& hull) {
-  while (hull.size() > kMostCorners) {
-    const auto lost = [&](std::size_t i) { return turn(hull[(i + hull.size() - 1) % hull.size()], hull[i], hull[(i + 1) % hull.size()]); };
-    std::size_t least = 0;
-    for (std::size_t i = 1; i < hull.size(); ++i)
-      if (lost(i) < lost(least)) least = i;
-    hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(least));
-  }
-}
-
-// The plane that touches the unit sphere at a spot's middle. Directions become points of the plane.
-struct TangentPlane {
-  Frame frame;  // z points from the spot to the sphere's centre: a polygon counter-clockwise about it is lit towards the centre
-
-  std::optional<Point> project(Vec3d d) const {
-    const double towards = -dot(d, frame.z);
-    if (towards < 0.3) return {};  // more than 72 degrees off
-    return Point{dot(d, frame.x) / towards, dot(d, frame.y) / towards};
-  }
-  Vec3d lift(Point p) const { return frame.x * p.x + frame.y * p.y - frame.z; }
-};
-
-// Solid angle of a small convex polygon of the plane: the sum of its triangles' (van Oosterom, Strackee 1983).
-double solid_angle(const std::vector<Vec3d>& v) {
-  double sum = 0;
-  for (std::size_t i = 1; i + 1 < v.size(); ++i) {
-    const Vec3d a = normalized(v[0]), b = normalized(v[i]), c = normalized(v[i + 1]);
-    sum += 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-  }
-  return std::fabs(sum);
-}
-
-bool inside(const std::vector<Point>& hull, Point p) {
-  for (std::size_t i = 0; i < hull.size(); ++i)
-    if (turn(hull[i], hull[(i + 1) % hull.size()], p) < 0) return false;
-  return true;
 }
 
 // Mean of the texels that touch the spot and do not belong to it.
@@ -149,28 +91,148 @@ Vec3d mean_around(const DirectionGrid& grid, const Spot& spot) {
   return weight > 0 ? sum / weight : Vec3d{};
 }
 
-// Takes the polygon's light out of the map. The polygon's coverage of a texel is measured at 8 x 8 positions.
-void take_out(DirectionGrid& grid, const Spot& spot, const TangentPlane& plane, const std::vector<Point>& hull, Vec3d radiance) {
+// A convex part of a spot.
+struct Part {
+  std::vector<Cell> cells;  // those that it covers in part are in its neighbour as well
+  std::vector<Vec3d> cuts;  // great circles that bound it
+  Vec3d around;             // radiance about the spot
+  std::optional<ConvexPatch> patch;
+  Vec3d radiance;
+  double solid_angle = 0, error = INFINITY;  // error: light that it leaves in the map, if that is worth a cut
+  std::vector<MapSample> samples;            // luminance above the surroundings
+};
+
+std::array<Vec3d, 4> corners_of(const DirectionGrid& grid, Cell c) {
+  return {grid.direction(c.column, c.row), grid.direction(c.column + 1, c.row), grid.direction(c.column, c.row + 1),
+          grid.direction(c.column + 1, c.row + 1)};
+}
+
+// Calls use(cell, fraction) for the texels that a patch covers. The fraction is measured at 8 x 8 places.
+template <class Use>
+void each_covered(const DirectionGrid& grid, const ConvexPatch& patch, Use use) {
   constexpr int kPlaces = 8;
-  int first = grid.map.height, last = -1;
-  for (const Cell c : spot.cells) {
-    first = std::min(first, c.row);
-    last = std::max(last, c.row);
-  }
-  // Texels farther from the hull than their own diagonal are not covered.
-  double farthest = 0;
-  for (const Point& p : hull) farthest = std::max(farthest, std::hypot(p.x, p.y));
-  const double reach = std::atan(farthest) + 2 * std::numbers::pi / grid.map.height;
-  for (int j = std::max(first - 1, 0); j <= std::min(last + 1, grid.map.height - 1); ++j)
-    for (int i = 0; i < grid.map.width; ++i) {
-      if (-dot(grid.center(i, j), plane.frame.z) < std::cos(std::min(reach, 1.5))) continue;
-      int covered = 0;
-      for (int k = 0; k < kPlaces * kPlaces; ++k) {
-        const auto p = plane.project(grid.direction(i + (k % kPlaces + 0.5) / kPlaces, j + (k / kPlaces + 0.5) / kPlaces));
-        covered += p && inside(hull, *p) ? 1 : 0;
-      }
-      if (covered > 0) grid.map.at(i, j) -= static_cast<Vec3f>(radiance * (covered / double{kPlaces * kPlaces}));
+  const int width = grid.map.width, height = grid.map.height;
+  const double texel = std::numbers::pi / height + 2 * std::numbers::pi / width, reach = patch.reach() + texel;
+  const double least = reach < std::numbers::pi ? std::cos(reach) : -1, angle = std::acos(std::clamp(patch.middle().y, -1.0, 1.0));
+  const int first = std::max(static_cast<int>((angle - reach) / std::numbers::pi * height), 0);
+  const int last = std::min(static_cast<int>((angle + reach) / std::numbers::pi * height), height - 1);
+  for (int j = first; j <= last; ++j)
+    for (int i = 0; i < width; ++i) {
+      if (dot(grid.center(i, j), patch.middle()) < least) continue;
+      const ConvexPatch::Coverage coverage = patch.coverage_of(corners_of(grid, {i, j}));
+      if (coverage == ConvexPatch::Coverage::none) continue;
+      int covered = coverage == ConvexPatch::Coverage::all ? kPlaces * kPlaces : 0;
+      if (covered == 0)
+        for (int k = 0; k < kPlaces * kPlaces; ++k)
+          covered += patch.contains(grid.direction(i + (k % kPlaces + 0.5) / kPlaces, j + (k / kPlaces + 0.5) / kPlaces)) ? 1 : 0;
+      if (covered > 0) use(Cell{i, j}, covered / double{kPlaces * kPlaces});
     }
+}
+
+// Finds the part's patch, radiance and error. A part without a patch is too wide for a plane.
+void fit(const DirectionGrid& grid, Part& part) {
+  Vec3d middle{};
+  std::vector<Vec3d> corners;
+  for (const Cell c : part.cells) {
+    middle += grid.center(c.column, c.row) * grid.solid_angle(c.row);
+    for (const Vec3d d : corners_of(grid, c)) corners.push_back(d);
+  }
+  if (!(length(middle) > 0)) return;
+  part.patch = ConvexPatch::around(normalized(middle), corners);
+  if (!part.patch) return;
+  for (const Vec3d normal : part.cuts) part.patch->cut(normal);
+  part.patch->simplify(kMostCorners);
+  part.error = 0;
+  part.solid_angle = part.patch->solid_angle();
+  if (!part.patch->has_area()) return;
+  Vec3d sum{};
+  double weight = 0;
+  each_covered(grid, *part.patch, [&](Cell c, double covered) {
+    const Vec3d excess = static_cast<Vec3d>(grid.map.at(c.column, c.row)) - part.around;
+    const double solid_angle = grid.solid_angle(c.row) * covered;
+    sum += excess * solid_angle;
+    weight += solid_angle;
+    part.samples.push_back({grid.center(c.column, c.row), solid_angle, luminance(excess)});
+  });
+  if (!(weight > 0)) return;
+  const Vec3d mean = sum / weight;
+  part.radiance = {std::max(mean.x, 0.0), std::max(mean.y, 0.0), std::max(mean.z, 0.0)};
+  const double error = unevenness(part.samples);
+  part.error = error > kLeastOwnError * luminance(part.radiance) * part.solid_angle ? error : 0;
+}
+
+// A part that is too wide for a plane is cut across the axis along which it is longest, among those that it has on both sides. A part of an
+// octant is not too wide.
+Vec3d cut_of_wide(const DirectionGrid& grid, const Part& part) {
+  const std::array<Vec3d, 3> axes = {Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Vec3d best = axes[0];
+  double most = -1;
+  for (const Vec3d axis : axes) {
+    double weight = 0, sum = 0, squares = 0, low = 1, high = -1;
+    for (const Cell c : part.cells) {
+      const double x = dot(axis, grid.center(c.column, c.row)), solid_angle = grid.solid_angle(c.row);
+      weight += solid_angle;
+      sum += x * solid_angle;
+      squares += x * x * solid_angle;
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    const double spread = squares / weight - sum / weight * (sum / weight);
+    if (!(low < 0 && high > 0) || std::min(-low, high) < std::numbers::pi / grid.map.height || !(spread > most)) continue;
+    most = spread;
+    best = axis;
+  }
+  return best;
+}
+
+std::array<Part, 2> halves_of(const DirectionGrid& grid, const Part& part) {
+  const Vec3d normal = part.patch ? best_cut(*part.patch, part.samples) : cut_of_wide(grid, part);
+  std::array<Part, 2> halves;
+  for (const int side : {0, 1}) {
+    Part& half = halves[static_cast<std::size_t>(side)];
+    const Vec3d inwards = side == 0 ? normal : -normal;
+    half.around = part.around;
+    half.cuts = part.cuts;
+    half.cuts.push_back(inwards);
+    for (const Cell c : part.cells) {
+      const auto corners = corners_of(grid, c);
+      if (std::any_of(corners.begin(), corners.end(), [&](Vec3d d) { return dot(d, inwards) > 1e-12; })) half.cells.push_back(c);
+    }
+    if (half.cells.empty())
+      half.error = 0;
+    else
+      fit(grid, half);
+  }
+  return halves;
+}
+
+// Cuts the spots into at most kMostLights parts. The part with the largest error is cut first.
+std::vector<Part> parts_of(const DirectionGrid& grid, const std::vector<Spot>& spots, double least_error) {
+  std::vector<Part> parts;
+  for (const Spot& spot : spots) {
+    Part part;
+    part.cells = spot.cells;
+    part.around = mean_around(grid, spot);
+    fit(grid, part);
+    parts.push_back(std::move(part));
+  }
+  while (!parts.empty() && parts.size() < kMostLights) {
+    const auto worst = std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.error < b.error; });
+    if (!(worst->error > least_error)) break;
+    std::array<Part, 2> halves = halves_of(grid, *worst);
+    *worst = std::move(halves[0]);
+    parts.push_back(std::move(halves[1]));
+  }
+  std::erase_if(parts, [](const Part& p) { return !p.patch || !p.patch->has_area() || !(luminance(p.radiance) > 0); });
+  return parts;
+}
+
+// Takes the part's light out of the map, exactly as much as its polygon sends.
+void take_out(DirectionGrid& grid, const Part& part) {
+  double sum = 0;
+  for (const MapSample& s : part.samples) sum += s.solid_angle;
+  const Vec3d radiance = part.radiance * (part.solid_angle / sum);
+  each_covered(grid, *part.patch, [&](Cell c, double covered) { grid.map.at(c.column, c.row) -= static_cast<Vec3f>(radiance * covered); });
 }
 
 }  // namespace
@@ -183,34 +245,14 @@ SplitMap split_bright_spots(const DirectionGrid& grid) {
   if (!(power > 0)) return split;
 
   std::vector<Spot> spots = bright_parts(grid, threshold(grid, power));
-  std::erase_if(spots, [&](const Spot& s) { return s.solid_angle > kMostSolidAngle || s.power < kLeastShare * power; });
+  std::erase_if(spots, [&](const Spot& s) { return s.power < kLeastShare * power; });
   std::stable_sort(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.power > b.power; });
   if (spots.size() > kMostSpots) spots.resize(kMostSpots);
 
-  for (const Spot& spot : spots) {
-    Vec3d middle{}, sum{};
-    for (const Cell c : spot.cells) {
-      middle += grid.center(c.column, c.row) * (luminance_of(grid, c) * grid.solid_angle(c.row));
-      sum += static_cast<Vec3d>(grid.map.at(c.column, c.row)) * grid.solid_angle(c.row);
-    }
-    const TangentPlane plane{Frame::from_normal(normalized(-middle))};
-    std::vector<Point> corners;
-    for (const Cell c : spot.cells)
-      for (const int k : {0, 1, 2, 3})
-        if (const auto p = plane.project(grid.direction(c.column + k % 2, c.row + k / 2))) corners.push_back(*p);
-    if (corners.size() < 4 * spot.cells.size()) continue;
-    std::vector<Point> hull = convex_hull(std::move(corners));
-    simplify(hull);
-    PolygonLight light;
-    for (const Point p : hull) light.vertices.push_back(plane.lift(p));
-    const double covered = solid_angle(light.vertices);
-    if (hull.size() < 3 || !(spot.solid_angle > kLeastFill * covered)) continue;
-
-    const Vec3d excess = sum - mean_around(grid, spot) * spot.solid_angle;
-    light.radiance = Vec3d{std::max(excess.x, 0.0), std::max(excess.y, 0.0), std::max(excess.z, 0.0)} / covered;
-    take_out(split.rest, spot, plane, hull, light.radiance);
-    split.share += luminance(light.radiance) * covered / power;
-    split.spots.push_back(std::move(light));
+  for (const Part& part : parts_of(grid, spots, kLeastError * power)) {
+    take_out(split.rest, part);
+    split.share += luminance(part.radiance) * part.solid_angle / power;
+    split.spots.push_back(part.patch->light(part.radiance));
   }
   return split;
 }

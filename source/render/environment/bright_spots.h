@@ -14,9 +14,10 @@ struct SplitMap {
   double share = 0;                 // fraction of the map's power (luminance) that the spots carry
 };
 
-// A spot is a connected set of texels brighter than 16 times the median and twice the mean luminance. It covers at most 0.5 sr, fills 60 %
-// of its convex hull and carries 0.5 % of the map's power; only the 16 strongest count. The polygon is the hull of its texels' corners (at
-// most 16 corners). Its radiance is the spot's excess over the texels around it.
+// A spot is a connected set of texels brighter than 16 times the median and twice the mean luminance, that carries 0.5 % of the map's
+// power. The 16 strongest are cut by great circles into at most 48 convex parts. The part that leaves most light in the rest is cut first,
+// until each leaves less than 0.15 % of the map's power, or less than a fifth of its own light. A polygon (at most 16 corners) has the mean
+// excess of its part over the texels around the spot. The rest loses exactly the light that the polygons send.
 SplitMap split_bright_spots(const DirectionGrid& grid);
 
 }  // namespace steradian::environment

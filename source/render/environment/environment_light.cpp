@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "lobes/lobe.h"
+#include "steradian/area_light.h"  // luminance
 
 namespace steradian::environment {
 namespace {
@@ -16,12 +17,11 @@ constexpr int kCones = 32;
 // Distance of the spots' polygons over the scene's radius: across the scene they move by less than 1e-4 rad.
 constexpr double kDistance = 1e4;
 
-std::vector<AreaLight> lights_of(const Scene& scene, const SplitMap& split) {
+std::vector<AreaLight> lights_of(const Scene& scene, const std::vector<PolygonLight>& polygons) {
   const Vec3d center = (scene.bounds_min + scene.bounds_max) * 0.5;
   const double radius = length(scene.bounds_max - scene.bounds_min) / 2, distance = kDistance * (radius > 0 ? radius : 1);
   std::vector<AreaLight> lights;
-  for (const PolygonLight& spot : split.spots) {
-    PolygonLight polygon = spot;
+  for (PolygonLight polygon : polygons) {
     for (Vec3d& v : polygon.vertices) v = center + v * distance;
     AreaLight light = area_light(std::move(polygon));
     light.name = scene.environment->name;
@@ -66,6 +66,10 @@ double mean_grazing(double cos_view) {
   return table[i] * (1 - t) + table[i + 1] * t;
 }
 
+struct EnvironmentLight::GgxSums {
+  Vec3f plain{}, grazing{};
+};
+
 EnvironmentLight::EnvironmentLight(const Scene& scene)
     : EnvironmentLight(scene, DirectionGrid::averaged(scene.environment->map, kMostColumns)) {}
 
@@ -74,11 +78,57 @@ EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid
 
 EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid, const SplitMap& split)
     : environment_(*scene.environment),
-      spots_(lights_of(scene, split)),
+      spots_(lights_of(scene, split.spots)),
       share_(split.share),
       harmonics_(split.rest),
       filtered_(split.rest),
-      sampler_(grid) {}
+      sampler_(grid) {
+  specular_residual_ = measured_residual(grid, split.rest);
+}
+
+double EnvironmentLight::measured_residual(const DirectionGrid& whole, const DirectionGrid& rest) const {
+  constexpr int kColumns = 256, kViews = 24;
+  const auto coarse = [](const DirectionGrid& g) { return DirectionGrid::repeated(DirectionGrid::averaged(g.map, kColumns), kColumns); };
+  const DirectionGrid all = coarse(whole), left = coarse(rest);
+  struct Texel {
+    Vec3d direction;
+    double all, left;  // luminance times solid angle
+  };
+  std::vector<Texel> texels;
+  for (int j = 0; j < all.map.height; ++j)
+    for (int i = 0; i < all.map.width; ++i)
+      texels.push_back({all.center(i, j), luminance(static_cast<Vec3d>(all.map.at(i, j))) * all.solid_angle(j),
+                        luminance(static_cast<Vec3d>(left.map.at(i, j))) * all.solid_angle(j)});
+  double squares = 0, mean = 0;
+  for (int i = 0; i < kViews; ++i) {
+    const double golden = i * 0.61803398874989485;
+    const Vec3d normal = direction_of({golden - std::floor(golden), std::acos(1 - (2 * i + 1.0) / kViews) / std::numbers::pi});
+    const Frame frame = Frame::from_normal(normal);
+    const double tilt = 1.2 * (i % 4) / 4;
+    const Vec3d view{std::sin(tilt), 0, std::cos(tilt)};
+    for (const double roughness : {0.3, 0.6, 1.0}) {
+      Material metal;
+      metal.brdf = Brdf::ggx;
+      metal.alpha_x = metal.alpha_y = roughness * roughness;
+      metal.f0 = metal.f90 = {1, 1, 1};
+      const lobes::Lobe lobe(lobes::in_frame(metal, frame), view);
+      double of_all = 0, of_rest = 0;
+      for (const Texel& t : texels) {
+        const Vec3d l = frame.to_local(t.direction);
+        if (!(l.z > 0)) continue;
+        const double reflected = luminance(lobe.radiance(lobe.evaluate(l)));
+        of_all += t.all * reflected;
+        of_rest += t.left * reflected;
+      }
+      const auto alpha = static_cast<float>(metal.alpha_x);
+      const double cones = luminance(static_cast<Vec3d>(ggx_through_cones(frame, static_cast<Vec3f>(view), alpha, alpha).plain));
+      squares += (cones - of_rest) * (cones - of_rest);
+      mean += of_all;
+    }
+  }
+  constexpr double kCount = 3.0 * kViews;
+  return mean > 0 ? std::sqrt(squares / kCount) / (mean / kCount) : 0;
+}
 
 // Irradiance times the fraction that passes the boundary above the surface under a uniform sky.
 Vec3d EnvironmentLight::diffuse(const Material& lobe, Vec3d normal, Vec3d view) const {
@@ -92,9 +142,6 @@ Vec3d EnvironmentLight::diffuse(const Material& lobe, Vec3d normal, Vec3d view) 
 //   view      in the lobe's frame, above its surface
 //   returns   sums of the map's mean in every cone times G2 / G1, plain and times (1 - v.h)^5
 // Source: the visible normals and their density: Heitz, "Sampling the GGX distribution of visible normals", 2018, algorithm 1.
-struct EnvironmentLight::GgxSums {
-  Vec3f plain{}, grazing{};
-};
 EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame, Vec3f view, float ax, float ay) const {
   static const auto discs = [] {  // points of the unit disc, with the square of their radius
     std::array<Vec3f, kCones> d;

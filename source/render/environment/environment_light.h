@@ -16,6 +16,9 @@ class EnvironmentLight {
 
   const std::vector<AreaLight>& spots() const { return spots_; }
   double share_of_spots() const { return share_; }
+  // Error of the cones: rms of the difference from the sum over the texels of the rest (luminance), for GGX of roughness 0.3, 0.6 and 1. It
+  // is relative to the mean of the light of the whole map.
+  double specular_residual() const { return specular_residual_; }
   double diffuse_residual() const { return harmonics_.residual(); }
   const EnvironmentSampler& sampler() const { return sampler_; }
 
@@ -31,11 +34,12 @@ class EnvironmentLight {
   Vec3d diffuse(const Material& lobe, Vec3d normal, Vec3d view) const;
   struct GgxSums;
   GgxSums ggx_through_cones(const Frame& frame, Vec3f view, float ax, float ay) const;
+  double measured_residual(const DirectionGrid& whole, const DirectionGrid& rest) const;
   Vec3d through_cones(const Material& lobe, const Surface& surface, Vec3d normal, Vec3d view) const;
 
   const Environment& environment_;
   std::vector<AreaLight> spots_;
-  double share_ = 0;
+  double share_ = 0, specular_residual_ = 0;
   HarmonicIrradiance harmonics_;
   FilteredMap filtered_;
   EnvironmentSampler sampler_;  // samples the whole map

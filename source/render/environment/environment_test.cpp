@@ -203,6 +203,81 @@ TEST(EnvironmentSplit, LeavesASmoothMapAlone) {
   EXPECT_TRUE(split_bright_spots(DirectionGrid{Picture(16, 8)}).spots.empty());
 }
 
+// The bright strips of the family: arcs of any width and length about any axis, up to whole rings, crosses of two, and rings of texels
+// around the poles. Their radiance is 20 to 60 times that of the rest.
+Picture strips_map(reference::Random& random) {
+  Picture map(256, 128);
+  const int arcs = 1 + static_cast<int>(random.uniform() * 2.999);
+  struct Arc {
+    Vec3d axis, start;
+    double height, width, length;
+  };
+  std::vector<Arc> family;
+  for (int k = 0; k < arcs; ++k) {
+    const Vec3d axis = random.uniform() < 0.3 ? Vec3d{0, 1, 0} : random_direction(random);
+    const Frame frame = Frame::from_normal(axis);
+    family.push_back({axis, frame.x, random.uniform(-0.7, 0.7), random.uniform(0.03, 0.1), random.uniform(0.5, 6.5)});
+  }
+  const double bright = random.uniform(20, 60);
+  for (int j = 0; j < map.height; ++j)
+    for (int i = 0; i < map.width; ++i) {
+      const Vec3d d = direction_of({(i + 0.5) / map.width, (j + 0.5) / map.height});
+      map.at(i, j) = static_cast<Vec3f>(Vec3d{0.5, 0.4 + 0.1 * d.y, 0.5});
+      for (const Arc& arc : family) {
+        const double angle = std::atan2(dot(d, cross(arc.axis, arc.start)), dot(d, arc.start)) + std::numbers::pi;
+        if (std::fabs(dot(d, arc.axis) - arc.height) < arc.width / 2 && angle < arc.length)
+          map.at(i, j) = static_cast<Vec3f>(Vec3d{1, 0.9, 0.7} * bright);
+      }
+    }
+  return map;
+}
+
+double power_of(const DirectionGrid& grid, bool signs) {
+  double power = 0;
+  for (int j = 0; j < grid.map.height; ++j)
+    for (int i = 0; i < grid.map.width; ++i) {
+      const double l = luminance(static_cast<Vec3d>(grid.map.at(i, j)));
+      power += (signs ? l : std::fabs(l)) * grid.solid_angle(j);
+    }
+  return power;
+}
+
+double solid_angle_of(const PolygonLight& light) {
+  double sum = 0;
+  const auto& v = light.vertices;
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+    const Vec3d a = normalized(v[0]), b = normalized(v[i]), c = normalized(v[i + 1]);
+    sum += 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+  }
+  return std::fabs(sum);
+}
+
+// Strips of any shape become at most 48 lights, and the lights and the rest are the map.
+TEST(EnvironmentSplit, StripsOfAnyShapeBecomeLights) {
+  reference::Random random(17);
+  double mean_rest = 0, worst_error = 0;
+  std::size_t most = 0;
+  const int maps = test::by_day_or_night(12, 200);
+  for (int k = 0; k < maps; ++k) {
+    const DirectionGrid grid{strips_map(random)};
+    const SplitMap split = split_bright_spots(grid);
+    ASSERT_FALSE(split.spots.empty()) << k;
+    most = std::max(most, split.spots.size());
+    double power = power_of(split.rest, true);
+    for (const PolygonLight& spot : split.spots) power += luminance(spot.radiance) * solid_angle_of(spot);
+    // Texels are floats: 2^-24 of the brightest each, and their errors are independent.
+    worst_error = std::max(worst_error, std::fabs(power / power_of(grid, true) - 1));
+    // Light that the polygons miss or send too much, over the map's.
+    const double dim = 0.45 * 4 * std::numbers::pi;
+    const double rest = (power_of(split.rest, false) - dim) / power_of(grid, true);
+    mean_rest += rest / maps;
+  }
+  std::printf("%d maps: at most %zu lights, energy within %.1e, rest %.3f of the map\n", maps, most, worst_error, mean_rest);
+  EXPECT_LE(most, 48u);
+  EXPECT_LT(worst_error, 1e-5);
+  EXPECT_LT(mean_rest, 0.5);
+}
+
 TEST(EnvironmentFilter, BlursByTheStatedWidthAndKeepsConstants) {
   Picture even(64, 32);
   for (Vec3f& p : even.pixels) p = {1, 2, 3};
@@ -309,6 +384,23 @@ TEST(EnvironmentRender, SpecularAgreesWithTheReference) {
       std::printf("roughness %.2f %s: %.2f %%\n", static_cast<double>(roughness), room ? "room" : "smooth", 100 * error);
       EXPECT_LT(error, 0.03) << roughness << (room ? " room" : " smooth");
     }
+}
+
+// The residual that is printed is the cones' error: small without the strips, large with them (a file's own irradiance keeps them).
+TEST(EnvironmentRender, TheSpecularResidualTellsWhatTheConesMiss) {
+  reference::Random random(29);
+  for (int k = 0; k < 3; ++k) {
+    Scene scene = ball_in(strips_map(random), metal(0.5f));
+    const double split = EnvironmentLight(scene).specular_residual();
+    Environment whole = *scene.environment;
+    whole.irradiance = IrradianceCoefficients{};
+    scene.environment = std::make_shared<const Environment>(std::move(whole));
+    const double unsplit = EnvironmentLight(scene).specular_residual();
+    std::printf("map %d: residual %.2f %%, with the strips in the rest %.2f %%\n", k, 100 * split, 100 * unsplit);
+    EXPECT_LT(split, 0.04);
+    EXPECT_GT(unsplit, 0.04);
+  }
+  EXPECT_LT(EnvironmentLight(ball_in(white_environment().map, metal(0.5f))).specular_residual(), 0.02);
 }
 
 // Tiles extend beyond the picture by whole blocks of pixels, where lights of the map cast shadows.

@@ -101,6 +101,7 @@ class Renderer {
       stats.passes.push_back(surfaces_.environment_time(threads_));
       stats.environment_spots = environment()->share_of_spots();
       stats.diffuse_residual = environment()->diffuse_residual();
+      stats.specular_residual = environment()->specular_residual();
     }
     if (many_lights_) many_lights_->report(stats);
     if (lighting_.has_shadows()) {
