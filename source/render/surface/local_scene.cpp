@@ -2,14 +2,12 @@
 
 #include <cmath>
 
-#include "core/box.h"
+#include "scene/framing.h"
 #include "shadow/edges/segments.h"
 
 namespace steradian {
 namespace {
 
-// Beyond this many extents from the origin, a scene is moved: floats would be off by more than 1e-6 of it.
-constexpr double kFar = 16;
 // Extents that need no scale, and the extents to which others are brought. Powers of floats and their inverses stay in range from there.
 constexpr int kSmallest = -6, kLargest = 12, kUsual = 3;  // powers of two
 
@@ -91,9 +89,7 @@ struct Move {
 std::optional<Move> move_of(const Scene& scene) {
   const double extent = shadow::largest_coordinate(scene.bounds_max - scene.bounds_min);
   if (!(extent > 0)) return {};
-  const Vec3d middle = (scene.bounds_min + scene.bounds_max) * 0.5;
-  Move move;
-  if (shadow::largest_coordinate(middle) > kFar * extent) move.origin = middle;
+  Move move = {scene::far_middle({scene.bounds_min, scene.bounds_max})};
   const int size = std::ilogb(extent);
   if (size < kSmallest) move.scale = std::ldexp(1.0, kUsual - size);
   if (size >= kLargest) move.scale = std::ldexp(1.0, kLargest - 1 - size);
