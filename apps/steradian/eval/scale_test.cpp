@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "eval/answer.h"
 #include "night.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::eval::scale_test {
 namespace {
@@ -197,6 +198,29 @@ TEST(EvalScale, ContactShadowsAreBlackAnywhere) {
             EXPECT_EQ(red(a), 0) << light << method << scale << ' ' << offset;
           }
       }
+}
+
+// Occluders of a file whose node lies 10 km away are as exact as listed ones, though the file's vertices are floats.
+TEST(EvalScale, ReadsFarFilesInDouble) {
+  scene::GltfTestFile f;
+  const int positions = f.add_floats({-0.1f, 1, -0.5f, 0.3f, 1.1f, -0.5f, 0.2f, 1, 0.7f}, "VEC3");
+  f.add_mesh({{"POSITION", positions}}, f.add_indices({0, 1, 2}));
+  const double at[3] = {12345.678, -9876.543, 5432.109};
+  f.node()["translation"] = {at[0], at[1], at[2]};
+  json query = {{"light", json::parse(R"({"type":"rect","center":[0,2,0],"x":[0.5,0,0],"y":[0,0,0.5]})")},
+                {"position", {0.05, 0, 0.02}},
+                {"normal", {0, 1, 0}},
+                {"material", {{"brdf", "lambert"}}},
+                {"occluders", {{{-0.1f, 1.0f, -0.5f}, {0.3f, 1.1f, -0.5f}, {0.2f, 1.0f, 0.7f}}}}};
+  const double listed = red(answer(query));
+  query.erase("occluders");
+  const double open = red(answer(query));
+  EXPECT_LT(listed, 0.9 * open);
+  json far = placed(query, 1, at);
+  far["occluders"] = scene::write_test_file("far.gltf", f.text());
+  const json a = answer(far);
+  ASSERT_TRUE(a.contains("radiance")) << a;
+  EXPECT_NEAR(red(a), listed, 1e-6 * open);  // a few cells
 }
 
 // Sheets that stand on the floor: a point in their planes is lit from both sides by halves, by each method. From a point beside a sheet's

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "night.h"
+#include "paths.h"
+#include "scene/gltf/gltf_file.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 #include "support/gltf_test_file.h"
@@ -16,6 +18,7 @@ namespace steradian::scale_render_test {
 namespace {
 
 using nlohmann::json;
+using namespace nlohmann::literals;
 using scene::GltfTestFile;
 
 // Triangles with flat normals.
@@ -107,6 +110,16 @@ float largest_of(const Picture& p) {
   return largest;
 }
 
+double relative_l2(const Picture& picture, const Picture& base) {
+  double squares = 0, difference = 0;
+  for (std::size_t i = 0; i < base.pixels.size(); ++i) {
+    const auto b = static_cast<Vec3d>(base.pixels[i]), d = static_cast<Vec3d>(picture.pixels[i]) - b;
+    squares += dot(b, b);
+    difference += dot(d, d);
+  }
+  return std::sqrt(difference / squares);
+}
+
 }  // namespace
 
 // The room is 8 wide. The pictures of 1e4 sizes away are as near as the rest, since nodes are in double.
@@ -130,17 +143,49 @@ TEST(ScaleRender, ChangesNoPicture) {
     ASSERT_GT(largest, 0.05f);
     for (const Placing at : test::by_day_or_night(day, night)) {
       const Picture there = rendered(room(at, way.punctual), options, way.environment);
-      double squares = 0, difference = 0, worst = 0;
+      const double off = relative_l2(there, base);
+      double worst = 0;
       for (std::size_t i = 0; i < base.pixels.size(); ++i) {
-        const auto b = static_cast<Vec3d>(base.pixels[i]), d = static_cast<Vec3d>(there.pixels[i]) - b;
-        squares += dot(b, b);
-        difference += dot(d, d);
+        const auto d = static_cast<Vec3d>(there.pixels[i]) - static_cast<Vec3d>(base.pixels[i]);
         worst = std::max({worst, std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
       }
       std::cout << "[ measured ] " << way.method << ' ' << way.environment << ' ' << at.scale << " at " << at.offset << ": relative L2 "
-                << std::sqrt(difference / squares) << ", largest " << worst / static_cast<double>(largest) << "\n";
-      EXPECT_LT(std::sqrt(difference / squares), 1e-4) << way.method << way.environment << at.scale << ' ' << at.offset;
+                << off << ", largest " << worst / static_cast<double>(largest) << "\n";
+      EXPECT_LT(off, 1e-4) << way.method << way.environment << at.scale << ' ' << at.offset;
       EXPECT_LT(worst, 1e-4 * static_cast<double>(largest)) << way.method << way.environment << at.scale << ' ' << at.offset;
+    }
+  }
+}
+
+// Scenes with textures, tubes, disks, measured lamps and skins: each below one more node.
+TEST(ScaleRender, ChangesNoSceneOfTheRepository) {
+  const std::vector<const char*> day = {"textured_floor", "tubes"};
+  const std::vector<const char*> night = {"textured_floor", "tubes",      "gallery", "glossy_floor", "grille",
+                                          "hall",           "lamp_shade", "morph",   "ring",         "room"};
+  for (const char* name : test::by_day_or_night(day, night)) {
+    const scene::GltfFile file = scene::read_gltf_file(test::kSourceDir + "/scenes/" + name + ".glb");
+    const auto picture_of = [&](double scale, double offset) {
+      scene::GltfFile placed = file;
+      scene::Json& json = placed.json;
+      scene::Json& roots = json["scenes"][json.value("scene", 0u)]["nodes"];
+      json["nodes"].push_back({{"children", roots}, {"scale", {scale, scale, scale}}, {"translation", {offset, -offset, 0.5 * offset}}});
+      roots = scene::Json::array({json["nodes"].size() - 1});
+      if (json.contains("/extensions/KHR_lights_punctual/lights"_json_pointer))
+        for (scene::Json& light : json["extensions"]["KHR_lights_punctual"]["lights"])
+          if (light["type"] != "directional") light["intensity"] = light.value("intensity", 1.0) * scale * scale;
+      LoadOptions load;
+      load.near_origin = true;
+      RenderOptions options;
+      options.width = 40;
+      options.height = 30;
+      options.shadows = Shadows::on;
+      return render(scene::load_scene(placed, load).scene, options);
+    };
+    const Picture base = picture_of(1, 0);
+    for (const Placing at : {Placing{1e-3, 0}, {1e6, 0}, {1, 1e5}, {1e-6, 0.1}}) {
+      const double off = relative_l2(picture_of(at.scale, at.offset), base);
+      std::cout << "[ measured ] " << name << ' ' << at.scale << " at " << at.offset << ": relative L2 " << off << "\n";
+      EXPECT_LT(off, 1e-4) << name << ' ' << at.scale << ' ' << at.offset;
     }
   }
 }
