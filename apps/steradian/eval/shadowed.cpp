@@ -87,7 +87,7 @@ std::vector<Vec3d> faces_at(const shadow::EdgeMesh& mesh, Vec3d p, double error)
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3d n = normalized(mesh.planes[t].normal);
     const auto corner = [&](std::size_t c) { return mesh.vertices[mesh.triangles[t][c % 3]]; };
-    if (!(std::fabs(dot(n, p - corner(0))) <= error)) continue;
+    if (n == Vec3d{} || !(std::fabs(dot(n, p - corner(0))) <= error)) continue;
     const auto is_left = [&](std::size_t c) { return dot(n, cross(normalized(corner(c + 1) - corner(c)), p - corner(c))) >= -error; };
     const auto is_known = [&](Vec3d m) { return std::fabs(dot(m, n)) > kSameFace; };
     if (is_left(0) && is_left(1) && is_left(2) && std::none_of(normals.begin(), normals.end(), is_known)) normals.push_back(n);
