@@ -99,7 +99,10 @@ class LitSurface {
   virtual void add_in_front(const HalfPlane& h, const Section& s, const std::vector<Angles>& lit, std::vector<Angles>& to) const = 0;
   // The light's direction that is nearest to another one. The outline of a body is smooth from there.
   virtual Vec3d nearest(Vec3d to) const = 0;
+  // Corners at which the outline has kinks.
   virtual void add_corners(std::vector<Vec3d>&) const {}
+  // Points whose convex hull contains the light.
+  virtual void add_hull(std::vector<Vec3d>& to) const = 0;
 };
 
 // A polygon or an ellipse in a plane.
@@ -167,7 +170,8 @@ class PolygonSurface final : public FlatSurface {
     });
     return best;
   }
-  void add_corners(std::vector<Vec3d>& to) const override { to.insert(to.end(), polygon_.vertices.begin(), polygon_.vertices.end()); }
+  void add_corners(std::vector<Vec3d>& to) const override { add_hull(to); }
+  void add_hull(std::vector<Vec3d>& to) const override { to.insert(to.end(), polygon_.vertices.begin(), polygon_.vertices.end()); }
 
  private:
   template <class Use>
@@ -198,6 +202,10 @@ class EllipseSurface final : public FlatSurface {
   Vec3d nearest(Vec3d to) const override {
     if (meets(to)) return to;
     return nearest_on([&](double t) { return at(2 * kPi * t); }, 256, to);
+  }
+  void add_hull(std::vector<Vec3d>& to) const override {
+    for (const double u : {-1.0, 1.0})
+      for (const double v : {-1.0, 1.0}) to.push_back(ellipse_.center + ellipse_.x * u + ellipse_.y * v);
   }
 
  private:
@@ -247,6 +255,11 @@ class BodySurface final : public LitSurface {
     const auto towards = [&](double angle) { return normalized(within * std::cos(angle) + aside * std::sin(angle)); };
     return towards(last([&](double angle) { return meets(towards(angle)); }, reach));
   }
+  void add_hull(std::vector<Vec3d>& to) const override {
+    const Box3d& box = body_->box();
+    for (int i = 0; i < 8; ++i)
+      to.push_back({i & 1 ? box.low.x : box.high.x, i & 2 ? box.low.y : box.high.y, i & 4 ? box.low.z : box.high.z});
+  }
 
  private:
   bool meets(Vec3d direction) const {
@@ -295,6 +308,46 @@ bool touches(const Blocker& t, Vec3d from, bool& within) {
   within = dot(cross(a, b), n) / size > area && dot(cross(b, c), n) / size > area && dot(cross(c, a), n) / size > area;
   return true;
 }
+
+// Finds triangles that block nothing of a light: behind the point, beside the rectangle around the light's hull in a plane before the
+// point, or below a horizon.
+class Shield {
+ public:
+  Shield(const LitSurface& light, const std::vector<Vec3d>& horizons) : horizons_(horizons) {
+    std::vector<Vec3d> hull;
+    light.add_hull(hull);
+    Vec3d middle;
+    for (const Vec3d& v : hull) middle += normalized(v);
+    if (length(middle) < 1e-3) return;
+    about_ = Frame::from_normal(normalized(middle));
+    knows_ = true;
+    for (const Vec3d& v : hull) {
+      const Vec3d l = about_.to_local(v);
+      if (!(l.z > 1e-6 * length(l))) knows_ = false;
+      light_.add(Vec3d{l.x / l.z, l.y / l.z, 0});
+    }
+  }
+
+  bool is_free(const Blocker& b) const {
+    const auto all = [&](auto&& holds) { return holds(b[0]) && holds(b[1]) && holds(b[2]); };
+    for (const Vec3d& plane : horizons_)
+      if (all([&](Vec3d v) { return dot(v, plane) < 0; })) return true;
+    if (!knows_ || all([&](Vec3d v) { return dot(v, about_.z) <= 0; })) return knows_;
+    if (!all([&](Vec3d v) { return dot(v, about_.z) > 0; })) return false;
+    Box3d box;
+    for (const Vec3d& v : b) {
+      const Vec3d l = about_.to_local(v);
+      box.add(Vec3d{l.x / l.z, l.y / l.z, 0});
+    }
+    return !box.meets(light_);
+  }
+
+ private:
+  const std::vector<Vec3d>& horizons_;
+  Frame about_;
+  Box3d light_;
+  bool knows_ = false;
+};
 
 struct Integral {
   LobeValue value;
@@ -535,6 +588,8 @@ ReferenceResult radiance_past(std::span<const Blocker> blockers, const AreaLight
     free.push_back({b[0] - at.position, b[1] - at.position, b[2] - at.position});
     for (int i = 0; i < 3; ++i) magnification = std::max(magnification, (length(at.position) + length(b[i])) / length(free.back()[i]));
   }
+  const Shield shield(*surface, planes);
+  std::erase_if(free, [&](const Blocker& b) { return shield.is_free(b); });
   Slices slices(*surface, std::move(free), std::move(planes), lobe, frame, emission);
   const Integral sum = slices.run(options);
   const Vec3d brightness = light.emission ? light.emission->intensity : light.radiance;

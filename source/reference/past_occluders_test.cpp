@@ -11,7 +11,7 @@
 #include "reference/sampled.h"
 #include "shadow/rays/triangle_rays.h"
 
-namespace steradian::reference {
+namespace steradian::reference::past_occluders_test {
 namespace {
 
 AreaLight light_of_kind(int kind) {
@@ -156,4 +156,4 @@ TEST(PastOccluders, APointOnATriangleSeesItsSideOnly) {
 }
 
 }  // namespace
-}  // namespace steradian::reference
+}  // namespace steradian::reference::past_occluders_test

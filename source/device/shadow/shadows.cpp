@@ -229,7 +229,7 @@ std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
   bool asked = false;
   while (true) {
     Batch batch(tiles.first(count));
-    fitting(kept_.parts, batch.all().point * kVectorsOfPart * kVector, "parts of lights");
+    fitting(kept_.parts, std::min(batch.all().point * kVectorsOfPart * kVector, most_of_buffer()), "parts of lights");
     upload(batch);
     std::size_t wanted = search(batch);
     if (!asked && wanted * kVector <= parts().bytes()) {
@@ -242,7 +242,7 @@ std::size_t Shadows::find(std::span<TileShadows> tiles, const Each& each) {
     }
     if (wanted * kVector > parts().bytes()) {
       // Try again with more capacity or fewer tiles.
-      if (wanted * kVector > kLargestBuffer && count > 1)
+      if (wanted * kVector > most_of_buffer() && count > 1)
         count /= 2;
       else
         fitting(kept_.parts, wanted * kVector, "parts of lights");
