@@ -235,7 +235,9 @@ void print(const Report& report, const std::string& folder) {
 }
 
 std::shared_ptr<const Scene> scene_of(const CompareArguments& options) {
-  LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, {}});
+  LoadOptions load = {options.max_lights, options.limits};
+  load.near_origin = true;
+  LoadedScene loaded = load_scene(options.scene, load);
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return std::make_shared<const Scene>(std::move(loaded.scene));
 }

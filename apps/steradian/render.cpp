@@ -216,6 +216,7 @@ void run(const Verb& verb, RenderArguments& options) {
   const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
   parse_indirect_shadows(options);
   LoadOptions& load = options.load;
+  load.near_origin = true;
   load.aspect = static_cast<double>(render_options.width) / render_options.height;
   for (const std::string& light : options.lights) load.lights.push_back(*words::find<AddedLight>(light));
   if (!options.frames.empty())

@@ -10,6 +10,10 @@
 
 namespace steradian::packed {
 
+// A point has no side of a flat light nearer to its plane than the rounding of single precision, as in PreparedPolygon::side_of: 8 units in
+// the last place of the lengths of both positions. The square of that is at most this times the sum of the lengths' squares.
+inline constexpr double kRounding2 = 2 * (8 * 0x1p-23) * (8 * 0x1p-23);
+
 // A polygon in single precision, as packs read it.
 struct Polygon {
   std::vector<Vec3f> vertices;        // in walk order
@@ -65,10 +69,11 @@ struct Seen {
 template <class S, class Flat>
 STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>::vec3& p) {
   Seen<S> seen;
-  const auto from = p - to_kernel<S>(light.point);
-  const Real<S> height = dot(from, to_kernel<S>(light.normal)), zero(0.0);
+  const auto point = to_kernel<S>(light.point);
+  const Real<S> height = dot(p - point, to_kernel<S>(light.normal)), zero(0.0);
+  const Mask<S> apart = height * height > Real<S>(packed::kRounding2) * (dot(p, p) + dot(point, point));
   seen.reversed = height < zero;
-  seen.lit = light.two_sided ? seen.reversed || height > zero : height > zero;
+  seen.lit = light.two_sided ? apart : apart && height > zero;
   return seen;
 }
 

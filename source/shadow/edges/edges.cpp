@@ -118,9 +118,9 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
   return mesh;
 }
 
-EdgeMesh build_edges(const Scene& scene) {
-  std::vector<Vec3d> positions;
-  std::vector<std::uint32_t> indices;
+BlockingTriangles blocking_triangles(const Scene& scene) {
+  BlockingTriangles result;
+  auto& [positions, indices] = result;
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.is_light_shape || !mesh.casts_shadow || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask)
       continue;
@@ -128,7 +128,12 @@ EdgeMesh build_edges(const Scene& scene) {
     for (const Vec3f p : mesh.positions) positions.push_back(static_cast<Vec3d>(p));
     for (const std::uint32_t i : mesh.indices) indices.push_back(first + i);
   }
-  return build_edges(positions, indices, bodies_of(scene.area_lights));
+  return result;
+}
+
+EdgeMesh build_edges(const Scene& scene) {
+  const BlockingTriangles triangles = blocking_triangles(scene);
+  return build_edges(triangles.positions, triangles.indices, bodies_of(scene.area_lights));
 }
 
 std::vector<Body> bodies_of(const std::vector<AreaLight>& lights) {

@@ -52,8 +52,14 @@ inline constexpr std::uint32_t kLeafEdges = 16;
 // that is not finite are dropped. Triangles that enter a body are cut along its surface.
 EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices, std::span<const Body> bodies = {});
 
-// Builds the edges of everything that blocks a scene's light exactly: no shapes that stand for lights, no cut-outs. The bodies are those of
-// the scene's area lights (bodies_of).
+// Everything that blocks a scene's light exactly: no shapes that stand for lights, no cut-outs.
+struct BlockingTriangles {
+  std::vector<Vec3d> positions;
+  std::vector<std::uint32_t> indices;  // three a triangle
+};
+BlockingTriangles blocking_triangles(const Scene& scene);
+
+// Builds the edges of a scene's blocking triangles. The bodies are those of its area lights (bodies_of).
 EdgeMesh build_edges(const Scene& scene);
 
 // The bodies of the round lights among a scene's area lights, in their order.

@@ -103,7 +103,7 @@ void SegmentSet::clear() {
   occluders = 0;
 }
 
-double offset_from_surface(Vec3d p) { return 1e-5 + 4e-6 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
+double offset_from_surface(Vec3d p, double reach, double rounding) { return rounding * (64 * largest_coordinate(p) + 32 * reach); }
 
 std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame, std::span<const std::uint32_t> inside) {
   std::vector<std::uint32_t> result;
