@@ -114,7 +114,7 @@ TEST_F(PlaneHostile, UsesOfALongStyle) {
 TEST_F(PlaneHostile, UsesOfACurve) { expect_bounded(svg("<defs>" + kCurve + "</defs>" + uses(1000))); }
 TEST_F(PlaneHostile, UsesOfAShiningCurve) { expect_bounded(svg("<defs>" + kCurve + "</defs>" + uses(1000, kLight))); }
 TEST_F(PlaneHostile, APathOfManyCurves) { expect_bounded(svg(path_of_curves(1000, ""))); }
-TEST_F(PlaneHostile, AShiningPathOfManyCurves) { expect_bounded(svg(path_of_curves(1000, kLight))); }
+TEST_F(PlaneHostile, AShiningPathOfManyCurves) { expect_bounded(svg(path_of_curves(700, kLight))); }
 TEST_F(PlaneHostile, ManyStopsOnManyShapes) {
   expect_bounded(svg(gradient(100) + grid(100, [](int, double x, double y, double) {
                        return "<rect class='light' x='" + number(x) + "' y='" + number(y) + "' width='20' height='10' fill='url(#g)'/>";

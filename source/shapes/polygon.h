@@ -35,7 +35,8 @@ inline Polygon prepare(const PreparedPolygon& light) {
   for (const Vec3d& v : light.vertices) result.vertices.push_back(static_cast<Vec3f>(v));
   result.contours = light.contours;
   result.normal = static_cast<Vec3f>(light.normal);
-  result.point = static_cast<Vec3f>(light.centroid);
+  // The point of its plane nearest to the origin: those of a large light are as far away as rounding is coarse.
+  result.point = static_cast<Vec3f>(light.normal * dot(light.normal, light.centroid));
   result.two_sided = light.two_sided;
   const LightQuarters& q = light.quarters;
   result.middle = static_cast<Vec3f>(q.center);

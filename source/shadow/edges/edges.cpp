@@ -66,6 +66,13 @@ void sort_into_leaves(EdgeMesh& mesh) {
     for (std::uint32_t& e : sides) e = place[e];
 }
 
+Around ball_around(const EdgeMesh& mesh) {
+  Box3d box;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) box.add(box_of(mesh, t));
+  if (box.is_empty()) return {};
+  return {box.center(), length(box.half())};
+}
+
 struct TriangleSide {
   std::uint32_t v0, v1, triangle, corner;
   std::int32_t walks;
@@ -115,6 +122,7 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
     for (const std::uint32_t t : triangles)
       for (const std::uint32_t e : mesh.triangle_edges[t]) mesh.edges[e].at_body = true;
   sort_into_leaves(mesh);
+  mesh.around = ball_around(mesh);
   return mesh;
 }
 

@@ -32,6 +32,12 @@ struct Edge {
   bool at_body = false;  // a triangle of it lies within a round light, and does not block that light
 };
 
+// A ball around the triangles.
+struct Around {
+  Vec3d middle;
+  double radius = 0;
+};
+
 struct EdgeMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -40,6 +46,7 @@ struct EdgeMesh {
   std::vector<EdgeTriangle> edge_triangles;                  // in the order of edges
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
   std::vector<std::vector<std::uint32_t>> inside;            // for each body, the triangles inside it, ascending
+  Around around;
 };
 
 // The box around a triangle.
