@@ -111,6 +111,24 @@ TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
   EXPECT_NE(verb.err.find("did you mean 'render'?"), std::string::npos) << verb.err;
 }
 
+TEST_F(Program, AnUnknownOptionNamesTheNearestOne) {
+  const auto says = [&](const std::vector<std::string>& arguments, const std::string& text) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 2) << text;
+    EXPECT_NE(r.err.find(text), std::string::npos) << r.err;
+  };
+  says({"render", "x.gltf", "--sise", "10x10"}, "steradian render: unknown option --sise; did you mean --size?\n");
+  says({"render", "x.gltf", "-o", "x.png", "--sise=10x10"}, "unknown option --sise; did you mean --size?\n");
+  says({"render", "x.gltf", "-size", "10x10"}, "did you mean --size?\n");
+  says({"render", "x.gltf", "--out", "x.png"}, "did you mean --output?\n");  // its beginning
+  says({"render", "x.gltf", "--env", "sky"}, "did you mean --environment?\n");
+  says({"compare", "x.gltf", "--targeterror", "1"}, "steradian compare: unknown option --targeterror; did you mean --target-error?\n");
+  says({"bench", "--filtre", "kernel"}, "unknown option --filtre; did you mean --filter?\n");
+  says({"--hlep"}, "steradian: unknown option --hlep; did you mean --help?\n");
+  says({"render", "x.gltf", "--frobnicate"}, "unknown option --frobnicate\nsteradian render --help-all lists the options\n");
+  EXPECT_EQ(run({"render", "--sise", "--help"}).status, 0);
+}
+
 TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
   const std::string exr = folder / "a.exr", stats = folder / "s.json", map = folder / "map.exr";
   Picture white(16, 8);

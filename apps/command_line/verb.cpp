@@ -1,10 +1,12 @@
 #include "verb.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
 
@@ -67,6 +69,28 @@ std::string shown(double low, double high) {
   char text[64];
   std::snprintf(text, sizeof text, "%.12g to %.12g", low, high);
   return text;
+}
+
+// The names of an option as they are typed; none of a positional argument.
+std::vector<std::string> typed_names(const CLI::Option* option) {
+  std::vector<std::string> names;
+  for (const std::string& letter : option->get_snames()) names.push_back("-" + letter);
+  for (const std::string& word : option->get_lnames()) names.push_back("--" + word);
+  return names;
+}
+
+// The message for the first option that the user gave and that the program or its verb does not have; empty if there is none.
+std::string message_of_unknown_option(const CLI::App& app, const std::string& program) {
+  const std::vector<std::string> rest = app.remaining(true);
+  const auto given = std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
+  if (given == rest.end()) return {};
+  const std::vector<CLI::App*> verbs = app.get_subcommands();
+  const CLI::App& of = verbs.empty() ? app : *verbs.front();
+  const std::string command = verbs.empty() ? program : program + " " + of.get_name();
+  std::vector<std::string> options;
+  for (const CLI::Option* option : of.get_options())
+    for (std::string& name : typed_names(option)) options.push_back(std::move(name));
+  return command + ": " + unknown_option(*given, options) + "\n" + command + " --help-all lists the options";
 }
 
 CLI::Validator without_description(CLI::Validator validator) {
@@ -224,7 +248,11 @@ int CommandLine::run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    const bool asked = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);  // for help or the version
+    const std::string unknown = asked ? std::string() : message_of_unknown_option(app, std::filesystem::path(argv[0]).filename().string());
+    if (unknown.empty()) return app.exit(e) == 0 ? 0 : 2;
+    std::fprintf(stderr, "%s\n", unknown.c_str());
+    return 2;
   } catch (const UsageError& e) {
     std::fprintf(stderr, "steradian: %s\n", e.what());
     return 2;
