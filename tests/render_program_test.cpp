@@ -111,6 +111,41 @@ TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
   EXPECT_NE(verb.err.find("did you mean 'render'?"), std::string::npos) << verb.err;
 }
 
+// The scene is none, and the tables would take seconds: an error about the output comes before both.
+TEST_F(Program, JudgesEveryOutputBeforeTheWork) {
+  const std::string no = folder / "no", file = folder / "file", scene = folder / "no_scene.glb", svg = folder / "no_scene.svg";
+  std::ofstream(file) << "";
+  const auto refuses = [&](const std::vector<std::string>& arguments, const std::string& path, const std::string& text) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 1) << arguments[0] << ": " << r.err;
+    EXPECT_TRUE(r.err.starts_with("steradian: " + path) && r.err.find(text) != std::string::npos) << arguments[0] << ": " << r.err;
+    EXPECT_EQ(r.out, "") << arguments[0];
+  };
+  const std::string missing = "the folder does not exist", ok = folder / "x.png";
+  for (const std::string& of : {scene, svg}) {
+    refuses({"render", of, "-o", no + "/x.png"}, no + "/x.png", missing);
+    refuses({"render", of, "-o", ok, "--stats", no + "/x.json"}, no + "/x.json", missing);
+    refuses({"render", of, "-o", no + "/x_##.png", "--frames", "0..3"}, no + "/x_##.png", missing);
+    refuses({"render", of, "-o", folder / "x.gif"}, folder / "x.gif", "unknown picture format '.gif'");
+    refuses({"compare", of, "-o", file}, file, "is a file");
+    refuses({"compare", of, "-o", file + "/below/it"}, file + "/below/it", "is a file");
+    refuses({"compare", of, "-o", "/proc/report"}, "/proc/report", "cannot write in the folder /proc");
+  }
+  refuses({"render", scene, "-o", folder / "f#" / "x.png", "--frames", "0..3"}, folder / "f0" / "x.png", missing);
+  refuses({"fit", "-o", no + "/x.json"}, no + "/x.json", missing);
+  refuses({"fit", "--report", "--report-picture", no + "/x.png"}, no + "/x.png", missing);
+  refuses({"eval", no + "/queries", "-o", no + "/x.json"}, no + "/x.json", missing);
+  refuses({"view", scene, "--record", no + "/x.txt"}, no + "/x.txt", missing);
+  refuses({"bench", "--table2", "--figures", "/proc"}, "/proc", "cannot write in the folder /proc");
+  EXPECT_FALSE(fs::exists(no) || fs::exists(ok));
+
+  // A pipe is not opened before its time: its reader would see an end.
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Outcome r = run({"render", scene, "-o", ok, "--stats", pipe});
+  EXPECT_NE(r.err.find("no_scene.glb"), std::string::npos) << r.err;
+}
+
 TEST_F(Program, AnUnknownOptionNamesTheNearestOne) {
   const auto says = [&](const std::vector<std::string>& arguments, const std::string& text) {
     const Outcome r = run(arguments);

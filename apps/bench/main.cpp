@@ -164,7 +164,7 @@ void add_bench(CommandLine& line) {
   verb.add("--compare", options->base, "print ratios to this file of --json; above 1 is slower").group("Measurement").existing_file();
   verb.add("--fail-above", options->slower, "of --compare: exit 1 above this ratio; 0: never").group("Measurement").range(0.0, 1e9);
   verb.add_flag("--table2", options->table2, "errors and times of the Phong methods (docs/theory/moments.md)").group("Studies");
-  verb.add("--figures", options->figures, "of --table2: folder for the page's figures").group("Studies").existing_folder();
+  verb.add("--figures", options->figures, "of --table2: folder for the page's figures").group("Studies").existing_folder().writes(Writes::folder);
   verb.add_flag("--textured", options->textured, "errors of textured lights (docs/theory/ltc.md)").group("Studies");
   verb.add_flag("--plane", options->plane, "times and errors of the plane's methods (docs/measured/plane.md)").group("Studies");
   verb.callback([options, &exit = line.exit()] {

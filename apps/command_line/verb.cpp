@@ -15,6 +15,11 @@
 
 namespace steradian::app {
 
+// Outputs: the checks that run before the verb.
+struct VerbRecord {
+  std::vector<std::function<void()>> outputs;
+};
+
 namespace {
 
 constexpr const char* kMore = " (more)";  // ends the names of groups that only --help-all prints
@@ -142,36 +147,45 @@ VerbOption& VerbOption::existing_folder() {
   option_->check(without_description(CLI::ExistingDirectory))->type_name("FOLDER");
   return *this;
 }
+VerbOption& VerbOption::writes(Writes kind) {
+  option_->type_name(kind == Writes::folder ? "FOLDER" : "FILE");
+  record_->outputs.push_back([option = option_, kind] {
+    if (option->count() > 0) check_output(option->as<std::string>(), kind);
+  });
+  return *this;
+}
 VerbOption& VerbOption::check(const std::function<std::string(const std::string&)>& problem) {
   option_->check(CLI::Validator([problem](std::string& argument) { return problem(argument); }, ""));
   return *this;
 }
 
+Verb::Verb(CLI::App* app) : app_(app), record_(std::make_shared<VerbRecord>()) {}
+VerbOption Verb::kept(CLI::Option* option) const { return VerbOption(app_, option, record_); }
 void Verb::group(const std::string& name) { app_->group(name); }
 void Verb::footer(const std::string& text) { app_->footer(text); }
 VerbOption Verb::add(const std::string& name, std::string& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
 VerbOption Verb::add(const std::string& name, std::vector<std::string>& values, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, values, help));
+  return kept(app_->add_option(name, values, help));
 }
 VerbOption Verb::add(const std::string& name, int& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
 VerbOption Verb::add(const std::string& name, std::optional<int>& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
 VerbOption Verb::add(const std::string& name, std::uint64_t& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
 VerbOption Verb::add(const std::string& name, double& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
 VerbOption Verb::add_flag(const std::string& name, bool& value, const std::string& help) {
-  return VerbOption(app_, app_->add_flag(name, value, help));
+  return kept(app_->add_flag(name, value, help));
 }
 VerbOption Verb::add_function(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& help) {
-  return VerbOption(app_, app_->add_option_function<std::string>(name, set, help));
+  return kept(app_->add_option_function<std::string>(name, set, help));
 }
 
 void Verb::add_limits(Limits& limits) {
@@ -201,8 +215,9 @@ void Verb::refuse(std::initializer_list<const char*> names, const char* needs) c
 }
 
 void Verb::callback(std::function<void()> run) {
-  app_->callback([run = std::move(run)] {
+  app_->callback([run = std::move(run), record = record_] {
     try {
+      for (const std::function<void()>& check : record->outputs) check();
       run();
     } catch (const WrongOption& e) {
       throw CLI::ValidationError(e.option(), e.what());

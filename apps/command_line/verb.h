@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/words.h"
+#include "output.h"
 #include "steradian/limits.h"
 
 namespace CLI {
@@ -30,10 +32,13 @@ class WrongOption : public std::runtime_error {
   std::string option_;
 };
 
+struct VerbRecord;  // what CLI11 does not keep of a verb's options
+
 // One option of a verb. Each function restricts the option or describes it, and returns it again.
 class VerbOption {
  public:
-  VerbOption(CLI::App* verb, CLI::Option* option) : verb_(verb), option_(option) {}
+  VerbOption(CLI::App* verb, CLI::Option* option, std::shared_ptr<VerbRecord> record)
+      : verb_(verb), option_(option), record_(std::move(record)) {}
 
   VerbOption& group(const std::string& name);
   VerbOption& more(const std::string& group);  // only --help-all prints the group
@@ -51,6 +56,7 @@ class VerbOption {
   VerbOption& bytes();  // accepts 500MB and 4GB
   VerbOption& existing_file();
   VerbOption& existing_folder();
+  VerbOption& writes(Writes kind);  // a path that the verb writes; check_output judges it before the verb runs
   // `problem` returns an empty text for a valid argument, else the message.
   VerbOption& check(const std::function<std::string(const std::string&)>& problem);
 
@@ -59,6 +65,7 @@ class VerbOption {
 
   CLI::App* verb_;
   CLI::Option* option_;
+  std::shared_ptr<VerbRecord> record_;
 };
 
 // An option that has an effect only under a condition.
@@ -71,7 +78,7 @@ struct ConditionalOption {
 // One verb of the program: its options and the function that runs it. The values must outlive the command line.
 class Verb {
  public:
-  explicit Verb(CLI::App* app) : app_(app) {}
+  explicit Verb(CLI::App* app);
 
   void group(const std::string& name);
   void footer(const std::string& text);
@@ -100,8 +107,10 @@ class Verb {
 
  private:
   VerbOption add_function(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& help);
+  VerbOption kept(CLI::Option* option) const;
 
   CLI::App* app_;
+  std::shared_ptr<VerbRecord> record_;
 };
 
 // The program's exit status: 0 done, 1 the work failed or a comparison did not hold, 2 wrong use.

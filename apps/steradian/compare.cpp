@@ -300,7 +300,7 @@ void add_compare(CommandLine& line) {
       "The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n`steradian methods` lists the "
       "methods.");
   verb.add("SCENE", options->scene, "scene file: .gltf, .glb, .svg").required();
-  verb.add("-o,--output", options->output, "folder of the report").required();
+  verb.add("-o,--output", options->output, "folder of the report").writes(Writes::folder).required();
   verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',');
   verb.add_flag("!--one-setting", options->settings, "one quality and one number of samples a method");
   verb.add_word("--shadows", r.shadows, "direct shadows");

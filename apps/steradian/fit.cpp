@@ -120,10 +120,10 @@ void add_fit(CommandLine& line) {
   verb.add("--samples", options->samples, "measured lobe: MERL's .binary, or lines of angles and values").excludes("--lobe");
   verb.add("--size", options->fit.size, "nodes of roughness and of view").range(2, 1024);
   verb.add("--layout", options->layout, "two textures, or arrays of at most 4 KB").words({"classic", "compact"});
-  verb.add("-o,--output", options->output, "table: .h .glsl .json; classic also .dds .exr (NAME_1, NAME_2)");
+  verb.add("-o,--output", options->output, "table: .h .glsl .json; classic also .dds .exr (NAME_1, NAME_2)").writes(Writes::file);
   verb.add_flag("--fresnel-lobe", options->fresnel_lobe, "also fit the lobe times (1 - v.h)^5, into NAME_fresnel").needs("--output");
   verb.add_flag("--report", options->report, "measure the error on lights and between nodes");
-  verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").needs("--report");
+  verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").writes(Writes::picture).needs("--report");
   verb.add("--normalisation", options->normalisation, "element 1 of the classic matrix").words({"middle", "last"});
   verb.add("--threads", options->fit.threads, "number of threads (0: all)").range(0, 4096);
   verb.add_limits(options->limits);
