@@ -1,7 +1,11 @@
 // The program as a process: streams, exit codes, help.
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
+#include <thread>
 
 #include "program.h"
 
@@ -146,6 +150,10 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
     for (const char* key : {"items", "ns_per_item", "median_ms", "runs"}) EXPECT_GT(one[key].get<double>(), 0) << one;
   }
   EXPECT_TRUE(lambert);
+  // A scalar form comes first, so that the rows after it tell their ratio to it.
+  const std::string rows = run({"bench", "--filter", "kernel/lambert/quad", "--min-time", "0.01"}).out;
+  EXPECT_LT(rows.find("kernel/lambert/quad/scalar "), rows.find("x scalar"));
+  EXPECT_LT(rows.find("kernel/lambert/quad/scalar "), rows.find("kernel/lambert/quad "));
   EXPECT_EQ(run({"bench", "--filter", "nothing"}).status, 1);
 
   const Outcome listed = run({"bench", "--list", "--filter", "kernel/l"});
@@ -176,6 +184,38 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
   EXPECT_EQ(with("100").status, 1);
   std::ofstream(base) << "[]";
   EXPECT_EQ(with("100").status, 1);
+}
+
+// Standard error is a file here. Lines come a second apart at the least, and none repeats a percentage; so a bound from the time is halved.
+TEST_F(Program, ProgressIsALineASecondWithoutATerminal) {
+  const std::string scene = test::kSourceDir + "/scenes/glossy_floor.glb";
+  const std::vector<std::pair<std::string, std::vector<std::string>>> long_work = {
+      {"fit ggx", {"fit", "--size", "24", "--threads", "1", "-o", folder / "x.json"}},
+      {"compare: reference", {"compare", scene, "--methods", "ltc", "--size", "192x108", "--target-error", "0.03", "--threads", "1", "-o",
+                              folder / "report"}},
+      {"bench", {"bench", "--filter", "kernel/lambert", "--min-time", "0.4"}}};
+  for (const auto& [label, arguments] : long_work) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome r = run(arguments);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_EQ(r.status, 0) << r.err;
+    const std::regex form(label + " +[0-9]+\\.[0-9] %  [0-9]+ s, [0-9]+ s left");
+    std::istringstream lines(r.err);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) EXPECT_TRUE(std::regex_match(line, form)) << line;
+    EXPECT_LE(count, seconds) << label;
+    EXPECT_GE(count, (std::min(seconds, r.cpu_seconds) - 2) / 2) << label;
+  }
+}
+
+TEST_F(Program, BenchFlushesEachLine) {
+  const Child child = start({"bench", "--filter", "kernel/lambert", "--min-time", "2"}, [] {});
+  const auto first_row = [&] { return contents(folder / "out").find("kernel/lambert/quad/scalar ") != std::string::npos; };
+  for (int i = 0; i < 600 && !first_row(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const bool came = first_row();
+  EXPECT_EQ(kill(child.pid, SIGTERM), 0);
+  EXPECT_EQ(finish(child).status, 128 + SIGTERM);  // it had not come to its end
+  EXPECT_TRUE(came);
 }
 
 }  // namespace

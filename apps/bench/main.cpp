@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -64,38 +67,61 @@ std::vector<const BenchList::Entry*> chosen_of(const BenchList& list, const Opti
   throw Error("--filter", whole ? "no bench has the name " + options.filter : "no bench begins with " + options.filter, hint);
 }
 
-std::vector<BenchResult> run(const Options& options) {
+// True for "kernel/x/scalar" as `scalar`, and kernel/x or kernel/x/sse2.
+bool is_scalar_form(const std::string& scalar, const std::string& name) {
+  constexpr std::string_view kScalar = "/scalar";
+  if (!scalar.ends_with(kScalar) || scalar == name) return false;
+  const std::string base = scalar.substr(0, scalar.size() - kScalar.size());
+  return name == base || name.starts_with(base + "/");
+}
+
+// The benches in the order in which they run: a scalar form comes before those that are compared with it.
+std::vector<const BenchList::Entry*> scalar_first(const std::vector<const BenchList::Entry*>& chosen) {
+  std::vector<const BenchList::Entry*> order;
+  const auto add = [&](const BenchList::Entry* entry) {
+    if (std::find(order.begin(), order.end(), entry) == order.end()) order.push_back(entry);
+  };
+  for (const auto* entry : chosen) {
+    for (const auto* other : chosen)
+      if (is_scalar_form(other->name, entry->name)) add(other);
+    add(entry);
+  }
+  return order;
+}
+
+// measured: is called after each bench with the results so far.
+std::vector<BenchResult> run(const Options& options, const std::function<void(const std::vector<BenchResult>&)>& measured) {
   BenchOptions bench_options;
   bench_options.min_time = options.min_time;
   const BenchList list = benches_of(options);
-  const std::vector<const BenchList::Entry*> chosen = chosen_of(list, options);
+  const std::vector<const BenchList::Entry*> order = scalar_first(chosen_of(list, options));
   std::vector<BenchResult> results;
-  Progress progress("bench", chosen.size());
-  for (const auto* entry : chosen) {
+  Progress progress("bench", order.size());
+  for (const auto* entry : order) {
     results.push_back(run_bench(entry->make(bench_options), bench_options));
+    progress.wipe();
+    measured(results);
+    std::fflush(stdout);
     progress.add();
   }
   return results;
 }
 
-// The speed-up over the scalar form of the same bench, if that ran too: "8.3 x scalar".
+// The speed-up over the scalar form of the same bench, if that ran before: "8.3 x scalar".
 std::string against_scalar(const std::vector<BenchResult>& results, const BenchResult& r) {
-  for (const BenchResult& other : results) {
-    constexpr std::string_view kScalar = "/scalar";
-    if (!other.name.ends_with(kScalar) || other.name == r.name) continue;
-    const std::string base = other.name.substr(0, other.name.size() - kScalar.size());
-    if (r.name == base || r.name.starts_with(base + "/")) return fmt::format("{:.1f} x scalar", other.ns_per_item / r.ns_per_item);
-  }
+  for (const BenchResult& other : results)
+    if (is_scalar_form(other.name, r.name)) return fmt::format("{:.1f} x scalar", other.ns_per_item / r.ns_per_item);
   return {};
 }
 
-void print_table(const std::vector<BenchResult>& results) {
-  fmt::print("{:<40} {:>10} {:>12} {:>10} {:>6}  {:<8}\n", "bench", "items", "ns/item", "median ms", "runs", "simd");
-  for (const BenchResult& r : results) {
-    fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms, r.runs, r.simd,
-               against_scalar(results, r));
-    for (const BenchPass& pass : r.passes) fmt::print("  {:<61} {:>13.4f}\n", pass.name, pass.ms);
-  }
+void print_head() { fmt::print("{:<40} {:>10} {:>12} {:>10} {:>6}  {:<8}\n", "bench", "items", "ns/item", "median ms", "runs", "simd"); }
+
+// Prints the last result.
+void print_row(const std::vector<BenchResult>& results) {
+  const BenchResult& r = results.back();
+  fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms, r.runs, r.simd,
+             against_scalar(results, r));
+  for (const BenchPass& pass : r.passes) fmt::print("  {:<61} {:>13.4f}\n", pass.name, pass.ms);
 }
 
 // Reads an earlier output of `bench --json`: the median of a call by name.
@@ -113,28 +139,40 @@ std::map<std::string, double> read_base(const std::string& path) {
   return base;
 }
 
-// Prints the results beside an earlier run, name by name, with the geometric mean of the ratios last. False if a ratio is above the limit.
-bool print_ratios(const std::vector<BenchResult>& results, const std::map<std::string, double>& base, double limit) {
-  fmt::print("{:<40} {:>12} {:>12} {:>8}\n", "bench", "ns/item", "before", "ratio");
-  double logs = 0;
-  int count = 0;
-  bool holds = true;
-  for (const BenchResult& r : results) {
-    const auto before = base.find(r.name);
-    if (before == base.end()) {
+// The results beside an earlier run, name by name, with the geometric mean of the ratios last.
+class RatioTable {
+ public:
+  RatioTable(std::map<std::string, double> base, double limit) : base_(std::move(base)), limit_(limit) {}
+
+  void print_head() const { fmt::print("{:<40} {:>12} {:>12} {:>8}\n", "bench", "ns/item", "before", "ratio"); }
+
+  void print_row(const BenchResult& r) {
+    const auto before = base_.find(r.name);
+    if (before == base_.end()) {
       fmt::print("{:<40} {:>12.2f} {:>12} {:>8}\n", r.name, r.ns_per_item, "-", "new");
-      continue;
+      return;
     }
     const double ratio = r.ns_per_item / before->second;
-    const bool slower = limit > 0 && ratio > limit;
+    const bool slower = limit_ > 0 && ratio > limit_;
     fmt::print("{:<40} {:>12.2f} {:>12.2f} {:>8.3f}{}\n", r.name, r.ns_per_item, before->second, ratio, slower ? "  slower" : "");
-    logs += std::log(ratio);
-    ++count;
-    holds &= !slower;
+    logs_ += std::log(ratio);
+    ++count_;
+    holds_ &= !slower;
   }
-  if (count > 0) fmt::print("{:<40} {:>12} {:>12} {:>8.3f}\n", "geometric mean", "", "", std::exp(logs / count));
-  return holds;
-}
+
+  // False if a ratio is above the limit.
+  bool end() const {
+    if (count_ > 0) fmt::print("{:<40} {:>12} {:>12} {:>8.3f}\n", "geometric mean", "", "", std::exp(logs_ / count_));
+    return holds_;
+  }
+
+ private:
+  std::map<std::string, double> base_;
+  double limit_;
+  double logs_ = 0;
+  int count_ = 0;
+  bool holds_ = true;
+};
 
 void print_json(const std::vector<BenchResult>& results) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -177,13 +215,16 @@ void add_bench(CommandLine& line) {
       for (const BenchList::Entry* entry : chosen_of(list, *options)) fmt::print("{}\n", entry->name);
       return;
     }
-    const std::map<std::string, double> base = options->base.empty() ? std::map<std::string, double>{} : read_base(options->base);
-    const std::vector<BenchResult> results = run(*options);
-    if (!base.empty()) {
-      if (!print_ratios(results, base, options->slower)) exit.code = 1;
+    if (!options->base.empty()) {
+      RatioTable table(read_base(options->base), options->slower);
+      table.print_head();
+      run(*options, [&](const std::vector<BenchResult>& results) { table.print_row(results.back()); });
+      if (!table.end()) exit.code = 1;
       return;
     }
-    options->json ? print_json(results) : print_table(results);
+    if (options->json) return print_json(run(*options, [](const std::vector<BenchResult>&) {}));
+    print_head();
+    run(*options, print_row);
   });
 }
 

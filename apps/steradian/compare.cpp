@@ -55,14 +55,15 @@ struct Subject {
   std::function<std::pair<std::vector<Setting>, std::size_t>(const std::string& method)> settings;
 };
 
-// A separate progress bar for each picture.
+// A separate progress bar for each picture; their lines take turns.
 std::function<void(std::uint64_t, std::uint64_t)> progress_of(const std::string& label) {
+  static const ProgressOutput output = progress_on_stderr();
   auto bar = std::make_shared<std::unique_ptr<Progress>>();
   auto mutex = std::make_shared<std::mutex>();
   return [=](std::uint64_t, std::uint64_t total) {
     {
       const std::lock_guard lock(*mutex);
-      if (!*bar) *bar = std::make_unique<Progress>("compare: " + label, total);
+      if (!*bar) *bar = std::make_unique<Progress>("compare: " + label, total, output);
     }
     (*bar)->add();
   };
