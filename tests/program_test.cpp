@@ -208,6 +208,46 @@ TEST_F(Program, ProgressIsALineASecondWithoutATerminal) {
   }
 }
 
+// A method that takes minutes is left out. The other rows are those of a comparison without it, but for their times.
+TEST_F(Program, CompareNamesWhatDoesNotFitIntoItsTime) {
+  const auto compare = [&](const std::string& scene, const std::string& methods, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"compare", test::kSourceDir + "/scenes/" + scene, "-o", folder / "report", "--methods", methods};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const auto rows = [&] {
+    json report = json::parse(contents(folder / "report" / "report.json"));
+    for (json& row : report["methods"]) row.erase("ms"), row.erase("passes");
+    return std::pair{report["methods"], report["did_not_fit"]};
+  };
+  const std::vector<std::string> small = {"--size", "96x54", "--target-error", "0.1", "--spp", "1000000"};
+  std::vector<std::string> limited = small, late = small, never = small;
+  limited.insert(limited.end(), {"--time-limit", "8"});
+  late.insert(late.end(), {"--target-error", "0.00001", "--time-limit", "1"});
+  late.erase(late.begin() + 2, late.begin() + 4);
+  never.insert(never.end(), {"--time-limit", "0.5"});
+
+  EXPECT_EQ(compare("glossy_floor.glb", "ltc,closed-form", small).status, 0);
+  const auto [whole, none] = rows();
+  EXPECT_TRUE(none.empty());
+  const Outcome r = compare("glossy_floor.glb", "sampled,ltc,closed-form", limited);
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.out.find("\ndid not fit into 8 s: sampled\n"), std::string::npos) << r.out;
+  EXPECT_EQ(rows(), (std::pair{whole, json({"sampled"})}));
+  EXPECT_FALSE(fs::exists(folder / "report" / "sampled.exr"));
+
+  const Outcome no_reference = compare("glossy_floor.glb", "ltc", late);
+  EXPECT_EQ(no_reference.status, 1);
+  EXPECT_NE(no_reference.err.find("the reference does not fit into 1 s"), std::string::npos) << no_reference.err;
+  const Outcome no_method = compare("glossy_floor.glb", "sampled", never);
+  EXPECT_EQ(no_method.status, 1);
+  EXPECT_NE(no_method.err.find("no method fits into half of 0.5 s"), std::string::npos) << no_method.err;
+  EXPECT_EQ(compare("glossy_floor.glb", "ltc", {"--time-limit", "-1"}).status, 2);
+
+  const Outcome plane = compare("plane/room.svg", "sampled,exact", {"--size", "64x64", "--spp", "65536", "--time-limit", "6"});
+  EXPECT_NE(plane.out.find("\ndid not fit into 6 s: sampled\n"), std::string::npos) << plane.out << plane.err;
+}
+
 TEST_F(Program, BenchFlushesEachLine) {
   const Child child = start({"bench", "--filter", "kernel/lambert", "--min-time", "2"}, [] {});
   const auto first_row = [&] { return contents(folder / "out").find("kernel/lambert/quad/scalar ") != std::string::npos; };
