@@ -1,5 +1,6 @@
 // `steradian render` and `diff` as processes: pictures, statistics, exit codes, no half-written files.
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "device/vulkan/device.h"
 #include "program.h"
@@ -186,6 +187,21 @@ TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
   EXPECT_EQ(by_name.at(0, 0), (Vec3f{1, 1, 1}));
   EXPECT_GT(dark.at(16, 16).x, plain.at(16, 16).x);
   EXPECT_EQ(run({"render", floor_scene(), "-o", exr, "--environment", "no_such.hdr"}).status, 1);
+}
+
+// The help tells how a file of samples is written, and the example in it is one.
+TEST_F(Program, HelpOfFitTellsTheFormatOfSamples) {
+  const std::string help = run({"fit", "--help"}).out, samples = folder / "wall.txt";
+  std::istringstream lines(help);
+  std::ofstream wall(samples);
+  int count = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (line.ends_with(" 0.3183")) wall << line << "\n", ++count;
+  wall.close();
+  EXPECT_EQ(count, 4) << help;
+  const Outcome r = run({"fit", "--samples", samples, "--size", "4", "-o", folder / "wall.json"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.out.find("albedo       1.000"), std::string::npos) << r.out;
 }
 
 // A measured white Lambertian surface: its table gives the closed form of Lambert's lobe.
