@@ -108,7 +108,7 @@ TEST_F(Program, HelpVersionAndWrongUse) {
 
 // One line an option, of at most 100 characters. Rare options are those of --help-all alone.
 TEST_F(Program, HelpHasALineAnOption) {
-  for (const char* verb : {"render", "view", "compare", "diff", "eval", "methods", "fit", "info"})
+  for (const char* verb : {"render", "view", "compare", "diff", "eval", "methods", "fit", "info", "bench", "completion", "man"})
     for (const char* flag : {"--help", "--help-all"}) {
       const Outcome help = run({verb, flag});
       EXPECT_EQ(help.status, 0) << verb;
@@ -191,8 +191,8 @@ TEST_F(Program, ProgressIsALineASecondWithoutATerminal) {
   const std::string scene = test::kSourceDir + "/scenes/glossy_floor.glb";
   const std::vector<std::pair<std::string, std::vector<std::string>>> long_work = {
       {"fit ggx", {"fit", "--size", "24", "--threads", "1", "-o", folder / "x.json"}},
-      {"compare: reference", {"compare", scene, "--methods", "ltc", "--size", "192x108", "--target-error", "0.03", "--threads", "1", "-o",
-                              folder / "report"}},
+      {"compare: reference",
+       {"compare", scene, "--methods", "ltc", "--size", "192x108", "--target-error", "0.03", "--threads", "1", "-o", folder / "report"}},
       {"bench", {"bench", "--filter", "kernel/lambert", "--min-time", "0.4"}}};
   for (const auto& [label, arguments] : long_work) {
     const auto begin = std::chrono::steady_clock::now();

@@ -14,6 +14,7 @@
 #include "bench/benches.h"
 #include "bench/studies/plane_methods.h"
 #include "bench/studies/table2.h"
+#include "bench_options.h"
 #include "core/files.h"
 #include "core/progress.h"
 #include "fit/textured_error.h"
@@ -27,15 +28,7 @@ namespace {
 
 using namespace fit;
 
-struct Options {
-  std::string filter, simd, device;
-  Backend backend = Backend::cpu;
-  double min_time = 0.5;
-  bool json = false, list = false;
-  bool table2 = false, textured = false, plane = false;
-  std::string figures, base;
-  double slower = 0;
-};
+using Options = BenchArguments;
 
 // Repeats the published comparison of Phong area lights.
 void print_table2(const Options& options) {
@@ -189,22 +182,7 @@ void print_json(const std::vector<BenchResult>& results) {
 void add_bench(CommandLine& line) {
   Verb verb = line.all();
   auto options = std::make_shared<Options>();
-  verb.add("--filter", options->filter, "prefix of names, e.g. kernel/lambert; NAME$: that one").group("Choice").default_text("");
-  verb.add("--simd", options->simd, "instruction set of benches that name none")
-      .group("Choice")
-      .words({"sse2", "avx2", "avx512"})
-      .default_text("widest");
-  verb.add_word("--backend", options->backend, "vulkan: frames on a device").group("Choice");
-  verb.add("--device", options->device, "of vulkan: number or part of the name in `steradian info`").group("Choice").default_text("");
-  verb.add_flag("--list", options->list, "print the names of the chosen benches").group("Choice");
-  verb.add("--min-time", options->min_time, "seconds of runs per bench").group("Measurement").range(0.0, 3600.0);
-  verb.add_flag("--json", options->json, "print JSON").group("Measurement");
-  verb.add("--compare", options->base, "print ratios to this file of --json; above 1 is slower").group("Measurement").existing_file();
-  verb.add("--fail-above", options->slower, "of --compare: exit 1 above this ratio; 0: never").group("Measurement").range(0.0, 1e9);
-  verb.add_flag("--table2", options->table2, "errors and times of the Phong methods (docs/theory/moments.md)").group("Studies");
-  verb.add("--figures", options->figures, "of --table2: folder for the page's figures").group("Studies").existing_folder().writes(Writes::folder);
-  verb.add_flag("--textured", options->textured, "errors of textured lights (docs/theory/ltc.md)").group("Studies");
-  verb.add_flag("--plane", options->plane, "times and errors of the plane's methods (docs/measured/plane.md)").group("Studies");
+  add_bench_options(verb, *options);
   verb.callback([options, &exit = line.exit()] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);

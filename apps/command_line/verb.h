@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/words.h"
+#include "options_table.h"
 #include "output.h"
 #include "steradian/limits.h"
 
@@ -50,6 +51,7 @@ class VerbOption {
   VerbOption& value_name(const std::string& name);    // the value as --help shows it
   // --help prints the words and the range behind the description.
   VerbOption& words(const std::vector<std::string>& allowed);
+  VerbOption& suggests(const std::vector<std::string>& words);  // for completions; other values may be valid too
   VerbOption& range(int low, int high);
   VerbOption& range(double low, double high);
   VerbOption& range(std::uint64_t low, std::uint64_t high);
@@ -96,14 +98,13 @@ class Verb {
     return add_function(name, set, help).words(words::names<Value>()).default_text(words::name_of(value));
   }
   void add_limits(Limits& limits);  // --max-memory and --max-work: the most that a file may use
-  // Takes all arguments from the first that is no option of the verb, including --help.
-  void pass_on(std::vector<std::string>& arguments);
 
   bool given(const std::string& name) const;
   // Throws WrongOption for the first option that the user gave and that has no effect.
   void refuse_without_effect(std::initializer_list<ConditionalOption> options) const;
   void refuse(std::initializer_list<const char*> names, const char* needs) const;  // these never have an effect here
   void callback(std::function<void()> run);
+  std::shared_ptr<const VerbRecord> record() const;
 
  private:
   VerbOption add_function(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& help);
@@ -129,6 +130,9 @@ class CommandLine {
   Verb verb(const std::string& name, const std::string& help);
   // The program itself, for a program without verbs.
   Verb all();
+  // The words after the verb, as they were typed.
+  const std::vector<std::string>& arguments() const { return arguments_; }
+  ProgramRow table() const;
   Exit& exit() { return exit_; }
   // Reads the arguments, runs the verb and returns the exit status. Messages go to standard error.
   int run(int argc, char** argv);
@@ -136,6 +140,7 @@ class CommandLine {
  private:
   struct Parser;
   Parser* parser_;
+  std::vector<std::string> arguments_;
   Exit exit_;
 };
 

@@ -214,7 +214,7 @@ void add_compare(CommandLine& line) {
       "methods.");
   verb.add("SCENE", options->scene, "scene file: .gltf, .glb, .svg").required();
   verb.add("-o,--output", options->output, "folder of the report").writes(Writes::folder).required();
-  verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',');
+  verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',').suggests(method_names());
   verb.add_flag("!--one-setting", options->settings, "one quality and one number of samples a method");
   verb.add_word("--shadows", r.shadows, "direct shadows");
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels; default: 960x540, or the drawing's").group("Picture");
@@ -225,7 +225,7 @@ void add_compare(CommandLine& line) {
   verb.add("--target-error", r.target_error, "of reference: relative rms error").range(1e-6, 1.0).group("Sampling");
   verb.add("--seed", r.seed, "seed of the random numbers").group("Sampling");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
-  verb.add("--time-limit", options->time_limit, "seconds for the pictures; what does not fit is left out and named; 0: none")
+  verb.add("--time-limit", options->time_limit, "seconds for the pictures; names what does not fit; 0: none")
       .value_name("S")
       .check([](const std::string& text) {
         double seconds = 0;

@@ -292,6 +292,7 @@ void add_render(CommandLine& line) {
 
   verb.add("--method", r.method, "method of the specular lobe; see `steradian methods`")
       .check([](const std::string& name) { return unknown_method(name, true); })
+      .suggests(method_names())
       .group("Light");
   verb.add_word("--quality", r.quality, "accuracy of the method").group("Light");
   verb.add("--table", r.table, "LTC table for area lights (.json of `steradian fit`), not the built-in").group("Light");

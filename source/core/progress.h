@@ -18,7 +18,7 @@ enum class ProgressForm { none, over_the_last, lines };
 struct ProgressOutput {
   ProgressForm form = ProgressForm::none;
   std::function<void(std::string_view)> write;
-  std::function<double()> seconds;  // any steady clock
+  std::function<double()> seconds;                                                          // any steady clock
   std::shared_ptr<std::atomic<double>> next = std::make_shared<std::atomic<double>>(-1.0);  // time of the next line; negative: none was
 };
 ProgressOutput progress_on_stderr();
