@@ -95,7 +95,8 @@ TEST_F(Completion, OfBashAnswers) {
   std::ofstream(text) << run({"completion", "bash"}).out;
   EXPECT_EQ(bash("bash -n " + text), "");
   const auto answer = [&](const std::string& words, int at) {
-    return bash("source " + text + "\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=" + std::to_string(at) + "\n_steradian\necho \"${COMPREPLY[*]}\"\n");
+    return bash("source " + text + "\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=" + std::to_string(at) +
+                "\n_steradian\necho \"${COMPREPLY[*]}\"\n");
   };
   EXPECT_EQ(answer("steradian ren", 1), "render");
   EXPECT_EQ(answer("steradian render --qua", 2), "--quality");
@@ -109,7 +110,7 @@ TEST_F(Completion, OfBashAnswers) {
   EXPECT_EQ(answer("steradian bench --filt", 2), "--filter");
 }
 
-// Where the program that reads a text is not installed, there is nothing to ask.
+// A reader that is not installed is not asked.
 TEST_F(Completion, AndTheManualAreTakenByTheirReaders) {
   const auto taken = [&](const std::string& reader, const std::vector<std::string>& verb, const std::string& arguments) {
     const std::string text = folder / "text";

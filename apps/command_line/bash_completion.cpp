@@ -29,7 +29,8 @@ std::string bash_completion(const ProgramRow& program) {
       if (option.names.empty()) arguments += joined(option.words, " ");
       if (option.names.empty() || option.value.empty()) continue;
       after += "    " + patterns(verb, option) + ") " +
-               (option.words.empty() ? "return" : "COMPREPLY=($(compgen -W \"" + joined(option.words, " ") + "\" -- \"$word\")); return") + " ;;\n";
+               (option.words.empty() ? "return" : "COMPREPLY=($(compgen -W \"" + joined(option.words, " ") + "\" -- \"$word\")); return") +
+               " ;;\n";
     }
     options += "    " + verb.name + ") options=\"" + names_of(verb.options) + "\" arguments=\"" + arguments + "\" ;;\n";
   }

@@ -16,7 +16,10 @@ void add_bench_options(Verb& verb, BenchArguments& arguments) {
   verb.add("--compare", arguments.base, "print ratios to this file of --json; above 1 is slower").group("Measurement").existing_file();
   verb.add("--fail-above", arguments.slower, "of --compare: exit 1 above this ratio; 0: never").group("Measurement").range(0.0, 1e9);
   verb.add_flag("--table2", arguments.table2, "errors and times of the Phong methods (docs/theory/moments.md)").group("Studies");
-  verb.add("--figures", arguments.figures, "of --table2: folder for the page's figures").group("Studies").existing_folder().writes(Writes::folder);
+  verb.add("--figures", arguments.figures, "of --table2: folder for the page's figures")
+      .group("Studies")
+      .existing_folder()
+      .writes(Writes::folder);
   verb.add_flag("--textured", arguments.textured, "errors of textured lights (docs/theory/ltc.md)").group("Studies");
   verb.add_flag("--plane", arguments.plane, "times and errors of the plane's methods (docs/measured/plane.md)").group("Studies");
 }

@@ -12,7 +12,8 @@ namespace steradian::app {
 void add_completion(CommandLine& line) {
   Verb verb = line.verb("completion", "Print the completion of this program for a shell");
   verb.group("This machine");
-  verb.footer("`cmake --install` puts it where the shell looks for it. For this session alone:\n"
+  verb.footer(
+      "`cmake --install` puts it where the shell looks for it. For this session alone:\n"
       "source <(steradian completion bash)");
   const auto shell = std::make_shared<std::string>();
   verb.add("SHELL", *shell, "the shell").words({"bash", "zsh", "fish"}).required();
