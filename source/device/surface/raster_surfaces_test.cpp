@@ -14,7 +14,6 @@
 #include "night.h"
 #include "paths.h"
 #include "render/frame/frame_surfaces.h"
-#include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "support/meshes.h"
 
