@@ -157,8 +157,8 @@ Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec
   const Vec3f hit = at(mesh.positions);
   Vec3f lift{};
   for (const auto& [i, weight] : {std::pair{at.i0, at.w0}, std::pair{at.i1, at.u}, std::pair{at.i2, at.v}})
-    lift += from_kernel(SurfaceKernels().surface_lift(in_kernel(mesh.positions[i] - hit), in_kernel(unit(mesh.normals[i])), in_kernel(outside),
-                                                      in_kernel(weight)));
+    lift += from_kernel(SurfaceKernels().surface_lift(in_kernel(mesh.positions[i] - hit), in_kernel(unit(mesh.normals[i])),
+                                                      in_kernel(outside), in_kernel(weight)));
   return hit + lift;
 }
 

@@ -228,7 +228,8 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
       (below0 ? b : a) = cut;
       (below0 ? id_b : id_a) = kCutId | edge.number;
     }
-    add_clipped<S>(*frame_, k.shadow_project(eye, shift, a), k.shadow_project(eye, shift, b), id_a, id_b, weight, Source::edge, edge.number, result);
+    add_clipped<S>(*frame_, k.shadow_project(eye, shift, a), k.shadow_project(eye, shift, b), id_a, id_b, weight, Source::edge, edge.number,
+                   result);
   }
 
   const std::size_t sections = result.segments.size();
@@ -244,7 +245,8 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
     const auto cut = [&](int side) {
       const std::uint32_t from_v = t.corners[side], to_v = t.corners[(side + 1) % 3];
       return k.shadow_project(
-          eye, shift, from_v < to_v ? k.shadow_cut(vertex(from_v), vertex(to_v), height) : k.shadow_cut(vertex(to_v), vertex(from_v), height));
+          eye, shift,
+          from_v < to_v ? k.shadow_cut(vertex(from_v), vertex(to_v), height) : k.shadow_cut(vertex(to_v), vertex(from_v), height));
     };
     const std::uint64_t id_a = kCutId | t.edges[leaving], id_b = kCutId | t.edges[returning];
     add_section(result, sections, [&] {
