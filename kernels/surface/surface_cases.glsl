@@ -33,7 +33,7 @@ vec4 case_surface_bent_normal(CaseInput i) {
 }
 
 // Surface, a corner's share in the way of a hit to the curved surface
-//   a.xyz  range(-1, 1)
+//   a.xyz  vector(0.1, 2)
 //   b.xyz  direction
 //   c.xyz  direction
 //   a.w    range(0, 1)
