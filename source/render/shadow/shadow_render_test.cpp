@@ -167,6 +167,7 @@ int shadowed_pixels(const Picture& shadowed, const Picture& open) {
 TEST(ShadowRender, ASmoothTerminatorIsThatOfTheSurfaceThatNormalsDescribe) {
   const Scene scene = ball_scene(16, 8);
   RenderOptions options = small();
+  options.terminator = Terminator::strict;
   const Picture strict = render(scene, options);
   options.terminator = Terminator::smooth;
   const Picture smooth = render(scene, options);
