@@ -8,6 +8,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernels/ DESTINATION ${CMAKE_INSTALL_INC
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(STERADIAN_APPS)
   install(TARGETS steradian_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/texts/share/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})  # the manual page, completions
 endif()
 
 # One file of targets a layer, so that a program asks for what it uses. A static library passes on what it is made of: whoever

@@ -448,6 +448,18 @@ fn steradian_surface_towards(n: vec3f, view: vec3f, facing: f32) -> vec3f {
     return turned;
 }
 
+// Share of a triangle's corner in the way of a hit to the curved surface that the corners' normals describe. The way leads to the mean of
+// the hit's feet on the planes through the corners, by their weights. At a vertex, on a flat triangle and in a hollow it is zero.
+//
+//   corner   from the hit
+//   normal   of the corner: unit, or zero
+//   outside  the triangle's normal, turned to the viewer
+// Source: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
+fn steradian_surface_lift(corner: vec3f, normal: vec3f, outside: vec3f, weight: f32) -> vec3f {
+    let up = normal * select(1.0, -1.0, dot(normal, outside) < 0.0);
+    return up * (weight * max(0.0, dot(corner, up)));
+}
+
 // The part of a unit vector across a normal, as a unit vector. It is computed twice, because a small part is mostly rounding.
 //
 //   any      the result if there is no such part

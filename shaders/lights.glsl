@@ -64,7 +64,9 @@ Seen see(Light light, vec3 p) {
     } else if (KIND == kPolygon || KIND == kDisk) {
         float height = dot(p - light.r[2].xyz, light.r[1].xyz);
         bool behind = height < 0.0;
-        seen.lit = height > 0.0 || (behind && light.r[1].w > 0.5);
+        // Nearer to the plane than rounding, the light has no side: see_plane in source/shapes/polygon.h.
+        bool apart = height * height > 1.8189894e-12 * (dot(p, p) + dot(light.r[2].xyz, light.r[2].xyz));
+        seen.lit = apart && (!behind || light.r[1].w > 0.5);
         if (KIND == kPolygon) seen.reversed = behind;  // a disk's outline is always walked as it appears
     } else if (KIND == kEllipsoid) {
         seen.lit = round_outline(light, p).outside;

@@ -18,6 +18,7 @@ layout(std430, binding = 8) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 9) writeonly buffer Taken { vec4 taken[]; };  // the same surfaces, for the host
 layout(constant_id = 0) const int kTaken = 0;                          // 1: the host needs them
 layout(constant_id = 1) const int kLayers = 0;                         // 1: some surface may have a layer of layers.glsl
+layout(constant_id = 2) const int kSmooth = 0;                         // 1: positions are those of the smooth terminator
 layout(push_constant) uniform Push { uint first_tile; };
 
 #include "prelude/prelude.glsl"
@@ -135,6 +136,14 @@ Surface surface_of(uint triangle, vec3 direction) {
     s.geometric = geometric * side;
     vec4 position = blended(at, kVertexPosition);
     s.position = position.xyz + geometric * (side * position.w);  // gbuffer.cpp's lift_off_lights
+    if (kSmooth != 0) {
+        vec3 hit = position.xyz;
+        for (int i = 0; i < 3; i++) {
+            int corner = at.number[i] * kVertex;
+            vec3 to_corner = texelFetch(vertices, corner + kVertexPosition).xyz - hit;
+            s.position += surface_lift(to_corner, unit(texelFetch(vertices, corner + kVertexNormal).xyz), s.geometric, at.weight[i]);
+        }
+    }
     vec3 up = unit(blended(at, kVertexNormal).xyz);
     if (!(dot(up, up) > 0.5)) up = geometric;
 

@@ -81,7 +81,7 @@ struct End {
 
 End look_at(Eye eye, vec3 v) {
     End end;
-    end.h = shadow_project(eye.eye, v);
+    end.h = shadow_project(eye.eye, vec3(0.0, 0.0, eye.eye.z), v);
     end.cell = shadow_cell(end.h, eye.box, 0.0);
     vec2 side = eye.box * end.h.z;
     end.outside = (side.x + end.h.x <= 0.0 ? 1 : 0) | (side.x - end.h.x <= 0.0 ? 2 : 0) | (side.y + end.h.y <= 0.0 ? 4 : 0) |

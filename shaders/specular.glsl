@@ -23,6 +23,8 @@ struct LtcLobe {
     float f_a;
 };
 
+const int FRESNEL_FIRST = MATRIX_SIZE * MATRIX_SIZE + MAGNITUDE_SIZE * MAGNITUDE_SIZE;
+
 // A lobe of the table, whose matrices begin at node `first`; magnitudes come after them.
 LtcLobe ltc_lobe_at(int first, float roughness, vec3 view) {
     vec2 at = ltc_coordinates(roughness, view.z);
@@ -36,6 +38,22 @@ LtcLobe ltc_lobe_at(int first, float roughness, vec3 view) {
     lobe.n_a = scale.x;
     lobe.f_a = scale.y;
     return lobe;
+}
+
+// The lobe in the direction of a light without extent.
+vec2 ltc_towards(vec3 direction, vec3 n, vec3 v, float alpha) {
+    mat3 frame = frame_from_normal_and_view(n, v);
+    vec3 view = vec3(dot(frame[0], v), 0.0, dot(n, v));
+    vec3 l = transform_transposed(frame, direction);
+    if (!(l.z > 0.0) || !(view.z > 0.0)) return vec2(0.0);
+    float roughness = sqrt(alpha);
+    LtcLobe lobe = ltc_lobe_at(0, roughness, view);
+    vec2 sent = vec2(lobe.n_a, lobe.f_a) * ltc_lobe(lobe.matrix, l);
+    if (FRESNEL_TABLE) {
+        LtcLobe fresnel = ltc_lobe_at(FRESNEL_FIRST, roughness, view);
+        sent.y = fresnel.n_a * ltc_lobe(fresnel.matrix, l);
+    }
+    return sent;
 }
 
 // Uses the light's elements instead of the outline where they are better.
@@ -118,7 +136,7 @@ Answer ltc_answer(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float a
     answer.irradiance = TOGETHER ? irradiance_below(walked.irradiance, view, loss) : 0.0;
     answer.specular = vec2(lobe.n_a, lobe.f_a) * walked.specular;
     if (FRESNEL_TABLE) {
-        LtcLobe fresnel = ltc_lobe_at(MATRIX_SIZE * MATRIX_SIZE + MAGNITUDE_SIZE * MAGNITUDE_SIZE, roughness, view);
+        LtcLobe fresnel = ltc_lobe_at(FRESNEL_FIRST, roughness, view);
         answer.specular.y = fresnel.n_a * ltc_walked(light, seen, frame, p, fresnel.matrix).specular;
     }
     if (view.z <= 0.0) answer.specular = vec2(0.0);
@@ -290,15 +308,19 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
     answer.irradiance = 0.0;
     answer.specular = vec2(0.0);
     if (KIND == kPunctual) {
+        PunctualIncident incident = punctual_at(light, p);
+#if LOBE == LOBE_LTC || LOBE == LOBE_LTC_CLIPLESS
+        answer.specular = ltc_towards(incident.direction, n, v, lobe.ax) * incident.irradiance;
+#else
         mat3 frame = frame_from_normal_and_view(n, lobe.tangent);
         vec3 view = transform_transposed(frame, v);
-        PunctualIncident incident = punctual_at(light, p);
         vec3 l = transform_transposed(frame, incident.direction);
         vec3 h = microfacet_half_vector(l, view);
         float sent = microfacet_lobe_unshadowed(ggx_distribution(h, lobe.ax, lobe.ay), l, view);
         if (LOBE_FORM == 0) sent = ggx_lobe(l, view, lobe.ax, lobe.ay);
         sent *= incident.irradiance;
         answer.specular = vec2(sent, sent * fresnel_schlick(0.0, 1.0, dot(view, h)));
+#endif
         return answer;
     }
     Seen seen = see(light, p);

@@ -1,7 +1,11 @@
 // The program as a process: streams, exit codes, help.
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
+#include <thread>
 
 #include "program.h"
 
@@ -104,7 +108,7 @@ TEST_F(Program, HelpVersionAndWrongUse) {
 
 // One line an option, of at most 100 characters. Rare options are those of --help-all alone.
 TEST_F(Program, HelpHasALineAnOption) {
-  for (const char* verb : {"render", "view", "compare", "diff", "eval", "methods", "fit", "info"})
+  for (const char* verb : {"render", "view", "compare", "diff", "eval", "methods", "fit", "info", "bench", "completion", "man"})
     for (const char* flag : {"--help", "--help-all"}) {
       const Outcome help = run({verb, flag});
       EXPECT_EQ(help.status, 0) << verb;
@@ -146,6 +150,10 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
     for (const char* key : {"items", "ns_per_item", "median_ms", "runs"}) EXPECT_GT(one[key].get<double>(), 0) << one;
   }
   EXPECT_TRUE(lambert);
+  // A scalar form comes first, so that the rows after it tell their ratio to it.
+  const std::string rows = run({"bench", "--filter", "kernel/lambert/quad", "--min-time", "0.01"}).out;
+  EXPECT_LT(rows.find("kernel/lambert/quad/scalar "), rows.find("x scalar"));
+  EXPECT_LT(rows.find("kernel/lambert/quad/scalar "), rows.find("kernel/lambert/quad "));
   EXPECT_EQ(run({"bench", "--filter", "nothing"}).status, 1);
 
   const Outcome listed = run({"bench", "--list", "--filter", "kernel/l"});
@@ -176,6 +184,78 @@ TEST_F(Program, InfoAndBenchSpeakJson) {
   EXPECT_EQ(with("100").status, 1);
   std::ofstream(base) << "[]";
   EXPECT_EQ(with("100").status, 1);
+}
+
+// Standard error is a file here. Lines come a second apart at the least, and none repeats a percentage; so a bound from the time is halved.
+TEST_F(Program, ProgressIsALineASecondWithoutATerminal) {
+  const std::string scene = test::kSourceDir + "/scenes/glossy_floor.glb";
+  const std::vector<std::pair<std::string, std::vector<std::string>>> long_work = {
+      {"fit ggx", {"fit", "--size", "24", "--threads", "1", "-o", folder / "x.json"}},
+      {"compare: reference",
+       {"compare", scene, "--methods", "ltc", "--size", "192x108", "--target-error", "0.03", "--threads", "1", "-o", folder / "report"}},
+      {"bench", {"bench", "--filter", "kernel/lambert", "--min-time", "0.4"}}};
+  for (const auto& [label, arguments] : long_work) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome r = run(arguments);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_EQ(r.status, 0) << r.err;
+    const std::regex form(label + " +[0-9]+\\.[0-9] %  [0-9]+ s, [0-9]+ s left");
+    std::istringstream lines(r.err);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) EXPECT_TRUE(std::regex_match(line, form)) << line;
+    EXPECT_LE(count, seconds) << label;
+    EXPECT_GE(count, (std::min(seconds, r.cpu_seconds) - 2) / 2) << label;
+  }
+}
+
+// A method that takes minutes is left out. The other rows are those of a comparison without it, but for their times.
+TEST_F(Program, CompareNamesWhatDoesNotFitIntoItsTime) {
+  const auto compare = [&](const std::string& scene, const std::string& methods, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"compare", test::kSourceDir + "/scenes/" + scene, "-o", folder / "report", "--methods", methods};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const auto rows = [&] {
+    json report = json::parse(contents(folder / "report" / "report.json"));
+    for (json& row : report["methods"]) row.erase("ms"), row.erase("passes");
+    return std::pair{report["methods"], report["did_not_fit"]};
+  };
+  const std::vector<std::string> small = {"--size", "96x54", "--target-error", "0.1", "--spp", "1000000"};
+  std::vector<std::string> limited = small, late = small, never = small;
+  limited.insert(limited.end(), {"--time-limit", "8"});
+  late.insert(late.end(), {"--target-error", "0.00001", "--time-limit", "1"});
+  late.erase(late.begin() + 2, late.begin() + 4);
+  never.insert(never.end(), {"--time-limit", "0.5"});
+
+  EXPECT_EQ(compare("glossy_floor.glb", "ltc,closed-form", small).status, 0);
+  const auto [whole, none] = rows();
+  EXPECT_TRUE(none.empty());
+  const Outcome r = compare("glossy_floor.glb", "sampled,ltc,closed-form", limited);
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.out.find("\ndid not fit into 8 s: sampled\n"), std::string::npos) << r.out;
+  EXPECT_EQ(rows(), (std::pair{whole, json({"sampled"})}));
+  EXPECT_FALSE(fs::exists(folder / "report" / "sampled.exr"));
+
+  const Outcome no_reference = compare("glossy_floor.glb", "ltc", late);
+  EXPECT_EQ(no_reference.status, 1);
+  EXPECT_NE(no_reference.err.find("the reference does not fit into 1 s"), std::string::npos) << no_reference.err;
+  const Outcome no_method = compare("glossy_floor.glb", "sampled", never);
+  EXPECT_EQ(no_method.status, 1);
+  EXPECT_NE(no_method.err.find("no method fits into half of 0.5 s"), std::string::npos) << no_method.err;
+  EXPECT_EQ(compare("glossy_floor.glb", "ltc", {"--time-limit", "-1"}).status, 2);
+
+  const Outcome plane = compare("plane/room.svg", "sampled,exact", {"--size", "64x64", "--spp", "65536", "--time-limit", "6"});
+  EXPECT_NE(plane.out.find("\ndid not fit into 6 s: sampled\n"), std::string::npos) << plane.out << plane.err;
+}
+
+TEST_F(Program, BenchFlushesEachLine) {
+  const Child child = start({"bench", "--filter", "kernel/lambert", "--min-time", "2"}, [] {});
+  const auto first_row = [&] { return contents(folder / "out").find("kernel/lambert/quad/scalar ") != std::string::npos; };
+  for (int i = 0; i < 600 && !first_row(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const bool came = first_row();
+  EXPECT_EQ(kill(child.pid, SIGTERM), 0);
+  EXPECT_EQ(finish(child).status, 128 + SIGTERM);  // it had not come to its end
+  EXPECT_TRUE(came);
 }
 
 }  // namespace

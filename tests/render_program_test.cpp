@@ -1,5 +1,6 @@
 // `steradian render` and `diff` as processes: pictures, statistics, exit codes, no half-written files.
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "device/vulkan/device.h"
 #include "program.h"
@@ -111,6 +112,59 @@ TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
   EXPECT_NE(verb.err.find("did you mean 'render'?"), std::string::npos) << verb.err;
 }
 
+// The scene is none, and the tables would take seconds: an error about the output comes before both.
+TEST_F(Program, JudgesEveryOutputBeforeTheWork) {
+  const std::string no = folder / "no", file = folder / "file", scene = folder / "no_scene.glb", svg = folder / "no_scene.svg";
+  std::ofstream(file) << "";
+  const auto refuses = [&](const std::vector<std::string>& arguments, const std::string& path, const std::string& text) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 1) << arguments[0] << ": " << r.err;
+    EXPECT_TRUE(r.err.starts_with("steradian: " + path) && r.err.find(text) != std::string::npos) << arguments[0] << ": " << r.err;
+    EXPECT_EQ(r.out, "") << arguments[0];
+  };
+  const std::string missing = "the folder does not exist", ok = folder / "x.png";
+  for (const std::string& of : {scene, svg}) {
+    refuses({"render", of, "-o", no + "/x.png"}, no + "/x.png", missing);
+    refuses({"render", of, "-o", ok, "--stats", no + "/x.json"}, no + "/x.json", missing);
+    refuses({"render", of, "-o", no + "/x_##.png", "--frames", "0..3"}, no + "/x_##.png", missing);
+    refuses({"render", of, "-o", folder / "x.gif"}, folder / "x.gif", "unknown picture format '.gif'");
+    refuses({"compare", of, "-o", file}, file, "is a file");
+    refuses({"compare", of, "-o", file + "/below/it"}, file + "/below/it", "is a file");
+    refuses({"compare", of, "-o", "/proc/report"}, "/proc/report", "cannot write in the folder /proc");
+  }
+  refuses({"render", scene, "-o", folder / "f#" / "x.png", "--frames", "0..3"}, folder / "f0" / "x.png", missing);
+  refuses({"fit", "-o", no + "/x.json"}, no + "/x.json", missing);
+  refuses({"fit", "--report", "--report-picture", no + "/x.png"}, no + "/x.png", missing);
+  refuses({"eval", no + "/queries", "-o", no + "/x.json"}, no + "/x.json", missing);
+  refuses({"view", scene, "--record", no + "/x.txt"}, no + "/x.txt", missing);
+  refuses({"bench", "--table2", "--figures", "/proc"}, "/proc", "cannot write in the folder /proc");
+  EXPECT_FALSE(fs::exists(no) || fs::exists(ok));
+
+  // A pipe is not opened before its time: its reader would see an end.
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Outcome r = run({"render", scene, "-o", ok, "--stats", pipe});
+  EXPECT_NE(r.err.find("no_scene.glb"), std::string::npos) << r.err;
+}
+
+TEST_F(Program, AnUnknownOptionNamesTheNearestOne) {
+  const auto says = [&](const std::vector<std::string>& arguments, const std::string& text) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 2) << text;
+    EXPECT_NE(r.err.find(text), std::string::npos) << r.err;
+  };
+  says({"render", "x.gltf", "--sise", "10x10"}, "steradian render: unknown option --sise; did you mean --size?\n");
+  says({"render", "x.gltf", "-o", "x.png", "--sise=10x10"}, "unknown option --sise; did you mean --size?\n");
+  says({"render", "x.gltf", "-size", "10x10"}, "did you mean --size?\n");
+  says({"render", "x.gltf", "--out", "x.png"}, "did you mean --output?\n");  // its beginning
+  says({"render", "x.gltf", "--env", "sky"}, "did you mean --environment?\n");
+  says({"compare", "x.gltf", "--targeterror", "1"}, "steradian compare: unknown option --targeterror; did you mean --target-error?\n");
+  says({"bench", "--filtre", "kernel"}, "unknown option --filtre; did you mean --filter?\n");
+  says({"--hlep"}, "steradian: unknown option --hlep; did you mean --help?\n");
+  says({"render", "x.gltf", "--frobnicate"}, "unknown option --frobnicate\nsteradian render --help-all lists the options\n");
+  EXPECT_EQ(run({"render", "--sise", "--help"}).status, 0);
+}
+
 TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
   const std::string exr = folder / "a.exr", stats = folder / "s.json", map = folder / "map.exr";
   Picture white(16, 8);
@@ -133,6 +187,21 @@ TEST_F(Program, AnEnvironmentLightsAndIsSaid) {
   EXPECT_EQ(by_name.at(0, 0), (Vec3f{1, 1, 1}));
   EXPECT_GT(dark.at(16, 16).x, plain.at(16, 16).x);
   EXPECT_EQ(run({"render", floor_scene(), "-o", exr, "--environment", "no_such.hdr"}).status, 1);
+}
+
+// The help tells how a file of samples is written, and the example in it is one.
+TEST_F(Program, HelpOfFitTellsTheFormatOfSamples) {
+  const std::string help = run({"fit", "--help"}).out, samples = folder / "wall.txt";
+  std::istringstream lines(help);
+  std::ofstream wall(samples);
+  int count = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (line.ends_with(" 0.3183")) wall << line << "\n", ++count;
+  wall.close();
+  EXPECT_EQ(count, 4) << help;
+  const Outcome r = run({"fit", "--samples", samples, "--size", "4", "-o", folder / "wall.json"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.out.find("albedo       1.000"), std::string::npos) << r.out;
 }
 
 // A measured white Lambertian surface: its table gives the closed form of Lambert's lobe.

@@ -3,14 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/benches.h"
 #include "bench/studies/plane_methods.h"
 #include "bench/studies/table2.h"
+#include "bench_options.h"
 #include "core/files.h"
 #include "core/progress.h"
 #include "fit/textured_error.h"
@@ -24,15 +28,7 @@ namespace {
 
 using namespace fit;
 
-struct Options {
-  std::string filter, simd, device;
-  Backend backend = Backend::cpu;
-  double min_time = 0.5;
-  bool json = false, list = false;
-  bool table2 = false, textured = false, plane = false;
-  std::string figures, base;
-  double slower = 0;
-};
+using Options = BenchArguments;
 
 // Repeats the published comparison of Phong area lights.
 void print_table2(const Options& options) {
@@ -64,38 +60,61 @@ std::vector<const BenchList::Entry*> chosen_of(const BenchList& list, const Opti
   throw Error("--filter", whole ? "no bench has the name " + options.filter : "no bench begins with " + options.filter, hint);
 }
 
-std::vector<BenchResult> run(const Options& options) {
+// True for "kernel/x/scalar" as `scalar`, and kernel/x or kernel/x/sse2.
+bool is_scalar_form(const std::string& scalar, const std::string& name) {
+  constexpr std::string_view kScalar = "/scalar";
+  if (!scalar.ends_with(kScalar) || scalar == name) return false;
+  const std::string base = scalar.substr(0, scalar.size() - kScalar.size());
+  return name == base || name.starts_with(base + "/");
+}
+
+// The benches in the order in which they run: a scalar form comes before those that are compared with it.
+std::vector<const BenchList::Entry*> scalar_first(const std::vector<const BenchList::Entry*>& chosen) {
+  std::vector<const BenchList::Entry*> order;
+  const auto add = [&](const BenchList::Entry* entry) {
+    if (std::find(order.begin(), order.end(), entry) == order.end()) order.push_back(entry);
+  };
+  for (const auto* entry : chosen) {
+    for (const auto* other : chosen)
+      if (is_scalar_form(other->name, entry->name)) add(other);
+    add(entry);
+  }
+  return order;
+}
+
+// measured: is called after each bench with the results so far.
+std::vector<BenchResult> run(const Options& options, const std::function<void(const std::vector<BenchResult>&)>& measured) {
   BenchOptions bench_options;
   bench_options.min_time = options.min_time;
   const BenchList list = benches_of(options);
-  const std::vector<const BenchList::Entry*> chosen = chosen_of(list, options);
+  const std::vector<const BenchList::Entry*> order = scalar_first(chosen_of(list, options));
   std::vector<BenchResult> results;
-  Progress progress("bench", chosen.size());
-  for (const auto* entry : chosen) {
+  Progress progress("bench", order.size());
+  for (const auto* entry : order) {
     results.push_back(run_bench(entry->make(bench_options), bench_options));
+    progress.wipe();
+    measured(results);
+    std::fflush(stdout);
     progress.add();
   }
   return results;
 }
 
-// The speed-up over the scalar form of the same bench, if that ran too: "8.3 x scalar".
+// The speed-up over the scalar form of the same bench, if that ran before: "8.3 x scalar".
 std::string against_scalar(const std::vector<BenchResult>& results, const BenchResult& r) {
-  for (const BenchResult& other : results) {
-    constexpr std::string_view kScalar = "/scalar";
-    if (!other.name.ends_with(kScalar) || other.name == r.name) continue;
-    const std::string base = other.name.substr(0, other.name.size() - kScalar.size());
-    if (r.name == base || r.name.starts_with(base + "/")) return fmt::format("{:.1f} x scalar", other.ns_per_item / r.ns_per_item);
-  }
+  for (const BenchResult& other : results)
+    if (is_scalar_form(other.name, r.name)) return fmt::format("{:.1f} x scalar", other.ns_per_item / r.ns_per_item);
   return {};
 }
 
-void print_table(const std::vector<BenchResult>& results) {
-  fmt::print("{:<40} {:>10} {:>12} {:>10} {:>6}  {:<8}\n", "bench", "items", "ns/item", "median ms", "runs", "simd");
-  for (const BenchResult& r : results) {
-    fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms, r.runs, r.simd,
-               against_scalar(results, r));
-    for (const BenchPass& pass : r.passes) fmt::print("  {:<61} {:>13.4f}\n", pass.name, pass.ms);
-  }
+void print_head() { fmt::print("{:<40} {:>10} {:>12} {:>10} {:>6}  {:<8}\n", "bench", "items", "ns/item", "median ms", "runs", "simd"); }
+
+// Prints the last result.
+void print_row(const std::vector<BenchResult>& results) {
+  const BenchResult& r = results.back();
+  fmt::print("{:<40} {:>10} {:>12.2f} {:>10.4f} {:>6}  {:<8} {}\n", r.name, r.items, r.ns_per_item, r.median_ms, r.runs, r.simd,
+             against_scalar(results, r));
+  for (const BenchPass& pass : r.passes) fmt::print("  {:<61} {:>13.4f}\n", pass.name, pass.ms);
 }
 
 // Reads an earlier output of `bench --json`: the median of a call by name.
@@ -113,28 +132,40 @@ std::map<std::string, double> read_base(const std::string& path) {
   return base;
 }
 
-// Prints the results beside an earlier run, name by name, with the geometric mean of the ratios last. False if a ratio is above the limit.
-bool print_ratios(const std::vector<BenchResult>& results, const std::map<std::string, double>& base, double limit) {
-  fmt::print("{:<40} {:>12} {:>12} {:>8}\n", "bench", "ns/item", "before", "ratio");
-  double logs = 0;
-  int count = 0;
-  bool holds = true;
-  for (const BenchResult& r : results) {
-    const auto before = base.find(r.name);
-    if (before == base.end()) {
+// The results beside an earlier run, name by name, with the geometric mean of the ratios last.
+class RatioTable {
+ public:
+  RatioTable(std::map<std::string, double> base, double limit) : base_(std::move(base)), limit_(limit) {}
+
+  void print_head() const { fmt::print("{:<40} {:>12} {:>12} {:>8}\n", "bench", "ns/item", "before", "ratio"); }
+
+  void print_row(const BenchResult& r) {
+    const auto before = base_.find(r.name);
+    if (before == base_.end()) {
       fmt::print("{:<40} {:>12.2f} {:>12} {:>8}\n", r.name, r.ns_per_item, "-", "new");
-      continue;
+      return;
     }
     const double ratio = r.ns_per_item / before->second;
-    const bool slower = limit > 0 && ratio > limit;
+    const bool slower = limit_ > 0 && ratio > limit_;
     fmt::print("{:<40} {:>12.2f} {:>12.2f} {:>8.3f}{}\n", r.name, r.ns_per_item, before->second, ratio, slower ? "  slower" : "");
-    logs += std::log(ratio);
-    ++count;
-    holds &= !slower;
+    logs_ += std::log(ratio);
+    ++count_;
+    holds_ &= !slower;
   }
-  if (count > 0) fmt::print("{:<40} {:>12} {:>12} {:>8.3f}\n", "geometric mean", "", "", std::exp(logs / count));
-  return holds;
-}
+
+  // False if a ratio is above the limit.
+  bool end() const {
+    if (count_ > 0) fmt::print("{:<40} {:>12} {:>12} {:>8.3f}\n", "geometric mean", "", "", std::exp(logs_ / count_));
+    return holds_;
+  }
+
+ private:
+  std::map<std::string, double> base_;
+  double limit_;
+  double logs_ = 0;
+  int count_ = 0;
+  bool holds_ = true;
+};
 
 void print_json(const std::vector<BenchResult>& results) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -151,22 +182,7 @@ void print_json(const std::vector<BenchResult>& results) {
 void add_bench(CommandLine& line) {
   Verb verb = line.all();
   auto options = std::make_shared<Options>();
-  verb.add("--filter", options->filter, "prefix of names, e.g. kernel/lambert; NAME$: that one").group("Choice").default_text("");
-  verb.add("--simd", options->simd, "instruction set of benches that name none")
-      .group("Choice")
-      .words({"sse2", "avx2", "avx512"})
-      .default_text("widest");
-  verb.add_word("--backend", options->backend, "vulkan: frames on a device").group("Choice");
-  verb.add("--device", options->device, "of vulkan: number or part of the name in `steradian info`").group("Choice").default_text("");
-  verb.add_flag("--list", options->list, "print the names of the chosen benches").group("Choice");
-  verb.add("--min-time", options->min_time, "seconds of runs per bench").group("Measurement").range(0.0, 3600.0);
-  verb.add_flag("--json", options->json, "print JSON").group("Measurement");
-  verb.add("--compare", options->base, "print ratios to this file of --json; above 1 is slower").group("Measurement").existing_file();
-  verb.add("--fail-above", options->slower, "of --compare: exit 1 above this ratio; 0: never").group("Measurement").range(0.0, 1e9);
-  verb.add_flag("--table2", options->table2, "errors and times of the Phong methods (docs/theory/moments.md)").group("Studies");
-  verb.add("--figures", options->figures, "of --table2: folder for the page's figures").group("Studies").existing_folder();
-  verb.add_flag("--textured", options->textured, "errors of textured lights (docs/theory/ltc.md)").group("Studies");
-  verb.add_flag("--plane", options->plane, "times and errors of the plane's methods (docs/measured/plane.md)").group("Studies");
+  add_bench_options(verb, *options);
   verb.callback([options, &exit = line.exit()] {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);
@@ -177,13 +193,16 @@ void add_bench(CommandLine& line) {
       for (const BenchList::Entry* entry : chosen_of(list, *options)) fmt::print("{}\n", entry->name);
       return;
     }
-    const std::map<std::string, double> base = options->base.empty() ? std::map<std::string, double>{} : read_base(options->base);
-    const std::vector<BenchResult> results = run(*options);
-    if (!base.empty()) {
-      if (!print_ratios(results, base, options->slower)) exit.code = 1;
+    if (!options->base.empty()) {
+      RatioTable table(read_base(options->base), options->slower);
+      table.print_head();
+      run(*options, [&](const std::vector<BenchResult>& results) { table.print_row(results.back()); });
+      if (!table.end()) exit.code = 1;
       return;
     }
-    options->json ? print_json(results) : print_table(results);
+    if (options->json) return print_json(run(*options, [](const std::vector<BenchResult>&) {}));
+    print_head();
+    run(*options, print_row);
   });
 }
 

@@ -1,10 +1,13 @@
 #include "verb.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <new>
 
@@ -12,6 +15,11 @@
 #include "wrong_use.h"
 
 namespace steradian::app {
+
+struct VerbRecord {
+  std::map<const CLI::Option*, std::vector<std::string>> words;  // values to choose from
+  std::vector<std::function<void()>> outputs;                    // checks that run before the verb
+};
 
 namespace {
 
@@ -69,6 +77,45 @@ std::string shown(double low, double high) {
   return text;
 }
 
+// The names of an option as they are typed; none of a positional argument.
+std::vector<std::string> typed_names(const CLI::Option* option) {
+  std::vector<std::string> names;
+  for (const std::string& letter : option->get_snames()) names.push_back("-" + letter);
+  for (const std::string& word : option->get_lnames()) names.push_back("--" + word);
+  return names;
+}
+
+std::vector<OptionRow> rows_of(const CLI::App& app, const std::map<const CLI::Option*, std::vector<std::string>>& words) {
+  std::vector<OptionRow> rows;
+  for (const CLI::Option* option : app.get_options()) {
+    OptionRow row;
+    row.names = typed_names(option);
+    if (option->get_type_size() != 0) row.value = row.names.empty() ? option->get_name(true) : option->get_type_name();
+    row.help = option->get_description();
+    row.default_text = row.value.empty() || option->get_default_str() == "[]" ? std::string() : option->get_default_str();
+    row.rare = is_more(option->get_group());
+    row.group = row.rare ? option->get_group().substr(0, option->get_group().size() - std::strlen(kMore)) : option->get_group();
+    row.required = option->get_required();
+    if (const auto known = words.find(option); known != words.end()) row.words = known->second;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// The message for the first option that the user gave and that the program or its verb does not have; empty if there is none.
+std::string message_of_unknown_option(const CLI::App& app, const std::string& program) {
+  const std::vector<std::string> rest = app.remaining(true);
+  const auto given = std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
+  if (given == rest.end()) return {};
+  const std::vector<CLI::App*> verbs = app.get_subcommands();
+  const CLI::App& of = verbs.empty() ? app : *verbs.front();
+  const std::string command = verbs.empty() ? program : program + " " + of.get_name();
+  std::vector<std::string> options;
+  for (const CLI::Option* option : of.get_options())
+    for (std::string& name : typed_names(option)) options.push_back(std::move(name));
+  return command + ": " + unknown_option(*given, options) + "\n" + command + " --help-all lists the options";
+}
+
 CLI::Validator without_description(CLI::Validator validator) {
   validator.description("");
   return validator;
@@ -92,8 +139,10 @@ VerbOption& VerbOption::words(const std::vector<std::string>& allowed) {
   std::string list;
   for (const std::string& word : allowed) list += (list.empty() ? "" : ", ") + word;
   option_->check(without_description(CLI::IsMember(allowed)));
+  suggests(allowed);
   return accepts(list);
 }
+VerbOption& VerbOption::suggests(const std::vector<std::string>& words) { return record_->words[option_] = words, *this; }
 VerbOption& VerbOption::range(int low, int high) {
   option_->check(without_description(CLI::Range(low, high)));
   return accepts(shown(low, high));
@@ -118,36 +167,40 @@ VerbOption& VerbOption::existing_folder() {
   option_->check(without_description(CLI::ExistingDirectory))->type_name("FOLDER");
   return *this;
 }
+VerbOption& VerbOption::writes(Writes kind) {
+  option_->type_name(kind == Writes::folder ? "FOLDER" : "FILE");
+  record_->outputs.push_back([option = option_, kind] {
+    if (option->count() > 0) check_output(option->as<std::string>(), kind);
+  });
+  return *this;
+}
 VerbOption& VerbOption::check(const std::function<std::string(const std::string&)>& problem) {
   option_->check(CLI::Validator([problem](std::string& argument) { return problem(argument); }, ""));
   return *this;
 }
 
+Verb::Verb(CLI::App* app) : app_(app), record_(std::make_shared<VerbRecord>()) {}
+std::shared_ptr<const VerbRecord> Verb::record() const { return record_; }
+VerbOption Verb::kept(CLI::Option* option) const { return VerbOption(app_, option, record_); }
 void Verb::group(const std::string& name) { app_->group(name); }
 void Verb::footer(const std::string& text) { app_->footer(text); }
 VerbOption Verb::add(const std::string& name, std::string& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
 VerbOption Verb::add(const std::string& name, std::vector<std::string>& values, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, values, help));
+  return kept(app_->add_option(name, values, help));
 }
-VerbOption Verb::add(const std::string& name, int& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
-}
+VerbOption Verb::add(const std::string& name, int& value, const std::string& help) { return kept(app_->add_option(name, value, help)); }
 VerbOption Verb::add(const std::string& name, std::optional<int>& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
 VerbOption Verb::add(const std::string& name, std::uint64_t& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
+  return kept(app_->add_option(name, value, help));
 }
-VerbOption Verb::add(const std::string& name, double& value, const std::string& help) {
-  return VerbOption(app_, app_->add_option(name, value, help));
-}
-VerbOption Verb::add_flag(const std::string& name, bool& value, const std::string& help) {
-  return VerbOption(app_, app_->add_flag(name, value, help));
-}
+VerbOption Verb::add(const std::string& name, double& value, const std::string& help) { return kept(app_->add_option(name, value, help)); }
+VerbOption Verb::add_flag(const std::string& name, bool& value, const std::string& help) { return kept(app_->add_flag(name, value, help)); }
 VerbOption Verb::add_function(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& help) {
-  return VerbOption(app_, app_->add_option_function<std::string>(name, set, help));
+  return kept(app_->add_option_function<std::string>(name, set, help));
 }
 
 void Verb::add_limits(Limits& limits) {
@@ -155,13 +208,6 @@ void Verb::add_limits(Limits& limits) {
   add("--max-work", limits.work, "work to prepare a file, in steps of about 1 ns")
       .range(std::uint64_t{1}, std::uint64_t{1} << 62)
       .more("Limits");
-}
-
-void Verb::pass_on(std::vector<std::string>& arguments) {
-  app_->set_help_flag();
-  app_->set_help_all_flag();
-  app_->prefix_command();
-  app_->parse_complete_callback([this_app = app_, &arguments] { arguments = this_app->remaining(); });
 }
 
 bool Verb::given(const std::string& name) const { return app_->get_option(name)->count() > 0; }
@@ -177,8 +223,9 @@ void Verb::refuse(std::initializer_list<const char*> names, const char* needs) c
 }
 
 void Verb::callback(std::function<void()> run) {
-  app_->callback([run = std::move(run)] {
+  app_->callback([run = std::move(run), record = record_] {
     try {
+      for (const std::function<void()>& check : record->outputs) check();
       run();
     } catch (const WrongOption& e) {
       throw CLI::ValidationError(e.option(), e.what());
@@ -188,10 +235,12 @@ void Verb::callback(std::function<void()> run) {
 
 struct CommandLine::Parser {
   CLI::App app;
-  bool has_verbs = false;
+  std::string version;
+  std::vector<std::pair<const CLI::App*, std::shared_ptr<const VerbRecord>>> verbs;
 };
 
-CommandLine::CommandLine(const std::string& description, const std::string& version) : parser_(new Parser{CLI::App(description)}) {
+CommandLine::CommandLine(const std::string& description, const std::string& version)
+    : parser_(new Parser{CLI::App(description), version, {}}) {
   parser_->app.set_version_flag("--version", version);
   parser_->app.set_help_flag("-h,--help", "Print this help");
   parser_->app.set_help_all_flag("--help-all", "Print all options, also the rare ones");
@@ -202,18 +251,29 @@ CommandLine::CommandLine(const std::string& description, const std::string& vers
 CommandLine::~CommandLine() { delete parser_; }
 
 Verb CommandLine::verb(const std::string& name, const std::string& help) {
-  if (!parser_->has_verbs) parser_->app.require_subcommand(1);
-  parser_->has_verbs = true;
-  return Verb(parser_->app.add_subcommand(name, help));
+  parser_->app.require_subcommand(1);
+  CLI::App* app = parser_->app.add_subcommand(name, help);
+  const Verb verb(app);
+  parser_->verbs.emplace_back(app, verb.record());
+  return verb;
+}
+
+ProgramRow CommandLine::table() const {
+  const CLI::App& app = parser_->app;
+  ProgramRow program{"steradian", app.get_description(), parser_->version, rows_of(app, {}), {}};
+  for (const auto& [verb, record] : parser_->verbs)
+    program.verbs.push_back({verb->get_name(), verb->get_description(), verb->get_footer(), rows_of(*verb, record->words)});
+  return program;
 }
 
 Verb CommandLine::all() { return Verb(&parser_->app); }
 
 int CommandLine::run(int argc, char** argv) {
   CLI::App& app = parser_->app;
+  arguments_.assign(argv + std::min(argc, 2), argv + argc);
   // Exceeding a limit on file sizes is then an error of the write, with the file's name, and does not end the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  if (parser_->has_verbs && argc >= 2 && argv[1][0] != '-' && argv[1][0] != '\0') {
+  if (!parser_->verbs.empty() && argc >= 2 && argv[1][0] != '-' && argv[1][0] != '\0') {
     std::vector<std::string> verbs;
     for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
     if (const std::string message = unknown_verb(argv[1], verbs); !message.empty()) {
@@ -224,7 +284,11 @@ int CommandLine::run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    const bool asked = e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);  // for help or the version
+    const std::string unknown = asked ? std::string() : message_of_unknown_option(app, std::filesystem::path(argv[0]).filename().string());
+    if (unknown.empty()) return app.exit(e) == 0 ? 0 : 2;
+    std::fprintf(stderr, "%s\n", unknown.c_str());
+    return 2;
   } catch (const UsageError& e) {
     std::fprintf(stderr, "steradian: %s\n", e.what());
     return 2;

@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/words.h"
+#include "options_table.h"
+#include "output.h"
 #include "steradian/limits.h"
 
 namespace CLI {
@@ -30,10 +33,13 @@ class WrongOption : public std::runtime_error {
   std::string option_;
 };
 
+struct VerbRecord;  // what CLI11 does not keep of a verb's options
+
 // One option of a verb. Each function restricts the option or describes it, and returns it again.
 class VerbOption {
  public:
-  VerbOption(CLI::App* verb, CLI::Option* option) : verb_(verb), option_(option) {}
+  VerbOption(CLI::App* verb, CLI::Option* option, std::shared_ptr<VerbRecord> record)
+      : verb_(verb), option_(option), record_(std::move(record)) {}
 
   VerbOption& group(const std::string& name);
   VerbOption& more(const std::string& group);  // only --help-all prints the group
@@ -45,12 +51,14 @@ class VerbOption {
   VerbOption& value_name(const std::string& name);    // the value as --help shows it
   // --help prints the words and the range behind the description.
   VerbOption& words(const std::vector<std::string>& allowed);
+  VerbOption& suggests(const std::vector<std::string>& words);  // for completions; other values may be valid too
   VerbOption& range(int low, int high);
   VerbOption& range(double low, double high);
   VerbOption& range(std::uint64_t low, std::uint64_t high);
   VerbOption& bytes();  // accepts 500MB and 4GB
   VerbOption& existing_file();
   VerbOption& existing_folder();
+  VerbOption& writes(Writes kind);  // a path that the verb writes; check_output judges it before the verb runs
   // `problem` returns an empty text for a valid argument, else the message.
   VerbOption& check(const std::function<std::string(const std::string&)>& problem);
 
@@ -59,6 +67,7 @@ class VerbOption {
 
   CLI::App* verb_;
   CLI::Option* option_;
+  std::shared_ptr<VerbRecord> record_;
 };
 
 // An option that has an effect only under a condition.
@@ -71,7 +80,7 @@ struct ConditionalOption {
 // One verb of the program: its options and the function that runs it. The values must outlive the command line.
 class Verb {
  public:
-  explicit Verb(CLI::App* app) : app_(app) {}
+  explicit Verb(CLI::App* app);
 
   void group(const std::string& name);
   void footer(const std::string& text);
@@ -89,19 +98,20 @@ class Verb {
     return add_function(name, set, help).words(words::names<Value>()).default_text(words::name_of(value));
   }
   void add_limits(Limits& limits);  // --max-memory and --max-work: the most that a file may use
-  // Takes all arguments from the first that is no option of the verb, including --help.
-  void pass_on(std::vector<std::string>& arguments);
 
   bool given(const std::string& name) const;
   // Throws WrongOption for the first option that the user gave and that has no effect.
   void refuse_without_effect(std::initializer_list<ConditionalOption> options) const;
   void refuse(std::initializer_list<const char*> names, const char* needs) const;  // these never have an effect here
   void callback(std::function<void()> run);
+  std::shared_ptr<const VerbRecord> record() const;
 
  private:
   VerbOption add_function(const std::string& name, const std::function<void(const std::string&)>& set, const std::string& help);
+  VerbOption kept(CLI::Option* option) const;
 
   CLI::App* app_;
+  std::shared_ptr<VerbRecord> record_;
 };
 
 // The program's exit status: 0 done, 1 the work failed or a comparison did not hold, 2 wrong use.
@@ -120,6 +130,9 @@ class CommandLine {
   Verb verb(const std::string& name, const std::string& help);
   // The program itself, for a program without verbs.
   Verb all();
+  // The words after the verb, as they were typed.
+  const std::vector<std::string>& arguments() const { return arguments_; }
+  ProgramRow table() const;
   Exit& exit() { return exit_; }
   // Reads the arguments, runs the verb and returns the exit status. Messages go to standard error.
   int run(int argc, char** argv);
@@ -127,6 +140,7 @@ class CommandLine {
  private:
   struct Parser;
   Parser* parser_;
+  std::vector<std::string> arguments_;
   Exit exit_;
 };
 

@@ -21,6 +21,12 @@ std::vector<std::size_t> edit_distances(const std::string& a, const std::string&
   return d[a.size()];
 }
 
+// "--size=10x10" without its dashes and its value.
+std::string bare(const std::string& option) {
+  const std::string named = option.substr(0, option.find('='));
+  return named.substr(std::min(named.find_first_not_of('-'), named.size()));
+}
+
 }  // namespace
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
@@ -48,6 +54,26 @@ std::vector<std::string> nearest_beginnings(const std::string& word, std::vector
   std::vector<std::string> nearest;
   for (const auto& [distance, place] : order) nearest.push_back(std::move(candidates[place]));
   return nearest;
+}
+
+std::string nearest_option(const std::string& given, const std::vector<std::string>& options) {
+  const std::string word = bare(given);
+  if (word.size() < 2) return {};
+  std::vector<std::string> words;
+  for (const std::string& option : options) words.push_back(bare(option));
+  const std::string nearest = nearest_word(word, words);
+  std::string found;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const bool meant = nearest.empty() ? words[i].starts_with(word) : words[i] == nearest;
+    if (meant && (found.empty() || options[i].size() < found.size())) found = options[i];
+  }
+  return found;
+}
+
+std::string unknown_option(const std::string& given, const std::vector<std::string>& options) {
+  const std::string nearest = nearest_option(given, options);
+  const std::string named = given.substr(0, given.find('=')).substr(0, 64);
+  return "unknown option " + named + (nearest.empty() ? std::string() : "; did you mean " + nearest + "?");
 }
 
 std::string unknown_verb(const std::string& word, const std::vector<std::string>& verbs) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "bench_options.h"
 #include "steradian/error.h"
 #include "verbs.h"
 
@@ -31,9 +32,9 @@ void start(const std::vector<std::string>& arguments) {
 void add_bench(CommandLine& line) {
   Verb verb = line.verb("bench", "Time the integrals on this machine (the program steradian-bench)");
   verb.group("This machine");
-  const auto arguments = std::make_shared<std::vector<std::string>>();
-  verb.pass_on(*arguments);
-  verb.callback([arguments] { start(*arguments); });
+  const auto options = std::make_shared<BenchArguments>();
+  add_bench_options(verb, *options);  // judged here already; the program reads them again
+  verb.callback([options, &line] { start(line.arguments()); });
 }
 
 }  // namespace steradian::app

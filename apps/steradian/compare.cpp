@@ -1,20 +1,21 @@
 // steradian compare SCENE --methods a,b,c -o DIR: compares every method with the reference, as pictures, numbers and a page.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
-#include <functional>
+#include <limits>
 #include <memory>
-#include <mutex>
+#include <optional>
 
 #include "command_line.h"
 #include "compare/report.h"
+#include "compare/subject.h"
 #include "core/files.h"
-#include "core/progress.h"
 #include "image/flip.h"
-#include "integrals/methods.h"
 #include "picture_options.h"
 #include "render_plane.h"
 #include "steradian/error.h"
@@ -24,148 +25,6 @@
 
 namespace steradian::app {
 namespace {
-
-struct CompareArguments {
-  std::string scene, output, size, exposure = "auto";
-  std::vector<std::string> methods;
-  bool settings = true;
-  std::optional<int> max_lights;
-  Limits limits;
-  RenderOptions render;
-};
-
-// The picture of a method, with its time and passes.
-struct Made {
-  Picture picture;
-  double ms = 0;
-  std::vector<PassTime> passes;
-};
-
-// One setting of a method: its name, and the function that renders it.
-struct Setting {
-  std::string words;
-  std::function<Made()> make;
-};
-
-// A scene in three dimensions or in the plane, in the form that `compare` needs.
-struct Subject {
-  std::function<Made()> reference;
-  std::string reference_words;
-  // The settings of a method, from cheap to expensive, and the index of the one in the table.
-  std::function<std::pair<std::vector<Setting>, std::size_t>(const std::string& method)> settings;
-};
-
-// A separate progress bar for each picture.
-std::function<void(std::uint64_t, std::uint64_t)> progress_of(const std::string& label) {
-  auto bar = std::make_shared<std::unique_ptr<Progress>>();
-  auto mutex = std::make_shared<std::mutex>();
-  return [=](std::uint64_t, std::uint64_t total) {
-    {
-      const std::lock_guard lock(*mutex);
-      if (!*bar) *bar = std::make_unique<Progress>("compare: " + label, total);
-    }
-    (*bar)->add();
-  };
-}
-
-// ---- Three dimensions --------------------------------------------------------------------------------------------
-
-Made make_frame(const Scene& scene, RenderOptions options, const std::string& label) {
-  options.progress = progress_of(label);
-  RenderStats stats;
-  Made made;
-  made.picture = render(scene, options, &stats);
-  made.ms = stats.total_ms;
-  made.passes = stats.passes;
-  return made;
-}
-
-Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareArguments& options) {
-  Subject subject;
-  RenderOptions judge = options.render;
-  judge.method = "reference";
-  subject.reference_words = fmt::format("Monte Carlo until its standard error is {:.3g} of the picture", judge.target_error);
-  subject.reference = [=] { return make_frame(*scene, judge, "reference"); };
-  subject.settings = [scene, render = options.render, all = options.settings](const std::string& method) {
-    std::vector<Setting> settings;
-    const auto add = [&](const std::string& words, const RenderOptions& r) {
-      settings.push_back({words, [=] { return make_frame(*scene, r, method + ", " + words); }});
-    };
-    RenderOptions r = render;
-    r.method = method;
-    if (method == "sampled") {
-      for (r.spp = all ? 1 : render.spp; r.spp < render.spp; r.spp *= 4) add(fmt::format("{} spp", r.spp), r);
-      r.spp = render.spp;
-      add(fmt::format("{} spp", r.spp), r);
-      return std::pair{settings, settings.size() - 1};
-    }
-    const std::optional<Method> known = method_of(method);
-    const bool qualities = known && (*known == Method::automatic || *methods::row_of(*known).qualities != '\0');
-    if (!all || !qualities) {
-      add("normal", r);
-      return std::pair{settings, std::size_t{0}};
-    }
-    for (const words::OptionWord<Quality>& quality : words::kTable<Quality>) {
-      r.quality = quality.value;
-      add(quality.name, r);
-    }
-    return std::pair{settings, std::size_t{1}};
-  };
-  return subject;
-}
-
-// ---- The plane ---------------------------------------------------------------------------------------------------
-
-Made make_plane(const PlaneWorld& world, PlaneFrameOptions options, const std::string& label) {
-  options.progress = progress_of(label);
-  PlaneFrameStats stats;
-  Made made;
-  made.picture = render_plane(world, options, &stats);
-  made.picture.layers.clear();
-  made.ms = stats.prepare_ms + stats.frame_ms;
-  made.passes = {{"prepare", stats.prepare_ms}, {"frame", stats.frame_ms}};
-  return made;
-}
-
-Subject plane_subject(const std::shared_ptr<const PlaneWorld>& world, const CompareArguments& options) {
-  PlaneFrameOptions frame;
-  frame.limits = options.limits;
-  frame.threads = options.render.threads;
-  frame.aa = options.render.aa;
-  if (!options.size.empty()) {
-    const PictureSize size = picture_size(options.size);
-    frame.width = size.width;
-    frame.height = size.height;
-  }
-  frame.sampling = {options.render.spp, options.render.seed};
-  Subject subject;
-  subject.reference_words = "the closed form in double precision, point by point";
-  subject.reference = [=] {
-    PlaneFrameOptions judge = frame;
-    judge.moments = true;  // in double, pixel by pixel
-    return make_plane(*world, judge, "reference");
-  };
-  subject.settings = [world, frame, all = options.settings](const std::string& method) {
-    std::vector<Setting> settings;
-    PlaneFrameOptions f = frame;
-    f.method = plane_method_from_name(method == "auto" ? "exact" : method);
-    const auto add = [&](const std::string& words) {
-      settings.push_back({words, [world, f, label = method + ", " + words] { return make_plane(*world, f, label); }});
-    };
-    if (f.method == PlaneMethod::sampled || f.method == PlaneMethod::marched) {
-      for (f.sampling.spp = all ? 4 : frame.sampling.spp; f.sampling.spp < frame.sampling.spp; f.sampling.spp *= 4)
-        add(fmt::format("{} spp", f.sampling.spp));
-      f.sampling.spp = frame.sampling.spp;
-      add(fmt::format("{} spp", f.sampling.spp));
-    } else {
-      add("normal");
-    }
-    return std::pair{settings, settings.size() - 1};
-  };
-  return subject;
-}
-
-// ---- The comparison ----------------------------------------------------------------------------------------------
 
 // Relative error of an estimate with a layer of variances: the root of their sum over the picture's norm.
 double own_error(const Picture& picture) {
@@ -180,35 +39,88 @@ double own_error(const Picture& picture) {
   return norm > 0 ? std::sqrt(variance / norm) : 0;
 }
 
+// The time that a comparison has. Without a limit, all parts of it are infinite.
+class TimeLeft {
+ public:
+  explicit TimeLeft(double limit) : limit_(limit > 0 ? limit : std::numeric_limits<double>::infinity()) {}
+  // A share of the first `part` of the limit, for one of `works` that have yet to be done.
+  double share(double part, std::size_t works) const {
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    return (part * limit_ - spent) / static_cast<double>(works);
+  }
+
+ private:
+  double limit_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+// The pictures of all methods and settings; none where the time was over.
+struct Pictures {
+  std::vector<std::vector<std::optional<Made>>> made;
+  Made reference;
+};
+
+// The methods' pictures of the table come first, because they find out quickly what a method refuses. They share half of the time. The
+// reference has the rest, and other settings what remains after it.
+Pictures pictures_of(const Subject& subject, const std::vector<Settings>& settings, const CompareArguments& options) {
+  const TimeLeft time(options.time_limit);
+  Pictures pictures;
+  for (std::size_t m = 0; m < settings.size(); ++m) {
+    pictures.made.emplace_back(settings[m].first.size());
+    pictures.made[m][settings[m].second] = settings[m].first[settings[m].second].make(Alarm(time.share(0.5, settings.size() - m)));
+  }
+  const auto fits = [&](std::size_t m) { return pictures.made[m][settings[m].second].has_value(); };
+  const auto more = "give more time, or a smaller --size";
+  bool any = false;
+  for (std::size_t m = 0; m < settings.size(); ++m) any |= fits(m);
+  if (!any) throw Error("--time-limit", fmt::format("no method fits into half of {} s", options.time_limit), more);
+  std::optional<Made> reference = subject.reference(Alarm(time.share(1, 1)));
+  if (!reference)
+    throw Error("--time-limit", fmt::format("the reference does not fit into {} s", options.time_limit),
+                std::string(more) + ", or a larger --target-error");
+  pictures.reference = std::move(*reference);
+  for (std::size_t m = 0; m < settings.size(); ++m)
+    for (std::size_t s = 0; s < settings[m].first.size(); ++s)
+      if (fits(m) && s != settings[m].second) pictures.made[m][s] = settings[m].first[s].make(Alarm(time.share(1, 1)));
+  return pictures;
+}
+
 Report compared(const Subject& subject, const CompareArguments& options) {
   // The settings of all methods are built first, so that an unknown or unsuitable method is refused before the long work.
-  std::vector<std::pair<std::vector<Setting>, std::size_t>> settings;
+  std::vector<Settings> settings;
   for (const std::string& method : options.methods) settings.push_back(subject.settings(method));
+  Pictures pictures = pictures_of(subject, settings, options);
 
   Report report;
   report.scene = options.scene;
   report.command = command_line();
-  std::vector<std::vector<Made>> made;
-  for (const auto& [of_method, chosen] : settings) {
-    made.emplace_back();
-    for (const Setting& setting : of_method) made.back().push_back(setting.make());
-  }
-  Made reference = subject.reference();
+  report.time_limit = options.time_limit;
   report.reference_words = subject.reference_words;
-  report.reference_ms = reference.ms;
-  report.reference_error = own_error(reference.picture);
-  report.reference = std::move(reference.picture);
+  report.reference_ms = pictures.reference.ms;
+  report.reference_error = own_error(pictures.reference.picture);
+  report.reference = std::move(pictures.reference.picture);
   report.exposure = exposure_stops(options.exposure).value_or(auto_exposure(report.reference));
   report.white = white_of(report.reference);
-  for (std::size_t m = 0; m < settings.size(); ++m)
-    for (std::size_t s = 0; s < made[m].size(); ++s) {
-      Made& of = made[m][s];
-      const Run run = {options.methods[m], settings[m].first[s].words, of.ms, difference(of.picture, report.reference)};
+  for (std::size_t m = 0; m < settings.size(); ++m) {
+    const std::string& method = options.methods[m];
+    const auto& [of_method, chosen] = settings[m];
+    if (!pictures.made[m][chosen]) {
+      report.did_not_fit.push_back(method);
+      continue;
+    }
+    for (std::size_t s = 0; s < of_method.size(); ++s) {
+      if (!pictures.made[m][s]) {
+        report.did_not_fit.push_back(method + " at " + of_method[s].words);
+        continue;
+      }
+      Made& of = *pictures.made[m][s];
+      const Run run = {method, of_method[s].words, of.ms, difference(of.picture, report.reference)};
       report.over_time.push_back(run);
-      if (s != settings[m].second) continue;
+      if (s != chosen) continue;
       image::Flip flip = image::flip(of.picture, report.reference, report.exposure);
       report.methods.push_back({run, std::move(of.picture), of.passes, flip.mean, std::move(flip.error)});
     }
+  }
   return report;
 }
 
@@ -231,11 +143,14 @@ void print(const Report& report, const std::string& folder) {
   }
   fmt::print("reference: {}", report.reference_words);
   if (report.reference_error > 0) fmt::print("; as relative L2 it is itself good to {:.1e}", report.reference_error);
+  if (!report.did_not_fit.empty()) fmt::print("\ndid not fit into {} s: {}", report.time_limit, fmt::join(report.did_not_fit, ", "));
   fmt::print("\n{}\n", (std::filesystem::path(folder) / "index.html").string());
 }
 
 std::shared_ptr<const Scene> scene_of(const CompareArguments& options) {
-  LoadedScene loaded = load_scene(options.scene, {options.max_lights, options.limits, {}});
+  LoadOptions load = {options.max_lights, options.limits};
+  load.near_origin = true;
+  LoadedScene loaded = load_scene(options.scene, load);
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return std::make_shared<const Scene>(std::move(loaded.scene));
 }
@@ -300,8 +215,8 @@ void add_compare(CommandLine& line) {
       "The folder gets index.html (needs nothing else), report.json, reference.exr and METHOD.exr.\n`steradian methods` lists the "
       "methods.");
   verb.add("SCENE", options->scene, "scene file: .gltf, .glb, .svg").required();
-  verb.add("-o,--output", options->output, "folder of the report").required();
-  verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',');
+  verb.add("-o,--output", options->output, "folder of the report").writes(Writes::folder).required();
+  verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',').suggests(method_names());
   verb.add_flag("!--one-setting", options->settings, "one quality and one number of samples a method");
   verb.add_word("--shadows", r.shadows, "direct shadows");
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels; default: 960x540, or the drawing's").group("Picture");
@@ -312,6 +227,15 @@ void add_compare(CommandLine& line) {
   verb.add("--target-error", r.target_error, "of reference: relative rms error").range(1e-6, 1.0).group("Sampling");
   verb.add("--seed", r.seed, "seed of the random numbers").group("Sampling");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
+  verb.add("--time-limit", options->time_limit, "seconds for the pictures; names what does not fit; 0: none")
+      .value_name("S")
+      .check([](const std::string& text) {
+        double seconds = 0;
+        int used = 0;
+        const bool number = std::sscanf(text.c_str(), "%lf%n", &seconds, &used) == 1 && static_cast<std::size_t>(used) == text.size();
+        return number && seconds >= 0 && seconds <= 1e9 ? std::string() : "'" + text + "' is not a number of seconds, 0 to 1e9";
+      })
+      .group("Machine");
   verb.add("--max-lights", options->max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
   verb.add_limits(options->limits);
   verb.callback([options] { run(*options); });

@@ -175,7 +175,10 @@ void add_eval(CommandLine& line) {
       "`steradian methods` lists the methods.");
   auto options = std::make_shared<EvalArguments>();
   verb.add("INPUT", options->input, "file of queries, one a line; default: standard input").default_text("");
-  verb.add("-o,--output", options->output, "file of answers; default: standard output").group("Input and output").default_text("");
+  verb.add("-o,--output", options->output, "file of answers; default: standard output")
+      .writes(Writes::file)
+      .group("Input and output")
+      .default_text("");
   verb.add_flag("--plane", options->plane, "light at points of plane scenes (.svg)").group("Input and output");
   verb.add("--method", options->method, "method of queries that name none").group("Defaults of a query").check([](const std::string& name) {
     return unknown_method(name, true);

@@ -113,6 +113,19 @@ void run(const FitArguments& options) {
 void add_fit(CommandLine& line) {
   Verb verb = line.verb("fit", "Fit linearly transformed cosines to a lobe: write the table, measure its error");
   verb.group("Light");
+  verb.footer(
+      "A file of --samples is MERL's, or a text with a line for each combination of the angles, in any\n"
+      "order:\n"
+      "    theta_view theta_light azimuth value\n"
+      "  theta_view, theta_light  degrees from the normal, 0 to 90\n"
+      "  azimuth                  degrees between view and light, 0 to 360: 180 is the side of the mirror\n"
+      "  value                    the BRDF in 1/sr: one number, or three for red, green and blue\n"
+      "Spaces, tabs, commas or semicolons are between the numbers, and # begins a comment. A white wall:\n"
+      "    0 0 0 0.3183\n"
+      "    0 90 0 0.3183\n"
+      "    90 0 0 0.3183\n"
+      "    90 90 0 0.3183\n"
+      "The table is for `render --table` and `eval` (.json), for C and C++ (.h) or for shaders (.glsl).");
   const auto options = std::make_shared<FitArguments>();
   std::vector<std::string> names;
   for (const LobeFamily& family : lobe_families()) names.push_back(family.name);
@@ -120,10 +133,10 @@ void add_fit(CommandLine& line) {
   verb.add("--samples", options->samples, "measured lobe: MERL's .binary, or lines of angles and values").excludes("--lobe");
   verb.add("--size", options->fit.size, "nodes of roughness and of view").range(2, 1024);
   verb.add("--layout", options->layout, "two textures, or arrays of at most 4 KB").words({"classic", "compact"});
-  verb.add("-o,--output", options->output, "table: .h .glsl .json; classic also .dds .exr (NAME_1, NAME_2)");
+  verb.add("-o,--output", options->output, "table: .h .glsl .json; classic also .dds .exr (NAME_1, NAME_2)").writes(Writes::file);
   verb.add_flag("--fresnel-lobe", options->fresnel_lobe, "also fit the lobe times (1 - v.h)^5, into NAME_fresnel").needs("--output");
   verb.add_flag("--report", options->report, "measure the error on lights and between nodes");
-  verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").needs("--report");
+  verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").writes(Writes::picture).needs("--report");
   verb.add("--normalisation", options->normalisation, "element 1 of the classic matrix").words({"middle", "last"});
   verb.add("--threads", options->fit.threads, "number of threads (0: all)").range(0, 4096);
   verb.add_limits(options->limits);

@@ -6,9 +6,15 @@
 #include <charconv>
 #include <filesystem>
 
+#include "output.h"
 #include "steradian/error.h"
 
 namespace steradian::app {
+namespace {
+
+std::filesystem::path folder_of(const std::string& path) { return std::filesystem::path(path).parent_path(); }
+
+}  // namespace
 
 FrameRange frame_range(const std::string& text) {
   FrameRange frames;
@@ -35,6 +41,10 @@ std::vector<int> frames_to_make(const FrameRange& range, const std::string& outp
   std::vector<int> wanted;
   for (int frame = range.first; frame <= range.last; ++frame)
     if (force || !std::filesystem::exists(numbered(output, frame))) wanted.push_back(frame);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const std::string path = numbered(output, wanted[i]);
+    if (i == 0 || folder_of(path) != folder_of(numbered(output, wanted[i - 1]))) check_output(path, Writes::picture);
+  }
   const std::size_t all = static_cast<std::size_t>(range.last - range.first) + 1;
   if (wanted.size() < all)
     fmt::print(stderr, "steradian: {} of {} frames are there (--force makes them again)\n", all - wanted.size(), all);

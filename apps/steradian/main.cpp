@@ -14,5 +14,7 @@ int main(int argc, char** argv) {
   steradian::app::add_fit(line);
   steradian::app::add_info(line);
   steradian::app::add_bench(line);
+  steradian::app::add_completion(line);
+  steradian::app::add_man(line);
   return line.run(argc, argv);
 }

@@ -10,14 +10,15 @@
 namespace steradian::app {
 namespace {
 
-constexpr const char* kLine = "{:<20}  {:<26}  {:<20}  {}\n";
+constexpr const char* kLine = "{:<20}  {:<40}  {:<20}  {}\n";
 
 void print_table() {
   fmt::print(kLine, "method", "error", "time", "lobes");
   for (const methods::Row& row : methods::all()) fmt::print(kLine, row.name, row.error, row.time, row.lobes);
   fmt::print(
       "\nauto takes the first method that serves the lobe; with --quality draft it takes ltc-compact for ggx.\n"
-      "Errors: of the full lobe, or in % of the reflected light. docs/measured/accuracy.md has the measurements.\n"
+      "Errors: of the full lobe, or in % of the reflected light; points: under lights without extent, of the lobe's rms.\n"
+      "docs/measured/accuracy.md has the measurements.\n"
       "Plane scenes (.svg) have the methods {}.\n",
       words::choices<PlaneMethod>(", "));
 }

@@ -25,6 +25,12 @@ std::optional<float> exposure_stops(const std::string& text) {
   throw WrongOption("--exposure", "'" + text + "' is not auto or a number of stops, -30 to 30");
 }
 
+std::vector<std::string> method_names() {
+  std::vector<std::string> names = {"auto"};
+  for (const methods::Row& row : methods::all()) names.emplace_back(row.name);
+  return names;
+}
+
 std::string unknown_method(const std::string& name, bool plane) {
   if (method_of(name) || (plane && words::find<PlaneMethod>(name))) return {};
   return "unknown method " + name + ", use " + methods::names();

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace steradian::app {
 
@@ -15,6 +16,9 @@ PictureSize picture_size(const std::string& text);
 
 // Parses stops, -30 to 30; none for "auto". Throws WrongOption.
 std::optional<float> exposure_stops(const std::string& text);
+
+// The names of methods that completions offer.
+std::vector<std::string> method_names();
 
 // Message for an unknown name of a method; empty for a known one. plane: methods of plane scenes are known, too.
 std::string unknown_method(const std::string& name, bool plane);

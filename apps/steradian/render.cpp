@@ -216,6 +216,7 @@ void run(const Verb& verb, RenderArguments& options) {
   const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
   parse_indirect_shadows(options);
   LoadOptions& load = options.load;
+  load.near_origin = true;
   load.aspect = static_cast<double>(render_options.width) / render_options.height;
   for (const std::string& light : options.lights) load.lights.push_back(*words::find<AddedLight>(light));
   if (!options.frames.empty())
@@ -288,10 +289,11 @@ void add_render(CommandLine& line) {
   RenderOptions& r = options->render;
   r.shadows = Shadows::on;
   verb.add("SCENE", options->scene, "scene file").required();
-  verb.add("-o,--output", options->output, "picture: .exr (linear) or .png (tone mapped)").required();
+  verb.add("-o,--output", options->output, "picture: .exr (linear) or .png (tone mapped)").writes(Writes::picture).required();
 
   verb.add("--method", r.method, "method of the specular lobe; see `steradian methods`")
       .check([](const std::string& name) { return unknown_method(name, true); })
+      .suggests(method_names())
       .group("Light");
   verb.add_word("--quality", r.quality, "accuracy of the method").group("Light");
   verb.add("--table", r.table, "LTC table for area lights (.json of `steradian fit`), not the built-in").group("Light");
@@ -328,7 +330,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--backend", r.backend, "where to compute").group("Machine");
   verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
-  verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").group("Machine");
+  verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").writes(Writes::file).group("Machine");
 
   verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");
   verb.add("--indirect-shadows", options->indirect_shadows, "visibility by 1 to 64 rays a pixel, or off").more("Bounce");

@@ -14,5 +14,7 @@ void add_fit(CommandLine& line);
 void add_methods(CommandLine& line);
 void add_info(CommandLine& line);
 void add_view(CommandLine& line);
+void add_completion(CommandLine& line);
+void add_man(CommandLine& line);
 
 }  // namespace steradian::app

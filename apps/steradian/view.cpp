@@ -48,7 +48,7 @@ void add_view(CommandLine& line) {
   verb.add("--threads", window.render.threads, "number of threads (0: all)").range(0, 4096);
   verb.add_word("--panel", window.panel, "open the panel");
   verb.add("--script", window.script, "play this file of drags, keys and pictures");
-  verb.add("--record", window.record, "record a script into this file");
+  verb.add("--record", window.record, "record a script into this file").writes(Writes::file);
   verb.callback([options] { run(*options); });
 }
 

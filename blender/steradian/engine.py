@@ -93,14 +93,16 @@ class SteradianEngine(bpy.types.RenderEngine):
 
     def run(self, command):
         """True where the program came to its end."""
-        begin = time.monotonic()
         run = program.Run(command)
+        telling = program.Telling(time.monotonic())
         while run.is_running():
             if self.test_break():
                 run.stop()
                 return False
-            self.update_stats("", f"rendering, {time.monotonic() - begin:.0f} s")
             share = run.share_done()
+            line = telling.line(time.monotonic(), share)
+            if line is not None:
+                self.update_stats("", line)
             if share is not None:
                 self.update_progress(share)
             time.sleep(0.05)

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import threading
 
 import bpy
 
@@ -23,65 +24,62 @@ def render_command(glb, picture, width, height, settings, aa, world):
             "--indirect", settings.indirect, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
 
 
+PROGRESS = re.compile(r"^render +(\d+\.\d) %  .* left$")  # a line of the program's, one a second
+
+
 class Run:
-    """A run of the program. What it says goes through a terminal of its own, since it tells its progress to terminals alone."""
+    """A run of the program. A thread of its own reads what it says."""
 
     def __init__(self, command):
-        try:
-            import pty
-            self.terminal, other = pty.openpty()
-            os.set_blocking(self.terminal, False)
-        except ImportError:  # no such thing on Windows: no progress there
-            self.terminal, other = None, subprocess.PIPE
-        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=other, stderr=subprocess.STDOUT)
-        if self.terminal is not None:
-            os.close(other)
-        self.said = ""
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                        errors="replace")
+        self.said, self.share = [], None
+        self.reader = threading.Thread(target=self.listen, daemon=True)
+        self.reader.start()
 
     def listen(self):
-        """Reads what there is; at the end, all of it."""
-        if self.terminal is None:
-            if self.process.poll() is not None and not self.process.stdout.closed:
-                self.said += self.process.stdout.read().decode(errors="replace")
-                self.process.stdout.close()
-            return
-        try:
-            while True:
-                part = os.read(self.terminal, 65536)
-                if not part:
-                    break
-                self.said += part.decode(errors="replace")
-        except OSError:  # nothing now, or the other end is closed
-            pass
+        """Until the program closes its end."""
+        for line in self.process.stdout:
+            progress = PROGRESS.match(line.rstrip())
+            if progress:
+                self.share = float(progress[1]) / 100
+            elif line.strip():
+                self.said.append(line.rstrip())
 
     def is_running(self):
         """Whether it still runs."""
-        running = self.process.poll() is None
-        self.listen()
-        return running
+        return self.process.poll() is None
 
     def share_done(self):
-        """From 0 to 1; None before the program tells it."""
-        found = re.findall(r"(\d+\.\d) %", self.said[-400:])
-        return float(found[-1]) / 100 if found else None
+        """From 0 to 1; None before the program tells it, after a second."""
+        return self.share
 
     def lines(self):
-        """What it said, without progress."""
-        text = re.sub(r"\r[^\r\n]*\x1b\[K", "", self.said.replace("\r\n", "\n"))
-        return [line for line in text.splitlines() if line.strip()]
+        """What it said, without progress; all of it after close()."""
+        return list(self.said)
 
     def stop(self):
         """Ends it, and gives back what it holds."""
-        if self.process.poll() is None:
+        if self.is_running():
             self.process.terminate()
             self.process.wait()
         self.close()
 
     def close(self):
         """After its end."""
-        self.listen()
-        if self.terminal is not None:
-            os.close(self.terminal)
-            self.terminal = None
-        elif self.process.stdout and not self.process.stdout.closed:
-            self.process.stdout.close()
+        self.reader.join()
+        self.process.stdout.close()
+
+
+class Telling:
+    """A line for Blender's status, at most once a second: without a window Blender prints each as a line of its own."""
+
+    def __init__(self, now):
+        self.begin, self.next = now, now
+
+    def line(self, now, share):
+        """None where the last is not a second old."""
+        if now < self.next:
+            return None
+        self.next = now + 1
+        return f"rendering, {now - self.begin:.0f} s" + ("" if share is None else f", {100 * share:.0f} %")

@@ -99,6 +99,18 @@ vec3 steradian_surface_towards(vec3 n, vec3 view, float facing) {
     return turned;
 }
 
+// Share of a triangle's corner in the way of a hit to the curved surface that the corners' normals describe. The way leads to the mean of
+// the hit's feet on the planes through the corners, by their weights. At a vertex, on a flat triangle and in a hollow it is zero.
+//
+//   corner   from the hit
+//   normal   of the corner: unit, or zero
+//   outside  the triangle's normal, turned to the viewer
+// Source: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
+vec3 steradian_surface_lift(vec3 corner, vec3 normal, vec3 outside, float weight) {
+    vec3 up = normal * steradian_select(dot(normal, outside) < 0.0, -1.0, 1.0);
+    return up * (weight * max(0.0, dot(corner, up)));
+}
+
 // The part of a unit vector across a normal, as a unit vector. It is computed twice, because a small part is mostly rounding.
 //
 //   any      the result if there is no such part

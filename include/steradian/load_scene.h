@@ -44,6 +44,7 @@ struct LoadOptions {
   std::vector<AddedLight> lights = {};             // empty: standard if the file's own lights are too weak for a picture
   std::shared_ptr<DecodedPictures> pictures = {};  // cached from one reading of the same file to the next; null: none
   std::shared_ptr<KeptMeshes> meshes = {};         // likewise
+  bool near_origin = false;                        // moves a scene far from the origin there, before its coordinates become floats
 };
 
 // Facts that a file states about itself.
@@ -59,6 +60,7 @@ struct LoadedScene {
   std::vector<std::string> warnings;  // whole sentences, ready to print, about everything that was dropped, defaulted or not supported
   std::vector<int> mesh_nodes;        // by Scene::meshes: the file's node to which it belongs
   std::size_t kept_meshes = 0;        // number of reused meshes (LoadOptions::meshes)
+  Vec3d origin{};                     // place of the scene's origin in the file; zero unless near_origin has moved the scene
 };
 
 // Reads the file's default scene (the first one if it names none, all root nodes if it has none). A file without lights, or with no other

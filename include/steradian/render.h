@@ -38,7 +38,7 @@ struct RenderOptions {
   std::string table;                  // for method ltc: a file of fit's instead of the shipped table of GGX; empty: the shipped one
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
-  Terminator terminator = Terminator::strict;  // of shadows; without them it has no effect
+  Terminator terminator = Terminator::smooth;  // of shadows; without them it has no effect
   LightSum lights = LightSum::automatic;
   double light_error = 1e-2;   // for tree: for each light, as a fraction of its light on a surface that faces it as nearly as possible
   bool background = true;      // the camera sees the scene's environment; false: black

@@ -27,8 +27,12 @@ vec3 shadow_cut(vec3 a, vec3 b, real height) {
 // Homogeneous projection of a vertex from the eye to the light's plane: at (x / z, y / z), in front of the eye where z > 0.
 //
 // Each coordinate takes two products: exact to a rounding near the light, where most shadows originate.
-vec3 shadow_project(vec3 eye, vec3 v) {
-    return vec3(v.x * eye.z + eye.x * v.z, v.y * eye.z + eye.y * v.z, v.z + eye.z);
+//
+//   eye    (x, y, -z) of the point in the light's frame
+//   shift  (0, 0, eye.z); of vertices that are relative to an anchor a, with the point p relative to it:
+//          (p.x a.z - a.x p.z, p.y a.z - a.y p.z, -p.z)
+vec3 shadow_project(vec3 eye, vec3 shift, vec3 v) {
+    return vec3(v.x * eye.z + eye.x * v.z + shift.x, v.y * eye.z + eye.y * v.z + shift.y, v.z + shift.z);
 }
 
 // An edge clipped to the box, in cells.

@@ -13,7 +13,7 @@
 // Values: 4
 vec4 case_shadow_project(CaseInput i) {
     vec3 cut = shadow_cut(case_xyz(i.a), case_xyz(i.b), i.c.x);
-    vec3 h = shadow_project(vec3(0.2, 0.3, i.c.z), cut);
+    vec3 h = shadow_project(vec3(0.2, 0.3, i.c.z), vec3(i.c.x, i.b.x, i.c.z), cut);
     return vec4(h.x, h.y, h.z, shadow_facing(vec3(0.0, 0.0, 1.0), i.b.z, case_xyz(i.a)));
 }
 

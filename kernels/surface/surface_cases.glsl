@@ -32,6 +32,14 @@ vec4 case_surface_bent_normal(CaseInput i) {
     return case_of_vec3(surface_bent_normal(surface_frame(n, i.a, case_surface_any(n)), case_xyz(i.c), i.c.w));
 }
 
+// Surface, a corner's share in the way of a hit to the curved surface
+//   a.xyz  vector(0.1, 2)
+//   b.xyz  direction
+//   c.xyz  direction
+//   a.w    range(0, 1)
+// Values: 3
+vec4 case_surface_lift(CaseInput i) { return case_of_vec3(surface_lift(case_xyz(i.a), case_xyz(i.b), case_xyz(i.c), i.a.w)); }
+
 // Surface, normal turned to the view
 //   a.xyz  direction
 //   b.xyz  direction

@@ -50,7 +50,7 @@ def load_scene(path: Path, *, max_lights: Optional[int] = None, environment: str
 
 
 def render(scene: Union[_core.Scene, Path], width: int = 1280, height: int = 720, *, camera: str = "", method: str = "auto",
-           quality: str = "normal", shadows: str = "on", terminator: str = "strict", lights: str = "auto", light_error: float = 0.01,
+           quality: str = "normal", shadows: str = "on", terminator: str = "smooth", lights: str = "auto", light_error: float = 0.01,
            indirect: str = "off", multiple_scattering: bool = False, background: bool = True, aa: int = 1, spp: int = 16,
            target_error: float = 0.01, table: Path = "", seed: int = 1, threads: int = 0, progress: Optional[Callable[[int, int], Any]] = None,
            stats: bool = False) -> Union[Picture, Tuple[Picture, Dict[str, Any]]]:

@@ -119,5 +119,17 @@ TEST_F(AtomicFiles, SayWhatIsWrong) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
+TEST_F(AtomicFiles, AreJudgedWithoutATrace) {
+  const std::string path = (folder / "out.txt").string(), missing = (folder / "no" / "out.txt").string();
+  check_writable(path);
+  check_writable("/dev/full");
+  EXPECT_EQ(count(), 0u);
+  write_file(path, "before");
+  check_writable(path);
+  EXPECT_EQ(contents(path), "before");
+  expect_error([&] { check_writable(missing); }, missing, "folder does not exist");
+  expect_error([&] { check_writable(folder.string()); }, folder.string(), "name a file");
+}
+
 }  // namespace
 }  // namespace steradian::atomic_file_test

@@ -150,6 +150,16 @@ void AtomicFile::fail(const char* doing, int error) const {
   throw Error(path_, std::string(doing) + ": " + std::strerror(error), hint_for(error));
 }
 
+void check_writable(const std::string& path) {
+  struct stat existing {};
+  const bool direct = stat(path.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode) && !S_ISDIR(existing.st_mode);
+  if (!direct) {
+    const AtomicFile unused(path);
+    return;
+  }
+  if (access(path.c_str(), W_OK) != 0) throw Error(path, std::string("cannot open: ") + std::strerror(errno), hint_for(errno));
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
   AtomicFile file(path);
   file.write(bytes);

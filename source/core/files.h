@@ -45,6 +45,9 @@ class AtomicFile {
   bool direct_ = false;
 };
 
+// Throws the Error that AtomicFile would give for this path, and leaves nothing behind. A device or a pipe is not opened.
+void check_writable(const std::string& path);
+
 // Writes a whole file at once.
 void write_file(const std::string& path, std::string_view bytes);
 

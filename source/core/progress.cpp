@@ -10,13 +10,13 @@ namespace steradian {
 namespace {
 
 constexpr double kQuietSeconds = 1.0;  // shorter work shows nothing
-constexpr double kInterval = 0.1;
+constexpr double kTerminalInterval = 0.1, kLinesInterval = 1.0;
 
 }  // namespace
 
-ProgressOutput progress_on_terminal() {
+ProgressOutput progress_on_stderr() {
   ProgressOutput output;
-  output.enabled = isatty(STDERR_FILENO) == 1;
+  output.form = isatty(STDERR_FILENO) == 1 ? ProgressForm::over_the_last : ProgressForm::lines;
   output.write = [](std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
@@ -28,37 +28,48 @@ ProgressOutput progress_on_terminal() {
 Progress::Progress(std::string label, std::uint64_t total, ProgressOutput output)
     : label_(std::move(label)),
       total_(total),
-      output_(std::move(output)),
-      start_(output_.enabled ? output_.seconds() : 0.0),
-      next_(start_ + kQuietSeconds) {}
+      output_(total == 0 && output.form == ProgressForm::lines ? ProgressOutput{} : std::move(output)),
+      start_(output_.form == ProgressForm::none ? 0.0 : output_.seconds()) {
+  double none = -1;
+  output_.next->compare_exchange_strong(none, start_ + kQuietSeconds);
+}
 
-Progress::~Progress() {
-  if (shown_) output_.write("\r\x1b[K");
+Progress::~Progress() { wipe(); }
+
+void Progress::wipe() {
+  const std::lock_guard lock(mutex_);
+  if (output_.form == ProgressForm::over_the_last && !shown_.empty()) output_.write("\r\x1b[K");
+  if (output_.form == ProgressForm::over_the_last) shown_.clear();
 }
 
 void Progress::add(std::uint64_t steps) {
   count_.fetch_add(steps, std::memory_order_relaxed);
-  if (!output_.enabled) return;
+  if (output_.form == ProgressForm::none) return;
   const double now = output_.seconds();
-  if (now < next_.load(std::memory_order_relaxed)) return;
+  if (now < output_.next->load(std::memory_order_relaxed)) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (lock.owns_lock() && now >= next_.load(std::memory_order_relaxed)) show(now);
+  if (lock.owns_lock() && now >= output_.next->load(std::memory_order_relaxed)) show(now);
 }
 
 void Progress::show(double now) {
-  next_.store(now + kInterval, std::memory_order_relaxed);
-  shown_ = true;
   const std::uint64_t done = count();
   const double elapsed = now - start_;
-  char line[160];
+  char figure[32], times[64];
   if (total_ > 0) {
     const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
     const double left = share > 0 ? elapsed * (1 - share) / share : 0.0;
-    std::snprintf(line, sizeof line, "\r%.80s  %5.1f %%  %.0f s, %.0f s left\x1b[K", label_.c_str(), 100 * share, elapsed, left);
+    std::snprintf(figure, sizeof figure, "%5.1f %%", 100 * share);
+    std::snprintf(times, sizeof times, "%.0f s, %.0f s left", elapsed, left);
   } else {
-    std::snprintf(line, sizeof line, "\r%.80s  %llu  %.0f s\x1b[K", label_.c_str(), static_cast<unsigned long long>(done), elapsed);
+    std::snprintf(figure, sizeof figure, "%llu", static_cast<unsigned long long>(done));
+    std::snprintf(times, sizeof times, "%.0f s", elapsed);
   }
-  output_.write(line);
+  const bool lines = output_.form == ProgressForm::lines;
+  if (lines && shown_ == figure) return;
+  output_.next->store(now + (lines ? kLinesInterval : kTerminalInterval), std::memory_order_relaxed);
+  shown_ = figure;
+  const std::string line = label_.substr(0, 80) + "  " + figure + "  " + times;
+  output_.write(lines ? line + "\n" : "\r" + line + "\x1b[K");
 }
 
 }  // namespace steradian

@@ -1,34 +1,40 @@
-// Progress: a counter that long work advances and that is displayed on a terminal.
+// Progress: a counter that long work advances and that is displayed on standard error.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
 
 namespace steradian {
 
-// Destination of progress. The default is standard error, and only if that is a terminal.
-struct ProgressOutput {
-  bool enabled = false;
-  std::function<void(std::string_view)> write;
-  std::function<double()> seconds;  // any steady clock
-};
-ProgressOutput progress_on_terminal();
+// On a terminal a line is written over the last one. In a pipe or a file every line stays.
+enum class ProgressForm { none, over_the_last, lines };
 
-// Shows nothing in the first second, then at most ten lines a second, each over the last. The line is erased at the end. Any number of
-// threads may advance it.
+// Destination of progress. Counters that share it take turns: their lines have the same distance in time as those of one.
+struct ProgressOutput {
+  ProgressForm form = ProgressForm::none;
+  std::function<void(std::string_view)> write;
+  std::function<double()> seconds;                                                          // any steady clock
+  std::shared_ptr<std::atomic<double>> next = std::make_shared<std::atomic<double>>(-1.0);  // time of the next line; negative: none was
+};
+ProgressOutput progress_on_stderr();
+
+// Shows nothing in the first second. On a terminal it then shows at most ten lines a second, and wipes the last at the end. Elsewhere it
+// shows at most one line a second, and none that tells the same percentage again. Any number of threads may advance it.
 class Progress {
  public:
-  // total 0: unknown; the line then counts without a fraction.
-  Progress(std::string label, std::uint64_t total, ProgressOutput output = progress_on_terminal());
+  // total 0: unknown; the line then counts without a fraction, and only on a terminal.
+  Progress(std::string label, std::uint64_t total, ProgressOutput output = progress_on_stderr());
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void add(std::uint64_t steps = 1);
+  void wipe();  // before other text on the terminal
   std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }
 
  private:
@@ -39,9 +45,8 @@ class Progress {
   const ProgressOutput output_;
   const double start_;
   std::atomic<std::uint64_t> count_{0};
-  std::atomic<double> next_;  // time of the next display
   std::mutex mutex_;
-  bool shown_ = false;
+  std::string shown_;  // the percentage of the last line; empty: the terminal shows none
 };
 
 }  // namespace steradian

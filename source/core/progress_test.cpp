@@ -11,20 +11,22 @@ namespace {
 struct Recorder {
   double now = 100;
   std::vector<std::string> lines;
-  ProgressOutput output(bool enabled) {
-    return {enabled, [this](std::string_view text) { lines.emplace_back(text); }, [this] { return now; }};
+  ProgressOutput output(ProgressForm form) {
+    return {form, [this](std::string_view text) { lines.emplace_back(text); }, [this] { return now; }};
   }
 };
 
-TEST(Progress, IsSilentInTheFirstSecondAndWhereThereIsNoTerminal) {
+TEST(Progress, IsSilentInTheFirstSecondAndWithoutAnOutput) {
   Recorder quick, blind;
   {
-    Progress a("work", 100, quick.output(true)), b("work", 100, blind.output(false));
+    Progress c("work", 100, quick.output(ProgressForm::lines));
+    Progress a("work", 100, quick.output(ProgressForm::over_the_last)), b("work", 100, blind.output(ProgressForm::none));
     for (int i = 0; i < 99; ++i) {
       quick.now += 0.01;
       blind.now += 1;
       a.add();
       b.add();
+      c.add();
     }
   }
   EXPECT_TRUE(quick.lines.empty()) << quick.lines.front();
@@ -34,7 +36,7 @@ TEST(Progress, IsSilentInTheFirstSecondAndWhereThereIsNoTerminal) {
 TEST(Progress, ShowsTenLinesASecondAtMostAndWipesTheLast) {
   Recorder r;
   {
-    Progress progress("work", 4000, r.output(true));
+    Progress progress("work", 4000, r.output(ProgressForm::over_the_last));
     for (int i = 0; i < 3000; ++i) {
       r.now += 0.001;
       progress.add();
@@ -47,9 +49,61 @@ TEST(Progress, ShowsTenLinesASecondAtMostAndWipesTheLast) {
   EXPECT_EQ(r.lines.back(), "\r\x1b[K");
 }
 
+TEST(Progress, WritesALineASecondAtMostIntoAPipe) {
+  Recorder r;
+  {
+    Progress progress("work", 4000, r.output(ProgressForm::lines)), unknown("stream", 0, r.output(ProgressForm::lines));
+    for (int i = 0; i < 3000; ++i) {
+      r.now += 1.0 / 512;
+      progress.add();
+      unknown.add();
+    }
+  }
+  ASSERT_EQ(r.lines.size(), 5u);  // of 5.9 seconds the first is silent
+  EXPECT_EQ(r.lines[0], "work   12.8 %  1 s, 7 s left\n");
+  for (const std::string& line : r.lines) EXPECT_TRUE(line.ends_with(" left\n") && line.find('\r') == std::string::npos) << line;
+}
+
+TEST(Progress, WritesNoPercentageTwiceIntoAPipe) {
+  Recorder r;
+  Progress progress("work", 100000, r.output(ProgressForm::lines));
+  for (int i = 0; i < 1000; ++i) {
+    r.now += 1.5;
+    progress.add();
+  }
+  EXPECT_EQ(r.lines.size(), 11u);  // 0.0 to 1.0 %
+}
+
+// Each is shorter than a second; together they are not.
+TEST(Progress, TakesTurnsWithOthersOfTheSameOutput) {
+  Recorder r;
+  const ProgressOutput output = r.output(ProgressForm::lines);
+  for (int work = 0; work < 10; ++work) {
+    Progress progress("work " + std::to_string(work), 10, output);
+    for (int i = 0; i < 10; ++i) {
+      r.now += 1.0 / 16;
+      progress.add();
+    }
+  }
+  ASSERT_EQ(r.lines.size(), 6u);
+  EXPECT_TRUE(r.lines[0].starts_with("work 1   60.0 %")) << r.lines[0];
+}
+
+TEST(Progress, IsWipedBeforeOtherText) {
+  Recorder r;
+  Progress progress("work", 10, r.output(ProgressForm::over_the_last));
+  r.now += 2;
+  progress.add();
+  progress.wipe();
+  ASSERT_EQ(r.lines.size(), 2u);
+  EXPECT_EQ(r.lines.back(), "\r\x1b[K");
+  progress.wipe();
+  EXPECT_EQ(r.lines.size(), 2u);  // there is nothing to wipe
+}
+
 TEST(Progress, CountsEveryStepOfEveryThread) {
   Recorder r;
-  Progress progress("work", 0, r.output(false));
+  Progress progress("work", 0, r.output(ProgressForm::none));
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)
     threads.emplace_back([&] {

@@ -7,6 +7,7 @@
 
 #include "core/files.h"
 #include "image/codecs.h"
+#include "image/picture_name.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -35,18 +36,18 @@ Picture linear_picture(const Image& image, const std::string& place, Budget& bud
 
 }  // namespace
 
+void image::check_picture_name(const std::string& path) {
+  const std::string e = ending(path);
+  if (e != ".exr" && e != ".png") throw Error(path, "unknown picture format '" + e + "'", "use .exr (linear) or .png (tone mapped)");
+}
+
 void write_picture(const Picture& picture, const std::string& path, float exposure_stops) {
   write_picture(picture, path, exposure_stops, ToneCurve::neutral);
 }
 
 void write_picture(const Picture& picture, const std::string& path, float exposure_stops, ToneCurve curve) {
-  const std::string e = ending(path);
-  if (e == ".exr")
-    write_file(path, image::encode_exr(picture));
-  else if (e == ".png")
-    write_file(path, image::encode_png(picture, exposure_stops, curve));
-  else
-    throw Error(path, "unknown picture format '" + e + "'", "use .exr (linear) or .png (tone mapped)");
+  image::check_picture_name(path);
+  write_file(path, ending(path) == ".exr" ? image::encode_exr(picture) : image::encode_png(picture, exposure_stops, curve));
 }
 
 Picture read_picture(const std::string& path, const Limits& limits) {

@@ -73,9 +73,10 @@ double in_precision(const RadianceOptions& options, auto in_double, auto in_floa
 }
 
 // A light of a billionth of its distance is one direction; the vertices of its polygon would round to one place.
-RadianceResult small_answer(Vec3d place, Vec3d intensity, const ShadingPoint& at, const Material& m, const Row& entry) {
+RadianceResult small_answer(Vec3d place, Vec3d intensity, const ShadingPoint& at, const Material& m, const Row& entry,
+                            const RadianceOptions& options) {
   RadianceResult answer = nothing(entry.method);
-  answer.radiance = point_light_radiance({place, intensity}, at, m);
+  answer.radiance = point_light_radiance({place, intensity}, at, m, entry, options);
   return answer;
 }
 
@@ -89,7 +90,7 @@ RadianceResult ellipse_answer(const Ellipse& outline, Vec3d radiance, const Shad
                           radiance, m);
   if (length(outline.x) + length(outline.y) < 1e-9 * length(outline.center)) {
     const double area = -dot(cross(outline.x, outline.y) * std::numbers::pi, outline.center) / length(outline.center);
-    return small_answer(outline.center, radiance * area, at, m, entry);
+    return small_answer(outline.center, radiance * area, at, m, entry, options);
   }
   return outline_answer([&](const LobeAxis& lobe, int vertices) { return polygon_for_lobe(outline, {}, lobe, vertices); },
                         [&](int vertices) { return equal_area_polygon(outline, radiance, vertices); }, radiance, at, m, entry, options);
@@ -169,7 +170,7 @@ struct AnswerOfShape {
     const Capsule c = {line.end_a, line.end_b, 0};
     const Axis axis = axis_of(c);
     if (!(axis.distance > 0)) return nothing(entry.method);
-    if (is_small(c, axis)) return small_answer(middle(c), light.radiance * across(axis), at, m, entry);
+    if (is_small(c, axis)) return small_answer(middle(c), light.radiance * across(axis), at, m, entry, options);
     return thin_answer(c, axis, light.radiance, at, m, entry, options);
   }
 
@@ -177,7 +178,8 @@ struct AnswerOfShape {
     const Axis axis = axis_of(c);
     if (!(axis.distance > c.radius)) return nothing(entry.method);
     if (is_small(c, axis))
-      return small_answer(middle(c), light.radiance * (2 * c.radius * across(axis) + std::numbers::pi * c.radius * c.radius), at, m, entry);
+      return small_answer(middle(c), light.radiance * (2 * c.radius * across(axis) + std::numbers::pi * c.radius * c.radius), at, m, entry,
+                          options);
     if (is_exact_lambert(m, entry))
       return lambert_answer(
           in_precision(

@@ -5,6 +5,7 @@
 
 #include "integrals/curved_light.h"
 #include "integrals/ggx/charlie.h"
+#include "integrals/ggx/ltc_radiance.h"
 #include "integrals/phong/matched_lobe.h"
 #include "integrals/tables/table.h"
 #include "shapes/polygon.h"
@@ -80,6 +81,12 @@ RadianceResult ltc(const PreparedPolygon& light, const ShadingPoint& at, const M
   }
   const auto evaluate = options.precision == Precision::float_ ? ltc_radiance_float : ltc_radiance;
   return answer(method, evaluate(*ltc_method(method, options.quality), light, at, m));
+}
+
+template <Method method>
+Vec3d ltc_lobe(Vec3d direction, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
+  const auto evaluate = options.precision == Precision::float_ ? ltc_towards_float : ltc_towards;
+  return evaluate(*ltc_method(method, options.quality), direction, at, m, method == Method::ltc ? options.table.get() : nullptr);
 }
 
 template <class S>
@@ -167,12 +174,14 @@ constexpr Row kMethods[] = {
      Procedure::phong_lobe, phong<Method::ellipsoid>},
     {Method::closed_form, "closed-form", "ggx", ggx_lobes, true, "draft, normal, high", "0.1 to 0.2 % rms", "constant an edge",
      Procedure::closed_form, closed_form, radiance_derivatives, any_density},
-    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc>, true, "normal, high", "3 % rms; high: 2 %",
-     "constant an edge", Procedure::ltc, ltc<Method::ltc>, ltc_derivatives<Method::ltc>, ltc_density<Method::ltc>},
-    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc_compact>, true, kNoQualities, "3 % rms",
-     "constant an edge", Procedure::ltc, ltc<Method::ltc_compact>, ltc_derivatives<Method::ltc_compact>, ltc_density<Method::ltc_compact>},
+    {Method::ltc, "ltc", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc>, true, "normal, high", "3 % rms; high: 2 %; points: 16 %",
+     "constant an edge", Procedure::ltc, ltc<Method::ltc>, ltc_derivatives<Method::ltc>, ltc_density<Method::ltc>, ltc_lobe<Method::ltc>},
+    {Method::ltc_compact, "ltc-compact", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc_compact>, true, kNoQualities,
+     "3 % rms; points: 16 %", "constant an edge", Procedure::ltc, ltc<Method::ltc_compact>, ltc_derivatives<Method::ltc_compact>,
+     ltc_density<Method::ltc_compact>, ltc_lobe<Method::ltc_compact>},
     {Method::ltc_clipless, "ltc-clipless", "ggx, isotropic, with shadowing", ltc_lobes<Method::ltc_clipless>, true, kNoQualities,
-     "above ltc's at the horizon", "constant an edge", Procedure::ltc_clipless, ltc<Method::ltc_clipless>},
+     "above ltc's at the horizon; points: 16 %", "constant an edge", Procedure::ltc_clipless, ltc<Method::ltc_clipless>, nullptr, nullptr,
+     ltc_lobe<Method::ltc_clipless>},
     {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing", ltc_lobes<Method::representative_point>, true,
      kNoQualities, "no bound; for comparison", "constant", Procedure::representative_point, ltc<Method::representative_point>},
     {Method::half_vector, "half-vector", "blinn-phong; beckmann; ggx", half_vector_lobes, true, "draft, normal, high",

@@ -35,6 +35,8 @@ struct Row {
   RadianceDerivatives (*derivatives)(const PolygonLight&, const ShadingPoint&, const Material&, Quality) = nullptr;
   // Density of these derivatives, for a light of which only a part is visible; null if the method has none.
   LobeDensity (*density)(const ShadingPoint&, const Material&, Quality) = nullptr;
+  // The method's own lobe towards a unit direction, with its colours, for lights without extent; null: the material's lobe.
+  Vec3d (*towards)(Vec3d direction, const ShadingPoint&, const Material&, const RadianceOptions&) = nullptr;
 };
 
 // The rows in the order of preference of `auto`, which itself has no row.

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "core/box.h"
-
 namespace steradian::scene {
 namespace {
 
@@ -24,10 +22,23 @@ Sphere bounding_sphere(const Scene& scene) {
 
 }  // namespace
 
-void measure_bounds(Scene& scene) {
+Box3d box_around(const std::vector<Mesh>& meshes) {
   Box3d box;
-  for (const Mesh& mesh : scene.meshes)
+  for (const Mesh& mesh : meshes)
     for (const Vec3f& p : mesh.positions) box.add(static_cast<Vec3d>(p));
+  return box;
+}
+
+Vec3d far_middle(const Box3d& box) {
+  constexpr double kFar = 16;  // sizes
+  if (box.is_empty()) return {};
+  const Vec3d size = box.size(), middle = (box.low + box.high) * 0.5;
+  const double largest = std::max({std::fabs(middle.x), std::fabs(middle.y), std::fabs(middle.z)});
+  return largest > kFar * std::max({size.x, size.y, size.z}) ? middle : Vec3d{};
+}
+
+void measure_bounds(Scene& scene) {
+  const Box3d box = box_around(scene.meshes);
   if (box.is_empty()) return;
   scene.bounds_min = box.low;
   scene.bounds_max = box.high;

@@ -1,6 +1,9 @@
-// Defaults for scenes without a camera or without a light.
+// The place and size of scenes, and defaults for those without a camera or without a light.
 #pragma once
 
+#include <vector>
+
+#include "core/box.h"
 #include "steradian/load_scene.h"
 #include "steradian/scene.h"
 
@@ -8,6 +11,11 @@ namespace steradian::scene {
 
 // Sets bounds_min and bounds_max from all meshes.
 void measure_bounds(Scene& scene);
+
+Box3d box_around(const std::vector<Mesh>& meshes);
+
+// The middle of a box that lies so far from the origin that floats are off by 1e-6 of its size; zero for other boxes.
+Vec3d far_middle(const Box3d& box);
 
 // A camera in front of the scene and above it, as near as possible with all vertices in a picture of that aspect (width over height). The
 // shapes of lights need not be in the picture.

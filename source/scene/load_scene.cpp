@@ -98,12 +98,20 @@ void check_extent(const Scene& scene, const std::string& path) {
 LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options) {
   Warnings warnings;
   FileFacts facts = read_file_facts(document.root(), warnings);
-  const GltfNodes nodes = read_nodes(document);
+  GltfNodes nodes = read_nodes(document);
 
   Scene scene;
   GltfTextures textures(document, scene.images, warnings, options.pictures);
   scene.materials = read_materials(document, textures);
+  const std::size_t materials = scene.materials.size();
   PlacedMeshes placed = read_meshes(document, nodes, scene.materials, warnings, options.meshes.get());
+  const Vec3d origin = options.near_origin ? far_middle(box_around(placed.meshes)) : Vec3d{};
+  if (!(origin == Vec3d{})) {
+    nodes.move(-origin);
+    scene.materials.resize(materials);
+    Warnings said;
+    placed = read_meshes(document, nodes, scene.materials, said, options.meshes.get());
+  }
   scene.meshes = std::move(placed.meshes);
   for (Mesh& mesh : scene.meshes) mesh.casts_shadow = !lets_light_through(scene.materials[static_cast<std::size_t>(mesh.material)]);
   scene.cameras = read_cameras(document, nodes, warnings);
@@ -144,8 +152,13 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
     scene.area_lights.push_back(default_light(scene));
   }
   facts.not_supported = warnings.features();
-  return {std::move(scene),     std::move(facts),        textures.decoding_ms(),
-          warnings.sentences(), std::move(placed.nodes), options.meshes != nullptr ? options.meshes->found : 0};
+  return {std::move(scene),
+          std::move(facts),
+          textures.decoding_ms(),
+          warnings.sentences(),
+          std::move(placed.nodes),
+          options.meshes != nullptr ? options.meshes->found : 0,
+          origin};
 }
 
 template <class Document>  // a function that returns the document

@@ -10,6 +10,10 @@
 
 namespace steradian::packed {
 
+// A point has no side of a flat light nearer to its plane than the rounding of single precision, as in PreparedPolygon::side_of: 8 units in
+// the last place of the lengths of both positions. The square of that is at most this times the sum of the lengths' squares.
+inline constexpr double kRounding2 = 2 * (8 * 0x1p-23) * (8 * 0x1p-23);
+
 // A polygon in single precision, as packs read it.
 struct Polygon {
   std::vector<Vec3f> vertices;        // in walk order
@@ -31,7 +35,8 @@ inline Polygon prepare(const PreparedPolygon& light) {
   for (const Vec3d& v : light.vertices) result.vertices.push_back(static_cast<Vec3f>(v));
   result.contours = light.contours;
   result.normal = static_cast<Vec3f>(light.normal);
-  result.point = static_cast<Vec3f>(light.centroid);
+  // The point of its plane nearest to the origin: those of a large light are as far away as rounding is coarse.
+  result.point = static_cast<Vec3f>(light.normal * dot(light.normal, light.centroid));
   result.two_sided = light.two_sided;
   const LightQuarters& q = light.quarters;
   result.middle = static_cast<Vec3f>(q.center);
@@ -65,10 +70,11 @@ struct Seen {
 template <class S, class Flat>
 STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>::vec3& p) {
   Seen<S> seen;
-  const auto from = p - to_kernel<S>(light.point);
-  const Real<S> height = dot(from, to_kernel<S>(light.normal)), zero(0.0);
+  const auto point = to_kernel<S>(light.point);
+  const Real<S> height = dot(p - point, to_kernel<S>(light.normal)), zero(0.0);
+  const Mask<S> apart = height * height > Real<S>(packed::kRounding2) * (dot(p, p) + dot(point, point));
   seen.reversed = height < zero;
-  seen.lit = light.two_sided ? seen.reversed || height > zero : height > zero;
+  seen.lit = light.two_sided ? apart : apart && height > zero;
   return seen;
 }
 

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   write_diffuse_below(page);
   write_phong(page);
   write_ggx(page);
+  write_point_lights(page);
   write_half_vector(page);
   write_sheen(page);
   write_lights(page);

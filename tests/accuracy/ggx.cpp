@@ -13,6 +13,7 @@
 #include "steradian/closed_form.h"
 #include "steradian/half_vector.h"
 #include "steradian/ltc.h"
+#include "support/point_light_error.h"
 #include "support/random_rectangles.h"
 
 namespace steradian::accuracy {
@@ -161,6 +162,25 @@ void write_ggx(std::ostream& out) {
        {"closed-form, draft", "closed-form, normal", "closed-form, high", "ltc", "ltc, high", "ltc-compact", "representative-point"}) {
     write_map(out, fmt::format("`{}`, F0 = 1:", name).c_str(), map_of(metal, by_name(name)));
     write_map(out, fmt::format("`{}`, F0 = 0.04:", name).c_str(), map_of(dielectric, by_name(name)));
+  }
+}
+
+void write_point_lights(std::ostream& out) {
+  out << "\n## Point lights on GGX\n\n"
+         "Transformed cosines towards lights without extent, against GGX itself (tests/support/point_light_error.h), for the roughnesses "
+         "and "
+         "views of the section before. Relative RMSE over directions of the light, of equal solid angle; \"all\" is the root mean square "
+         "over "
+         "the pairs of roughness and view. All other methods take GGX itself.\n\n"
+         "| method | F0 = 1, all | worst pair | F0 = 0.04, all | worst pair |\n|---|---:|---:|---:|---:|\n";
+  for (const methods::Row& row : methods::all()) {
+    if (row.towards == nullptr) continue;
+    for (const Quality quality : {Quality::normal, Quality::high}) {
+      if (quality == Quality::high && row.method != steradian::Method::ltc) continue;
+      const auto metal = test::error_under_points(row, quality, 1), dielectric = test::error_under_points(row, quality, 0.04);
+      out << fmt::format("| `{}{}` | {:.4f} | {:.4f} | {:.4f} | {:.4f} |\n", row.name, quality == Quality::high ? ", high" : "", metal.rms,
+                         metal.worst, dielectric.rms, dielectric.worst);
+    }
   }
 }
 

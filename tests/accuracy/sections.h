@@ -13,6 +13,7 @@ void write_diffuse_below(std::ostream& out);  // a diffuse lobe under a dielectr
 void write_sheen(std::ostream& out);          // Charlie by its cubature
 void write_phong(std::ostream& out);          // Phong lobes by every method
 void write_ggx(std::ostream& out);            // GGX by every real-time method against the reference
+void write_point_lights(std::ostream& out);   // transformed cosines towards lights without extent
 void write_half_vector(std::ostream& out);    // edge splitting against the reference
 void write_lights(std::ostream& out);         // small, near and grazing lights, half vectors with shadowing, textured lights
 void write_limits(std::ostream& out);         // lights that fill the hemisphere, touch the surface, are edge-on, or are round and near

@@ -1,6 +1,6 @@
 # Builds a program against this project as somebody else would, and runs it.
 #   cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... [-DLAUNCHER=...] -P consume.cmake install | (everything|installed|subdirectory|lobe COMPILER)
-#     install       installs the build into SCRATCH
+#     install       installs the build into SCRATCH: also the manual page and the completions of shells
 #     everything    from the installed tree, all layers
 #     installed     from the installed tree, the integrals alone: every package that other layers ask for is hidden
 #     lobe          from the installed tree, the layer that fits tables
@@ -25,6 +25,13 @@ set(compiler "${CMAKE_ARGV${compiler}}")
 if(how STREQUAL "install")
   file(REMOVE_RECURSE ${SCRATCH}/installed)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/installed)
+  foreach(text man/man1/steradian.1 bash-completion/completions/steradian zsh/site-functions/_steradian
+          fish/vendor_completions.d/steradian.fish)
+    file(SIZE ${SCRATCH}/installed/share/${text} size)
+    if(size LESS 1000)
+      message(FATAL_ERROR "share/${text} has ${size} bytes")
+    endif()
+  endforeach()
   return()
 endif()
 

@@ -300,7 +300,10 @@ inline std::vector<Family> all() {
 
 // A point that the light reaches except for occluders: on the floor, in the air or on an occluder. Every third has a shading normal of its
 // own. Every fourth lies on a lattice that puts faces edge-on and edges on edges.
-inline Point random_point(const Family& family, const EdgeMesh& mesh, const PreparedPolygon& light, Random& r) {
+// rounding: of the numbers that hold the point (offset_from_surface).
+inline Point random_point(const Family& family, const EdgeMesh& mesh, const PreparedPolygon& light, Random& r, double rounding = 0x1p-24) {
+  double reach = 0;
+  for (const Vec3d& v : mesh.vertices) reach = std::max(reach, largest_coordinate(v));
   for (;;) {
     Point point;
     const double which = r.uniform();
@@ -341,7 +344,7 @@ inline Point random_point(const Family& family, const EdgeMesh& mesh, const Prep
       point.kind = "occluder";
     }
     if (!(dot(normal, normal) > 0.5)) continue;
-    point.at.position = position + normal * offset_from_surface(position);
+    point.at.position = position + normal * offset_from_surface(position, reach, rounding);
     point.at.normal = normal;
     if (bent) {
       point.at.normal = normalized(normal + random_direction(r) * 0.6);

@@ -100,6 +100,8 @@ Json report_data(const Report& report) {
             {"ms", report.reference_ms},
             {"relative_error", report.reference_error},
             {"picture", "reference.exr"}}},
+          {"time_limit", report.time_limit},
+          {"did_not_fit", report.did_not_fit},
           {"methods", methods},
           {"over_time", over_time}};
 }

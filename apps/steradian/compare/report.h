@@ -34,7 +34,9 @@ struct Report {
   float exposure = 0;
   double white = 0;  // upper bound of all but a thousandth of the reference's channels
   std::vector<Compared> methods;
-  std::vector<Run> over_time;  // each method's settings, including those of `methods`
+  double time_limit = 0;                 // seconds; 0: none
+  std::vector<std::string> did_not_fit;  // methods that have no picture, and "METHOD at SETTING"
+  std::vector<Run> over_time;            // each method's settings, including those of `methods`
 };
 
 std::string report_json(const Report& report);

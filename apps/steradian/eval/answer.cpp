@@ -22,12 +22,13 @@ PreparedPolygon prepare(const PolygonLight& light) {
   }
 }
 
-// A light without extent is a single direction: every method gives the same answer, without error.
-RadianceResult point_answer(const Light& light, const ShadingPoint& at, const Material& m, Method method) {
-  RadianceResult answer = methods::nothing(method);
+// A light without extent is a single direction: a method gives its lobe there, without error if that is the material's.
+RadianceResult point_answer(const Light& light, const ShadingPoint& at, const Material& m, const methods::Row& entry,
+                            const RadianceOptions& options) {
+  RadianceResult answer = methods::nothing(entry.method);
   const auto* point = std::get_if<PointLight>(&light);
-  answer.radiance = point != nullptr ? methods::point_light_radiance(*point, at, m)
-                                     : methods::directional_light_radiance(std::get<DirectionalLight>(light), at, m);
+  answer.radiance = point != nullptr ? methods::point_light_radiance(*point, at, m, entry, options)
+                                     : methods::directional_light_radiance(std::get<DirectionalLight>(light), at, m, entry, options);
   return answer;
 }
 
@@ -108,7 +109,7 @@ void add_light(Sum& sum, const Query& query, const Light& source, const ShadingP
     const auto unoccluded = [&] {
       if (is_polygon) return entry.polygon(prepared, at, material, options);
       if (light != nullptr) return methods::curved_light_answer(*light, at, material, entry, options);
-      return point_answer(source, at, material, entry.method);
+      return point_answer(source, at, material, entry, options);
     };
     if (!seen)
       sum.add(entry, methods::nothing(entry.method));

@@ -271,8 +271,14 @@ constexpr Field<MeshKeys> kMeshFields[] = {
 // Reads a file's triangles. The last file is cached for further lines that name it.
 std::shared_ptr<const shadow::Occluders> occluders_in(const std::string& file) {
   thread_local std::pair<std::string, std::shared_ptr<const shadow::Occluders>> last;
-  if (last.first != file || last.second == nullptr)
-    last = {file, std::make_shared<shadow::Occluders>(shadow::build_edges(load_scene(file).scene))};
+  if (last.first != file || last.second == nullptr) {
+    LoadOptions options;
+    options.near_origin = true;
+    const LoadedScene loaded = load_scene(file, options);
+    auto [positions, indices] = shadow::blocking_triangles(loaded.scene);
+    for (Vec3d& p : positions) p += loaded.origin;
+    last = {file, std::make_shared<shadow::Occluders>(shadow::build_edges(positions, indices))};
+  }
   return last.second;
 }
 

@@ -18,9 +18,11 @@ namespace steradian::eval {
 namespace {
 
 constexpr double kLift = 1e-9, kLiftInFloat = 1e-6;
+constexpr double kSameFace = 1 - 1e-12;     // cosine of two faces in one plane
+constexpr std::size_t kMostViewpoints = 8;  // both sides of three faces
 constexpr int kProfileCells = 1024, kProfileCorners = 96;
 constexpr double kBeforeTheLight = 1e-9;  // fraction of the way that is left out, so that nothing at the surface itself blocks
-constexpr double kFar = 1e9;              // distance to parallel light
+constexpr double kRounding = 0x1p-50;     // of coordinates in double, after sums of some products
 
 // The polygons that replace a disk, an ellipsoid or a tube for a point.
 std::vector<PreparedPolygon> polygons_of(const AreaLight& light, Vec3d from, int corners) {
@@ -72,21 +74,68 @@ RadianceResult reference_past(const Query& query, const AreaLight& light, const 
   return {r.radiance, r.bound, std::nullopt, Method::reference};
 }
 
-// The viewpoint of the query's point.
-shadow::Viewpoint viewpoint_of(const Query& query) {
+double reach_of(const std::vector<Vec3d>& points) {
+  double reach = 0;
+  for (const Vec3d& p : points) reach = std::max(reach, shadow::largest_coordinate(p));
+  return reach;
+}
+
+double reach_of(const Light& source) {
+  const auto* light = std::get_if<AreaLight>(&source);
+  if (light == nullptr) return 0;
+  struct Reach {
+    double operator()(const Polygon& p) const { return reach_of(p.vertices); }
+    double operator()(const Ellipse& e) const { return reach_of({e.center, e.x, e.y}); }
+    double operator()(const Ellipsoid& e) const { return reach_of({e.center, e.x, e.y, e.z}); }
+    double operator()(const Capsule& c) const { return std::max(reach_of({c.end_a, c.end_b}), c.radius); }
+    double operator()(const Line& l) const { return reach_of({l.end_a, l.end_b}); }
+  };
+  return std::visit(Reach(), light->shape);
+}
+
+// The unit normals of the triangles in which a point lies, one of each direction. Distances below `error` are none.
+std::vector<Vec3d> faces_at(const shadow::EdgeMesh& mesh, Vec3d p, double error) {
+  std::vector<Vec3d> normals;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3d n = normalized(mesh.planes[t].normal);
+    const auto corner = [&](std::size_t c) { return mesh.vertices[mesh.triangles[t][c % 3]]; };
+    if (n == Vec3d{} || !(std::fabs(dot(n, p - corner(0))) <= error)) continue;
+    const auto is_left = [&](std::size_t c) { return dot(n, cross(normalized(corner(c + 1) - corner(c)), p - corner(c))) >= -error; };
+    const auto is_known = [&](Vec3d m) { return std::fabs(dot(m, n)) > kSameFace; };
+    if (is_left(0) && is_left(1) && is_left(2) && std::none_of(normals.begin(), normals.end(), is_known)) normals.push_back(n);
+  }
+  return normals;
+}
+
+// The query's point, moved off its surface. A point that still lies in a face is seen from both sides of it.
+std::vector<shadow::Viewpoint> viewpoints_of(const Query& query, double reach) {
   const Vec3d geometric = query.geometric_normal.value_or(query.normal);
+  const double offset = shadow::offset_from_surface(query.position, std::max(reach, query.occluders->reach), kRounding);
   shadow::Viewpoint from;
-  from.position = query.position + geometric * shadow::offset_from_surface(query.position);
+  from.position = query.position + geometric * offset;
   from.normal = query.normal;
   if (query.geometric_normal && !(geometric == query.normal)) from.geometric_normal = geometric;
-  return from;
+  std::vector<shadow::Viewpoint> result = {from};
+  for (const Vec3d& normal : faces_at(query.occluders->mesh, from.position, offset / 4)) {
+    if (result.size() == kMostViewpoints) break;
+    const std::size_t count = result.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      result.push_back(result[i]);
+      result[i].position += normal * (2 * offset);
+      result.back().position -= normal * (2 * offset);
+    }
+  }
+  return result;
 }
+
+RadianceResult answer_from(const shadow::Viewpoint& from, const Query& query, const Light& source, const ShadingPoint& surface,
+                           const Material& m, const methods::Row& entry, const RadianceOptions& options,
+                           const std::function<RadianceResult()>& unoccluded);
 
 // A light with a profile: the result for the light with uniform emission, times the profile's mean over the visible part, weighted by the
 // lobe.
-RadianceResult profiled_answer(const Query& query, const AreaLight& light, const ShadingPoint& surface, const Material& m,
-                               const methods::Row& entry, const RadianceOptions& options) {
-  const shadow::Viewpoint from = viewpoint_of(query);
+RadianceResult profiled_answer(const Query& query, const AreaLight& light, const shadow::Viewpoint& from, const ShadingPoint& surface,
+                               const Material& m, const methods::Row& entry, const RadianceOptions& options) {
   AreaLight even = light;
   even.emission.reset();
   even.radiance = {1, 1, 1};
@@ -97,9 +146,10 @@ RadianceResult profiled_answer(const Query& query, const AreaLight& light, const
     return answer_of(sampled_past(query, bright, from, at, m, {options.spp, options.seed, methods::emission_factor(*light.emission)}),
                      entry.method);
   }
-  if (entry.method == Method::reference) return reference_past(query, light, surface, m, methods::emission_factor(*light.emission));
-  RadianceResult answer = shadowed_answer(query, even, surface, m, entry, options,
-                                          [&] { return methods::curved_light_answer(even, surface, m, entry, options); });
+  if (entry.method == Method::reference)
+    return reference_past(query, light, {from.position, surface.normal, surface.view}, m, methods::emission_factor(*light.emission));
+  RadianceResult answer = answer_from(from, query, even, surface, m, entry, options,
+                                      [&] { return methods::curved_light_answer(even, surface, m, entry, options); });
   const double integral = std::max({answer.radiance.x, answer.radiance.y, answer.radiance.z});
   if (!(integral > 0)) return answer;
   const ProfiledLight profiled(light);
@@ -111,17 +161,16 @@ RadianceResult profiled_answer(const Query& query, const AreaLight& light, const
   return answer;
 }
 
-}  // namespace
-
-RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& surface, const Material& m,
-                               const methods::Row& entry, const RadianceOptions& options,
-                               const std::function<RadianceResult()>& unoccluded) {
+RadianceResult answer_from(const shadow::Viewpoint& from, const Query& query, const Light& source, const ShadingPoint& surface,
+                           const Material& m, const methods::Row& entry, const RadianceOptions& options,
+                           const std::function<RadianceResult()>& unoccluded) {
   const Vec3d geometric = query.geometric_normal.value_or(surface.normal);
-  const shadow::Viewpoint from = viewpoint_of(query);
   const ShadingPoint at = {from.position, surface.normal, surface.view};
 
   if (const auto* light = std::get_if<DirectionalLight>(&source)) {
-    const Vec3d far = from.position - light->direction * (kFar * (1 + length(from.position)));
+    // Twice as far as any triangle.
+    const double far_away = 4 * (query.occluders->reach + shadow::largest_coordinate(from.position));
+    const Vec3d far = from.position - light->direction * far_away;
     const bool blocked = !(dot(light->direction, geometric) < 0) || query.occluders->rays.between(from.position, far);
     return blocked ? methods::nothing(entry.method) : unoccluded();
   }
@@ -131,10 +180,10 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
     return blocked ? methods::nothing(entry.method) : unoccluded();
   }
   const auto& light = std::get<AreaLight>(source);
-  if (light.emission) return profiled_answer(query, light, surface, m, entry, options);
+  if (light.emission) return profiled_answer(query, light, from, surface, m, entry, options);
   if (std::holds_alternative<Line>(light.shape)) throw Error("occluders", "a line casts no shadow here", "give the capsule a radius");
   if (entry.method == Method::sampled) return answer_of(sampled_past(query, light, from, at, m, {options.spp, options.seed}), entry.method);
-  if (entry.method == Method::reference) return reference_past(query, light, surface, m);
+  if (entry.method == Method::reference) return reference_past(query, light, at, m);
   if (std::holds_alternative<Polygon>(light.shape)) {
     const PreparedPolygon polygon = prepare_polygon(flat_polygon(light));
     if (polygon.vertices.empty()) return methods::nothing(entry.method);
@@ -158,18 +207,45 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
   return answer;
 }
 
+}  // namespace
+
+RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& surface, const Material& m,
+                               const methods::Row& entry, RadianceOptions options, const std::function<RadianceResult()>& unoccluded) {
+  std::vector<shadow::Viewpoint> sides = viewpoints_of(query, reach_of(source));
+  if (entry.method == Method::reference && sides.size() == 1) sides[0].position = query.position;  // it knows the face on which it lies
+  RadianceResult mean = methods::nothing(entry.method);
+  const double share = 1 / static_cast<double>(sides.size());
+  for (const shadow::Viewpoint& from : sides) {
+    const RadianceResult side = answer_from(from, query, source, surface, m, entry, options, unoccluded);
+    mean.radiance += side.radiance * share;
+    if (side.bound) mean.bound = mean.bound.value_or(0) + *side.bound * share;
+    if (side.standard_error) mean.standard_error = std::hypot(mean.standard_error.value_or(0), *side.standard_error * share);
+    options.seed += 0xa0761d6478bd642fu;  // the variances of the sides add
+  }
+  return mean;
+}
+
 ShadowedDerivatives shadowed_derivatives(const Query& query, const PolygonLight& stored, const Material& m, const methods::Row& entry) {
-  const shadow::Viewpoint from = viewpoint_of(query);
-  const ShadingPoint at = {from.position, query.normal, query.view.value_or(query.normal)};
   const PreparedPolygon light = prepare_polygon(stored);
-  const LobeDensity density = entry.density(at, m, query.quality);
-  shadow::BoundaryDerivatives d =
-      shadow::boundary_derivatives(light, *query.occluders, from, [&](Vec3d direction) { return light.radiance * density(direction); });
   std::size_t count = stored.vertices.size();
   for (const auto& hole : stored.holes) count += hole.size();
-  ShadowedDerivatives result{RadianceDerivatives(count), d.position, std::move(d.occluders)};
   const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
-  for (std::size_t i = 0; i < d.light.size(); ++i) result.light.vertices[stored_index[i]] = d.light[i];
+  ShadowedDerivatives result{RadianceDerivatives(count), {}, {}};
+  result.occluders.resize(query.occluders->mesh.vertices.size());
+  const std::vector<shadow::Viewpoint> sides = viewpoints_of(query, reach_of(stored.vertices));
+  const double share = 1 / static_cast<double>(sides.size());
+  const auto add = [&](shadow::ByChannel& to, const shadow::ByChannel& from) {
+    for (std::size_t channel = 0; channel < 3; ++channel) to[channel] += from[channel] * share;
+  };
+  for (const shadow::Viewpoint& from : sides) {
+    const ShadingPoint at = {from.position, query.normal, query.view.value_or(query.normal)};
+    const LobeDensity density = entry.density(at, m, query.quality);
+    const shadow::BoundaryDerivatives d =
+        shadow::boundary_derivatives(light, *query.occluders, from, [&](Vec3d direction) { return light.radiance * density(direction); });
+    add(result.position, d.position);
+    for (std::size_t i = 0; i < d.occluders.size(); ++i) add(result.occluders[i], d.occluders[i]);
+    for (std::size_t i = 0; i < d.light.size(); ++i) add(result.light.vertices[stored_index[i]], d.light[i]);
+  }
   return result;
 }
 

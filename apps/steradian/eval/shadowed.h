@@ -9,14 +9,14 @@
 namespace steradian::eval {
 
 // The radiance that one lobe sends to the view from one of the query's lights behind query.occluders, by a method of the table. The point
-// is moved off its surface along the geometric normal. Nothing below that normal's horizon arrives.
+// is moved off its surface along the geometric normal. Nothing below that normal's horizon arrives. In the plane of a face that stands on
+// the surface, the answer is the mean of both sides.
 //
 // Polygons: the visible part is exact, and the method integrates over it. Round lights: the value without occluders times the visible
 // fraction of a polygon of 24 corners (quality high: 48). `reference` and `sampled` share none of it: they take the light's true surface
 // and every triangle, by quadrature and by rays.
 RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& at, const Material& material,
-                               const methods::Row& entry, const RadianceOptions& options,
-                               const std::function<RadianceResult()>& unoccluded);
+                               const methods::Row& entry, RadianceOptions options, const std::function<RadianceResult()>& unoccluded);
 
 // Additional results of `derivatives` past occluders.
 struct ShadowedDerivatives {

@@ -248,7 +248,6 @@ struct Frame::Parts {
 
   // Reason why the device does not find the surfaces; empty: it does.
   std::string keeps_surfaces_on_host() const {
-    if (host.has_shadows() && options.terminator == Terminator::smooth) return "shadows on smooth surfaces";
     if (static_cast<std::size_t>(std::max(options.width, options.height)) > device->info().picture)
       return "a picture larger than the device draws";
     return what_keeps_on_host(scene, device->info());

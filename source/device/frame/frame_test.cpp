@@ -128,6 +128,9 @@ TEST_F(VulkanFrame, AgreesWithTheCpuUnderEveryKindOfLight) {
   Scene scene = everything();
   const int outliers = small("auto").width * small("auto").height / 1000;
   for (const char* method : {"ltc-compact", "ltc-clipless", "half-vector"}) expect_same("everything", scene, small(method), outliers);
+  RenderOptions high = small("ltc");
+  high.quality = Quality::high;
+  expect_same("everything, by two tables", scene, high, outliers);
   scene.materials[0].anisotropy = 0.6f;
   RenderOptions options = small("auto");
   options.aa = 2;

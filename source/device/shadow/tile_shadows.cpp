@@ -141,6 +141,7 @@ bool TileShadows::find(const Group& asked) {
   // A triangle takes one and a half times as many loop turns as an edge.
   const std::size_t turns = all.edge_count + crossing.size() + crossing.size() / 2;
   if (values.size() > kMostValues || turns > kMostEdges) return false;
+  if (edges.is_far()) return false;
   for (const auto& triangle : crossing)
     if (triangle.number >= kMostNumber || *std::max_element(std::begin(triangle.edges), std::end(triangle.edges)) >= kMostNumber)
       return false;

@@ -42,6 +42,7 @@ RasterSurfaces::RasterSurfaces(Kept& kept, const Scene& scene, const MipMaps& ma
       view_(camera, options.width, options.height),
       steps_(camera.steps(options.aa)),
       samples_(options.aa),
+      smooth_(options.shadows != Shadows::off && options.terminator == Terminator::smooth),
       taken_(taken) {
   kept.scene.follow(scene, maps);
   if (taken) kept.taken.fit(tiles * static_cast<std::size_t>(kPlanes * kSlots) * sizeof(Vec4Floats));
@@ -71,7 +72,7 @@ void RasterSurfaces::find(int first_tile, int count, Buffer& surfaces, Buffer& r
   const std::vector<double> ms = kept_.program.run(
       {&scene.vertices(), &scene.triangles(), &scene.materials(), &kept_.view.get(), &scene.texels(), &scene.tables(),
        &kept_.visibility.seen(), &surfaces, &radiance, taken_ ? &kept_.taken.get() : &surfaces},
-      {{kept_.program.pipeline(0, {taken_ ? 1 : 0, scene.has_layers() ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
+      {{kept_.program.pipeline(0, {taken_ ? 1 : 0, scene.has_layers() ? 1 : 0, smooth_ ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
         static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first_tile)}});
   if (!ms.empty()) times_["surfaces"] += ms.front();
 }

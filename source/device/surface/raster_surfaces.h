@@ -52,7 +52,7 @@ class RasterSurfaces {
   const CameraView view_;
   const PixelSteps steps_;
   const int samples_;
-  const bool taken_;
+  const bool smooth_, taken_;
   std::map<std::string, double> times_;
 };
 

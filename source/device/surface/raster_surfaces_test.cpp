@@ -14,7 +14,6 @@
 #include "night.h"
 #include "paths.h"
 #include "render/frame/frame_surfaces.h"
-#include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "support/meshes.h"
 
@@ -313,11 +312,6 @@ TEST_F(VulkanSurfaces, SayWhatKeepsThemOnTheHost) {
   scene.multiple_scattering = true;
   ASSERT_EQ(materials_for_host(scene).size(), 1u);
   EXPECT_NE(materials_for_host(scene)[0].find("'a'"), std::string::npos);
-  RenderOptions options = small();
-  options.shadows = steradian::Shadows::on;
-  options.terminator = Terminator::smooth;
-  scene.materials[0].clearcoat = 0;  // a coat over a normal texture in shadow is no work of the device
-  EXPECT_THROW(Frame(scene, options, nullptr, SurfacesBy::device), UsageError);
 }
 
 namespace {
@@ -400,6 +394,20 @@ TEST_F(VulkanSurfaces, AreLitWithTheirLayers) {
   options.shadows = steradian::Shadows::off;
   scene.materials[0].clearcoat = coat;
   expect_same_picture("scattering", scene, options);
+}
+
+TEST_F(VulkanSurfaces, MoveToTheSurfaceOfTheirNormals) {
+  RenderOptions options;
+  options.width = 120;
+  options.height = 70;
+  options.method = "ltc-compact";
+  options.shadows = steradian::Shadows::on;
+  Scene scene = textured();
+  scene.meshes.push_back(scene::ball_mesh({0, 0.6f, 0}, 0.6f, 0, 12, 6));
+  scene.area_lights = {lamp()};
+  expect_same_picture("smooth terminator", scene, options);
+  options.terminator = Terminator::strict;
+  expect_same_picture("strict terminator", scene, options);
 }
 
 TEST_F(VulkanSurfaces, LeaveTilesToTheHost) {

@@ -34,30 +34,61 @@ double ltc_above_horizon(const LtcInverse& m) { return 0.5 + 0.5 * m.xx / std::h
 
 namespace {
 
+// A surface point in the frame of the tables: z the normal, x along the view's projection.
 template <class S>
-Vec3d radiance(LtcMethod method, const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at,
-               const Material& material) {
-  const Vec3d n = normalized(at.normal), v = normalized(at.view);
-  const double cosine = dot(n, v);
-  const auto frame = Kernels<S>().frame_from_normal_and_view(integrals::to_kernel<S>(n), integrals::to_kernel<S>(v));
-  auto view = transform_transposed(frame, integrals::to_kernel<S>(v));
-  view.y = 0.0;
-  const auto shading = integrals::shading_from<S>(cosine > 0 ? shapes::lit_side(light, at.position) : 0, view);
-  const double alpha = std::max(material.alpha_x, kSmallestAlpha);
-  const auto part_by = [&](auto integral) { return integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral); };
-  const auto by = [&](auto integral, Vec3d f0, Vec3d f90) { return integrals::radiance_of<S>(part_by(integral), f0, f90, light.radiance); };
+struct TablePoint {
+  typename Kernels<S>::mat3 frame;
+  typename Kernels<S>::vec3 view;
+  double cosine;  // of the view
+
+  explicit TablePoint(const ShadingPoint& at) : cosine(dot(normalized(at.normal), normalized(at.view))) {
+    const auto n = integrals::to_kernel<S>(normalized(at.normal)), v = integrals::to_kernel<S>(normalized(at.view));
+    frame = Kernels<S>().frame_from_normal_and_view(n, v);
+    view = transform_transposed(frame, v);
+    view.y = 0.0;
+  }
+};
+
+// part_by(integral): the part of a light by the integral of a lobe. light: the light's radiance, or illuminance.
+template <class S, class PartBy>
+Vec3d reflected(LtcMethod method, const ClassicTable& table, const TablePoint<S>& point, const Material& m, Vec3d light,
+                const PartBy& part_by) {
+  const double alpha = std::max(m.alpha_x, kSmallestAlpha), cosine = point.cosine;
+  const auto by = [&](auto integral) { return integrals::radiance_of<S>(part_by(integral), m.f0, m.f90, light); };
   switch (method) {
-    case LtcMethod::representative_point: return by(integrals::RepresentativePoint<S>(material.alpha_x), material.f0, material.f90);
-    case LtcMethod::classic: return by(integrals::Ltc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
+    case LtcMethod::representative_point: return by(integrals::RepresentativePoint<S>(m.alpha_x));
+    case LtcMethod::classic: return by(integrals::Ltc<S>(classic_lobe<S>(table, alpha, cosine)));
     case LtcMethod::fresnel: {
       const auto lobe = part_by(integrals::Ltc<S>(classic_lobe<S>(table, alpha, cosine)));
       const auto grazing = part_by(integrals::Ltc<S>(classic_lobe<S>(ggx_fresnel_table(), alpha, cosine)));
-      return integrals::radiance_of<S>({lobe.x, grazing.x}, material.f0, material.f90, light.radiance);
+      return integrals::radiance_of<S>({lobe.x, grazing.x}, m.f0, m.f90, light);
     }
-    case LtcMethod::clipless: return by(integrals::CliplessLtc<S>(classic_lobe<S>(table, alpha, cosine)), material.f0, material.f90);
+    case LtcMethod::clipless: return by(integrals::CliplessLtc<S>(classic_lobe<S>(table, alpha, cosine)));
     case LtcMethod::compact: break;
   }
-  return by(integrals::Ltc<S>(compact_lobe<S>(ggx_compact_table(), alpha, cosine, view)), material.f0, material.f90);
+  return by(integrals::Ltc<S>(compact_lobe<S>(ggx_compact_table(), alpha, cosine, point.view)));
+}
+
+template <class S>
+Vec3d radiance(LtcMethod method, const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at,
+               const Material& material) {
+  const TablePoint<S> point(at);
+  const auto shading = integrals::shading_from<S>(point.cosine > 0 ? shapes::lit_side(light, at.position) : 0, point.view);
+  return reflected(method, table, point, material, light.radiance,
+                   [&](auto integral) { return integrate(integrals::contours_in<S>(light, point.frame, at.position), shading, integral); });
+}
+
+template <class S>
+Vec3d towards(LtcMethod method, const ClassicTable& table, Vec3d direction, const ShadingPoint& at, const Material& material) {
+  const TablePoint<S> point(at);
+  const auto l = transform_transposed(point.frame, integrals::to_kernel<S>(direction));
+  const auto shading = integrals::shading_from<S>(point.cosine > 0 && dot(at.normal, direction) > 0 ? 1 : 0, point.view);
+  return reflected(method, table, point, material, {1, 1, 1}, [&](auto integral) {
+    integrals::Part<S> nothing;
+    integrals::set_to_zero(nothing);
+    const auto lit = integral.begin(shading);
+    return select(lit, integral.at(l), nothing);
+  });
 }
 
 void require_service(LtcMethod method, const Material& material) {
@@ -89,6 +120,18 @@ Vec3d ltc_radiance_by(const ClassicTable& table, const PreparedPolygon& light, c
 Vec3d ltc_radiance_by_float(const ClassicTable& table, const PreparedPolygon& light, const ShadingPoint& at, const Material& material) {
   require_service(LtcMethod::classic, material);
   return radiance<float>(LtcMethod::classic, table, light, at, material);
+}
+
+Vec3d ltc_towards(LtcMethod method, Vec3d direction, const ShadingPoint& at, const Material& material, const ClassicTable* fitted) {
+  require_service(method, material);
+  if (fitted != nullptr) return towards<double>(LtcMethod::classic, *fitted, direction, at, material);
+  return towards<double>(method, ggx_classic_table(), direction, at, with_multiple_scattering(material, at));
+}
+
+Vec3d ltc_towards_float(LtcMethod method, Vec3d direction, const ShadingPoint& at, const Material& material, const ClassicTable* fitted) {
+  require_service(method, material);
+  if (fitted != nullptr) return towards<float>(LtcMethod::classic, *fitted, direction, at, material);
+  return towards<float>(method, ggx_classic_table(), direction, at, with_multiple_scattering(material, at));
 }
 
 }  // namespace steradian

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "steradian/fit.h"  // LobeFrame
+#include "steradian/ltc.h"
 #include "steradian/vector.h"
 
 namespace steradian {
@@ -28,5 +29,18 @@ double ltc_evaluate(const LtcInverse& inverse, Vec3d l);
 
 // The fraction of the lobe above the real horizon.
 double ltc_above_horizon(const LtcInverse& inverse);
+
+struct ClassicTable;
+
+// The method's lobe towards a unit direction, with Fresnel: what it puts in the place of BRDF times cosine, per unit of illuminance across
+// that direction. A light without extent sends this; a small one sends it times its solid angle. 0 below the surface and for a view below
+// it.
+//
+//   fitted   for classic: the table of another lobe in the place of GGX's; null: GGX's
+Vec3d ltc_towards(LtcMethod method, Vec3d direction, const ShadingPoint& at, const Material& material,
+                  const ClassicTable* fitted = nullptr);
+// The same with arithmetic in float.
+Vec3d ltc_towards_float(LtcMethod method, Vec3d direction, const ShadingPoint& at, const Material& material,
+                        const ClassicTable* fitted = nullptr);
 
 }  // namespace steradian

@@ -74,7 +74,7 @@ Vec3d by_points(const AreaLight& light, const ShadingPoint& at, const Material& 
         u = r * std::cos(phi), v = r * std::sin(phi);
       }
       const PointLight point = {center + x * u + y * v, e.intensity / (static_cast<double>(n) * n), e.profile, e.axes};
-      sum += methods::point_light_radiance(point, at, m);
+      sum += methods::point_light_radiance(point, at, m, methods::row_of(Method::reference));
     }
   return sum;
 }
@@ -126,7 +126,8 @@ TEST(ProfiledLight, FromAfarItIsThePointThatWasMeasured) {
   const AreaLight lamp = shining(rect({0, 300, 200}, {0.1, 0, 0}, {0, 0, 0.1}), profile);
   const PointLight point = {{0, 300, 200}, {1, 0.5, 0.25}, profile, lamp.emission->axes};
   for (const Material& m : {Material{}, ggx(0.5)}) {
-    const double a = radiance(lamp, kBelow, m).radiance.x, b = methods::point_light_radiance(point, kBelow, m).x;
+    const double a = radiance(lamp, kBelow, m).radiance.x,
+                 b = methods::point_light_radiance(point, kBelow, m, methods::row_of(Method::reference)).x;
     EXPECT_NEAR(a, b, 1e-5 * b);  // second order in a size of 3e-4 of the distance, and the lobe's single precision
   }
 }

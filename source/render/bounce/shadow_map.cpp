@@ -229,9 +229,9 @@ Texel shade(const Scene& scene, const LightRay& r, const Place& place) {
   return texel;
 }
 
-MapRay map_ray(const LightRay& r) {
+MapRay map_ray(const LightRay& r, const RayScene& rays) {
   if (!weighs(static_cast<Vec3f>(r.flux))) return {};
-  return {static_cast<Vec3f>(r.origin), 1e-4f, static_cast<Vec3f>(normalized(r.direction))};
+  return {static_cast<Vec3f>(r.origin), 1e-5f * rays.reach(), static_cast<Vec3f>(normalized(r.direction))};
 }
 bool is_ray(const MapRay& r) { return dot(r.direction, r.direction) > 0; }
 
@@ -347,7 +347,8 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, F
       MapRay* to = hits->rays(size);
       tbb::parallel_for(begin, end, [&](std::size_t r) {
         for (std::size_t i = 0; i < rows[r].size(); ++i)
-          to[rows[r].first - first + i] = map_ray(light_ray(rows[r], static_cast<int>(i) / kMapBlock, static_cast<int>(i) % kMapBlock));
+          to[rows[r].first - first + i] =
+              map_ray(light_ray(rows[r], static_cast<int>(i) / kMapBlock, static_cast<int>(i) % kMapBlock), rays);
       });
       hits->find(size);
     }
@@ -361,7 +362,7 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, F
         FirstHit known[kMapBlock];
         Place places[kMapBlock];
         for (int k = 0; k < kMapBlock; ++k) {
-          asked[k] = map_ray(light_rays[k] = light_ray(row, block, k));
+          asked[k] = map_ray(light_rays[k] = light_ray(row, block, k), rays);
           if (hits != nullptr) known[k] = hits->hit(texel - first + static_cast<std::size_t>(k));
         }
         const unsigned met = meet(scene, rays, asked, hits != nullptr ? known : nullptr, places);

@@ -149,7 +149,7 @@ Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& s
       }
       if (!(pdf > 0)) continue;
       const auto direction = static_cast<Vec3f>(to);
-      const Vec3f origin = receiver.position + receiver.normal * 1e-4f;
+      const Vec3f origin = receiver.position + receiver.normal * (1e-5f * rays.reach());
       RTCRayHit hit;
       if (!rays.intersect(origin, direction, hit)) continue;
       const Surface next = surface_at(scene, scene.meshes[hit.hit.geomID], hit.hit.primID, hit.hit.u, hit.hit.v, -direction);

@@ -9,6 +9,7 @@ STERADIAN_BEGIN_ISA
 #define STERADIAN_DECLARE_LOBE(name) \
   void name##_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result);
 STERADIAN_PROCEDURES(STERADIAN_DECLARE_LOBE)
+STERADIAN_DECLARE_LOBE(punctual_ltc)
 #undef STERADIAN_DECLARE_LOBE
 
 // radiance_at(i, p, seen): plain and fresnel of the points from i on, whose positions are p. A caller asks the compiler to flatten it, so

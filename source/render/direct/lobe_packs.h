@@ -35,7 +35,8 @@ struct LobePacks {
   Function operator[](methods::Procedure procedure) const { return functions[static_cast<std::size_t>(procedure)]; }
 
   Function functions[methods::kProcedures];
-  Function punctual_ggx;  // for a punctual light of intensity 1
+  // For a punctual light of intensity 1: GGX itself, or the transformed cosines of the lobe's tables.
+  Function punctual_ggx, punctual_ltc;
   // Adds albedo / pi times the irradiance of the lights to tile.radiance.
   void (*add_diffuse)(SurfaceTile& tile, const PackLight* const* lights, std::size_t light_count);
 };

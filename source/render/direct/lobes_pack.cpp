@@ -195,7 +195,7 @@ __attribute__((flatten)) void add_diffuse(SurfaceTile& tile, const PackLight* co
 
 const LobePacks& lobe_packs() {
 #define STERADIAN_LOBE(name) name##_on_packs,
-  static constexpr LobePacks table = {{STERADIAN_PROCEDURES(STERADIAN_LOBE)}, punctual_ggx, add_diffuse};
+  static constexpr LobePacks table = {{STERADIAN_PROCEDURES(STERADIAN_LOBE)}, punctual_ggx, punctual_ltc_on_packs, add_diffuse};
 #undef STERADIAN_LOBE
   return table;
 }

@@ -43,34 +43,51 @@ __attribute__((flatten, noinline)) Both integrate_pieces(const SeenLight& seen, 
   return integrate_over<with_diffuse>(PiecesOutline{seen, frame}, seen.shading(view), lobe);
 }
 
+// The lobes of the tables at a pack of points, in the frame of the normal and the view.
+template <class Decode>
+struct LobesHere {
+  const LtcPackTables& tables;
+  const Decode& decode;
+  PackReal roughness;
+  PackKernels::mat3 frame;
+  PackVec3 view;
+
+  STERADIAN_INLINE LobesHere(const Points& points, std::size_t i, const LtcPackTables& t, const Decode& d)
+      : tables(t), decode(d), roughness(sqrt(load(points.alpha_x + i))) {
+    const PackVec3 n = load(points.normal, i), v = load(points.view, i);
+    frame = PackKernels().frame_from_normal_and_view(n, v);
+    view = PackVec3(dot(frame.c0, v), PackReal(0.0), dot(n, v));
+  }
+  STERADIAN_INLINE Lobe look(const PackTable& matrix, const PackTable& magnitude) const {
+    const auto at = PackKernels().ltc_coordinates(roughness, view.z);
+    const auto scale = look_up(magnitude.nodes.data(), magnitude.size, at.x, at.y);
+    return Lobe{decode(look_up(matrix.nodes.data(), matrix.size, at.x, at.y), roughness, view), scale.x, scale.y};
+  }
+  bool any_fresnel() const { return tables.fresnel_matrix.size > 0; }
+  STERADIAN_INLINE Lobe lobe() const { return look(tables.matrix, tables.magnitude); }
+  STERADIAN_INLINE Lobe fresnel() const { return look(tables.fresnel_matrix, tables.fresnel_magnitude); }
+};
+
 template <bool with_diffuse, class Decode>
 __attribute__((flatten, noinline)) void run(const PackLight& light, const Points& points, const LtcPackTables& tables,
                                             const LobeRadiance& result, const Decode& decode) {
   for_each_pack(light, points, result, [&](std::size_t i, const PackVec3& p, const SeenLight& seen) {
-    PackKernels k;
-    const PackVec3 n = load(points.normal, i), v = load(points.view, i);
-    const PackReal roughness = sqrt(load(points.alpha_x + i));
-    const auto frame = k.frame_from_normal_and_view(n, v);
-    const PackReal c = dot(n, v);
-    const PackVec3 view(dot(frame.c0, v), PackReal(0.0), c);
-    const auto coordinates = k.ltc_coordinates(roughness, c);
-    const auto lobe_of = [&](const PackTable& matrix, const PackTable& magnitude) {
-      const auto scale = look_up(magnitude.nodes.data(), magnitude.size, coordinates.x, coordinates.y);
-      return Lobe{decode(look_up(matrix.nodes.data(), matrix.size, coordinates.x, coordinates.y), roughness, view), scale.x, scale.y};
-    };
-    const Lobe lobe = lobe_of(tables.matrix, tables.magnitude);
+    const LobesHere here(points, i, tables, decode);
+    const Lobe lobe = here.lobe();
+    const PackKernels::mat3& frame = here.frame;
+    const PackVec3& view = here.view;
 
     Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
     if (any_lane(seen.lit)) {
-      const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), c), PackReal(2.0) * roughness * roughness, 12};
+      const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), view.z), PackReal(2.0) * here.roughness * here.roughness, 12};
       const PolygonOutline polygon = {{seen, frame, p}};
       both = light.is_round()    ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
              : light.is_pieces() ? integrate_pieces<with_diffuse>(seen, frame, view, lobe)
              : polygon.may_be_small(PackKernels().light_elements_transformed().least_distance2)
                  ? integrate_polygon<with_diffuse>(polygon, view, lobe)
                  : integrate_polygon<with_diffuse>(PolygonEdges{seen, frame, p}, view, lobe);
-      if (tables.fresnel_matrix.size > 0) {
-        const Lobe fresnel = lobe_of(tables.fresnel_matrix, tables.fresnel_magnitude);
+      if (here.any_fresnel()) {
+        const Lobe fresnel = here.fresnel();
         both.specular.y = (light.is_round()    ? integrate_round<false>(seen, frame, p, view, fresnel, about)
                            : light.is_pieces() ? integrate_pieces<false>(seen, frame, view, fresnel)
                                                : integrate_polygon<false>(polygon, view, fresnel))
@@ -82,22 +99,51 @@ __attribute__((flatten, noinline)) void run(const PackLight& light, const Points
   });
 }
 
+// A light without extent: the lobe in its direction, times the incident light. It is the limit of a small light's elements.
+template <class Decode>
+__attribute__((flatten, noinline)) void run_punctual(const packed::Punctual& source, const Points& points, const LtcPackTables& tables,
+                                                     const LobeRadiance& result, const Decode& decode) {
+  for (std::size_t i = 0; i < points.count; i += kLanes) {
+    const LobesHere here(points, i, tables, decode);
+    const auto incident = shapes::incident<Pack>(source, load(points.position, i));
+    const PackVec3 l = transform_transposed(here.frame, incident.direction);
+    const auto lit = l.z > PackReal(0.0) && here.view.z > PackReal(0.0);
+    const PackReal light = select(lit, incident.irradiance, PackReal(0.0));
+    const auto sent = [&](const Lobe& lobe) { return integrals::value_of(lobe, light * PackKernels().ltc_lobe(lobe.matrix, l)); };
+    auto part = sent(here.lobe());
+    if (here.any_fresnel()) part.y = sent(here.fresnel()).x;
+    store(result.plain + i, part.x);
+    store(result.fresnel + i, part.y);
+  }
+}
+
+// work(decode) with the decoding of the tables' entries.
+template <class Work>
+void with_decoding(const LtcPackTables& tables, const Work& work) {
+  if (tables.compact)
+    work([](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
+      return PackKernels{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
+    });
+  else
+    work([](const PackKernels::vec4& t, PackReal, const PackVec3&) { return PackKernels{}.ltc_from_classic(t); });
+}
+
 }  // namespace
 
 void ltc_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result) {
   const LtcPackTables& tables = *lobe.tables;
-  const auto by = [&](const auto& decode) {
+  with_decoding(tables, [&](const auto& decode) {
     if (result.irradiance != nullptr)
       run<true>(light, points, tables, result, decode);
     else
       run<false>(light, points, tables, result, decode);
-  };
-  if (tables.compact)
-    by([](const PackKernels::vec4& e, PackReal roughness, const PackVec3& view) {
-      return PackKernels{}.ltc_from_compact(e, max(roughness * roughness, PackReal(1.0e-4)), view);
-    });
-  else
-    by([](const PackKernels::vec4& t, PackReal, const PackVec3&) { return PackKernels{}.ltc_from_classic(t); });
+  });
+}
+
+void punctual_ltc_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe, const LobeRadiance& result) {
+  with_decoding(*lobe.tables, [&](const auto& decode) {
+    run_punctual(*std::get_if<packed::Punctual>(&light.shape), points, *lobe.tables, result, decode);
+  });
 }
 
 STERADIAN_END_ISA

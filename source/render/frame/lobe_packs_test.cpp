@@ -1,10 +1,12 @@
 // Methods and lobes other than the renderer's usual ones: packs against one point at a time, for every instruction set.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "integrals/methods.h"
+#include "integrals/point_light.h"
 #include "render/direct/lobe_packs.h"
 #include "steradian/ellipse_light.h"
 #include "support/random_configurations.h"
@@ -186,6 +188,87 @@ TEST(LobePacks, NeighboursNextToTheRimChangeNothing) {
         EXPECT_NEAR(with[i], without[i], 1e-5f * (1 + with[i])) << c.name << " " << name_of(simd) << " " << i;
       }
     }
+}
+
+// A light without extent is the lobe of the tables in one direction.
+TEST(LobePacks, FollowOnePointAtATimeUnderPunctualLights) {
+  Random random(33);
+  Cloud cloud = any_cloud(random);
+  PunctualLight lamp;
+  lamp.position = {0.3, -0.2, 1.5};
+  PackLight light;
+  light.shape = packed::prepare(lamp);
+  std::vector<float> plain(kPoints), fresnel(kPoints);
+  for (const auto& [method, quality] :
+       {std::pair{Method::ltc, Quality::normal}, {Method::ltc, Quality::high}, {Method::ltc_compact, Quality::normal}})
+    for (const Simd simd : available_simd()) {
+      const LtcPackTables tables = ltc_pack_tables(method, quality);
+      lobe_packs_for(simd).punctual_ltc(light, cloud.points(), {{}, {method, quality}, &tables}, {plain.data(), fresnel.data()});
+      int lit = 0;
+      double worst = 0;
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        Material m;
+        m.brdf = Brdf::ggx;
+        m.alpha_x = m.alpha_y = static_cast<double>(cloud.of(12)[i]);
+        m.f0 = {0.5, 0.5, 0.5};
+        m.f90 = {1, 1, 1};
+        const PointLight point = {lamp.position, {1, 1, 1}};
+        const double truth = methods::point_light_radiance(point, cloud.point(i), m, methods::row_of(method), {method, quality}).x;
+        const double p = static_cast<double>(plain[i]), f = static_cast<double>(fresnel[i]);
+        worst = std::max(worst, std::fabs(0.5 * (p - f) + f - truth) / (truth + 0.01));
+        lit += truth > 1e-3;
+      }
+      EXPECT_GT(lit, 100);
+      // Single precision, and lobes up to 20 times as narrow as a cosine.
+      EXPECT_LT(worst, 1e-4) << name_of(method) << " " << name_of(simd);
+    }
+}
+
+// Small and large lights flush with the surface, on level planes and on any: rounding of places decides no side, so nothing arrives.
+TEST(LobePacks, NothingArrivesFromLightsInThePlaneOfTheSurface) {
+  Random random(35);
+  for (int i = 0; i < 60; ++i) {
+    const Frame plane = i % 2 == 0
+                            ? Frame{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}
+                            : Frame::from_normal(normalized(Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}));
+    const double scale = std::pow(10, random.uniform(-2, 2));
+    const Vec3d middle = Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)} * scale;
+    const auto in_plane = [&](double x, double y) { return middle + (plane.x * x + plane.y * y) * scale; };
+    const double angle = random.uniform(0, 6.3), size = std::pow(10, random.uniform(-4, -0.5)) * scale;
+    // A node's rotation in single precision tilts a light by about 1e-9.
+    const Vec3d tilt = plane.z * (i % 3 == 0 ? 1e-9 : 0), x = plane.x * std::cos(angle) + plane.y * std::sin(angle) + tilt;
+    const Vec3d a = x * size, b = cross(plane.z, x) * (size * random.uniform(0.1, 1)),
+                center = in_plane(random.uniform(-1, 1), random.uniform(-1, 1));
+    AreaLight flat;
+    flat.two_sided = i % 4 < 2;
+    if (i % 5 == 0)
+      flat.shape = Ellipse{center, a, b};
+    else
+      flat.shape = Polygon{{center - a - b, center + a - b, center + a + b, center - a + b}, {}};
+    const PackLight light = round_light(flat);
+    Cloud cloud;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      cloud.put(0, k, in_plane(random.uniform(-2, 2), random.uniform(-2, 2)));
+      cloud.put(3, k, plane.z);
+      cloud.put(6, k, normalized(plane.z + (plane.x * random.uniform(-1, 1) + plane.y * random.uniform(-1, 1)) * 3));
+      cloud.put(9, k, plane.x);
+      cloud.of(12)[k] = static_cast<float>(std::exp(random.uniform(-4, 0)));
+    }
+    std::vector<Case> all = cases();
+    Material ggx;
+    ggx.brdf = Brdf::ggx;
+    all.push_back({"closed-form", ggx, Method::closed_form});
+    all.push_back({"ltc", ggx, Method::ltc, ltc_pack_tables(Method::ltc)});
+    all.push_back({"diffuse", {}, Method::exact});
+    std::vector<float> plain(kPoints), fresnel(kPoints);
+    for (const Case& c : all) {
+      c.run(light, cloud.points(), available_simd()[static_cast<std::size_t>(i) % available_simd().size()], plain, fresnel);
+      EXPECT_EQ(*std::max_element(plain.begin(), plain.end()), 0) << c.name << " " << i;
+      if (c.lobe.brdf == Brdf::ggx) {
+        EXPECT_EQ(*std::max_element(fresnel.begin(), fresnel.end()), 0) << c.name << " " << i;
+      }
+    }
+  }
 }
 
 }  // namespace steradian::lobe_packs_test

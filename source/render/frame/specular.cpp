@@ -8,9 +8,9 @@
 #include <set>
 
 #include "integrals/irradiance.h"
+#include "integrals/point_light.h"
 #include "integrals/textured/profiled_light.h"
 #include "integrals/textured/textured_light.h"
-#include "lobes/lobe.h"
 #include "render/direct/textured_means.h"
 #include "render/frame/uneven_diffuse.h"
 #include "render/many/lobe_elements.h"
@@ -127,13 +127,11 @@ Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& 
 }
 
 // The same under a punctual light: the lobe is evaluated in one direction.
-Vec3d point_radiance_punctual(const PackLight& light, const ShadingPoint& at, const Material& material) {
+Vec3d point_radiance_punctual(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at,
+                              const Material& material) {
   const auto incident = shapes::incident<double>(*std::get_if<packed::Punctual>(&light.shape), shapes::to_kernel<double>(at.position));
-  const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
-  const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
-  if (!lobe.above_surface()) return {};
   const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v};
-  return lobe.radiance(lobe.evaluate(frame.to_local(to))) * static_cast<Vec3d>(light.radiance) * incident.irradiance.v;
+  return methods::lobe_towards(to, at, material, row, {row.method, quality}) * static_cast<Vec3d>(light.radiance) * incident.irradiance.v;
 }
 
 }  // namespace
@@ -163,7 +161,8 @@ Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, s
 }
 
 void SpecularPass::integrate_ggx(const PackLight& light, const Points& points, const LobeRadiance& result) const {
-  (light.is_area() ? packs_[procedure_] : packs_.punctual_ggx)(light, points, {{}, {method_.ggx, method_.quality}, &tables_}, result);
+  const auto punctual = tables_.matrix.size > 0 ? packs_.punctual_ltc : packs_.punctual_ggx;
+  (light.is_area() ? packs_[procedure_] : punctual)(light, points, {{}, {method_.ggx, method_.quality}, &tables_}, result);
 }
 
 void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const {
@@ -278,11 +277,12 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
       }
       continue;
     }
+    const methods::Row& row = methods::row_of(Method::cubature);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const Vec3f color = get(tile.sheen, i);
       if (!(color.x + color.y + color.z > 0)) continue;
       const Material m = sheen_of(surface_in(tile, i));
-      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance_punctual(*light, shading_point(tile, i), m)));
+      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance_punctual(row, method_.quality, *light, shading_point(tile, i), m)));
     }
   }
 }
@@ -341,8 +341,8 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
           const ShadingPoint at = shading_point(tile, i);
           Material m = material;
           if (m.tangent == Vec3d{}) m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
-          const Vec3d r =
-              light->is_area() ? point_radiance(row, method_.quality, *light, i, at, m) : point_radiance_punctual(*light, at, m);
+          const Vec3d r = light->is_area() ? point_radiance(row, method_.quality, *light, i, at, m)
+                                           : point_radiance_punctual(row, method_.quality, *light, at, m);
           add_to(tile.radiance, i, static_cast<Vec3f>(r));
         }
       }

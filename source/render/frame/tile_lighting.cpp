@@ -38,6 +38,7 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
       many_lights_(many_lights),
       packs_(lobe_packs_for(active_simd())),
       specular_(method, options.table),
+      rays_(parts.rays),
       work_([] { return std::make_shared<Work>(); }) {
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
 }
@@ -103,7 +104,7 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
                                                               ShadowTaker* taker) {
   TilePoints points;
   shadow_clock_.run([&] {
-    points = points_for_shadows(tile, options_.terminator);
+    points = points_for_shadows(tile, *rays_, options_.terminator);
     shadows_->find_open(points, lights, work.open);
   });
   std::vector<const PackLight*> plain;

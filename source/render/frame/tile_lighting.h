@@ -63,6 +63,7 @@ class TileLighting {
   ManyLightPass* const many_lights_;
   const LobePacks& packs_;
   const SpecularPass specular_;
+  const std::shared_ptr<const RayScene> rays_;
   std::optional<ShadowPass> shadows_;
   tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
   PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};

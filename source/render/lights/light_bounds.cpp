@@ -56,7 +56,13 @@ bool reaches(const PackLight& light, const Box3f& positions, const Box3f& normal
 bool above(const auto& shape, const Box3f& positions, const Box3f& normals) {
   return !shape.any_bound([&](Vec3f point, float radius) { return !(least_height(point, positions, normals) > radius); });
 }
-bool before(const auto& flat, const Box3f& positions) { return heights(positions, flat.normal, flat.point).low > 0; }
+bool before(const auto& flat, const Box3f& positions) {
+  const float low = heights(positions, flat.normal, flat.point).low;
+  const auto square = [](float a, float b) { return std::max(a * a, b * b); };
+  const Vec3f &l = positions.low, &h = positions.high;
+  const float positions2 = square(l.x, h.x) + square(l.y, h.y) + square(l.z, h.z);
+  return low > 0 && low * low > static_cast<float>(packed::kRounding2) * (positions2 + dot(flat.point, flat.point));
+}
 
 struct SeenWhole {
   const Box3f& positions;

@@ -79,11 +79,25 @@ enum class Share : std::uint8_t {
 };
 
 // For each light: its treatment, and the error of irradiance for radiance 1. `plain` is the base error, `grazing` is added for each unit
-// of Fresnel loss. Both apply to elements; outlines have no error.
+// of Fresnel loss. `most` is the largest irradiance in a polynomial. All three apply to elements: outlines only have rounding errors, and
+// those differ from receiver to receiver.
 struct Judged {
   Share* share;
-  float *plain, *grazing;
+  float *plain, *grazing, *most;
 };
+
+// Half a unit in the last place of 1. Rounding errors below are numbers of these.
+inline constexpr float kUnit = 0x1p-24f;
+
+// Rounding of a light's irradiance vector, as a fraction of the light's largest irradiance, for elements: arithmetic takes a few dozen
+// roundings. A light's place is rounded by a unit of its coordinates, with the slope 2 of far_light.glsl over the least distance.
+inline constexpr float kRoundings = 32, kRoundingsOfPlaces = 2;
+
+// The same for an outline, as a fraction of the angle that it subtends along its edges. Round lights have formulas of their own.
+inline constexpr float kRoundingsOfRound = 256;
+
+// Sums of many numbers take parts of this many, so that N numbers are rounded 64 + N / 64 times.
+inline constexpr std::size_t kPart = 64;
 
 struct Elements {
   std::vector<Element> ones, balls;
@@ -110,6 +124,7 @@ struct Receivers {
   TileVector position, normal, view;
   alignas(64) TilePlane loss;
   TileVector irradiance;  // the result
+  TileVector rounding;    // of lights whose rounding differs from receiver to receiver
   Points points() const {
     Points p;
     p.count = filled;
@@ -130,6 +145,8 @@ struct CellTable {
   void (*fit)(const Elements& elements, const Cell& cell, const Polynomial* outer, const Cell* outer_cell, Polynomial& result);
   // Adds a polynomial to the irradiance of a cell's receivers.
   void (*add_polynomial)(const Polynomial& polynomial, const Cell& cell, Receivers& receivers);
+  // Adds the light of one light by its outline, and the bound of its rounding. sent: its irradiance at every receiver for radiance 1.
+  void (*add_outline)(const FarLights& lights, std::uint32_t number, const float* sent, Receivers& receivers);
   // Adds the light of elements at every receiver.
   void (*add_elements)(const Elements& elements, Receivers& receivers);
 };
@@ -144,6 +161,7 @@ const NodeRow& node_row(int nodes);
 
 // Upper bound of the largest sum of absolute values of Lagrange's polynomials through n Chebyshev nodes: Rivlin's bound.
 double lebesgue(int nodes);
+inline double lebesgue(const NodeGrid& grid) { return lebesgue(grid.count[0]) * lebesgue(grid.count[1]) * lebesgue(grid.count[2]); }
 
 }  // namespace steradian::lights
 

@@ -75,7 +75,7 @@ struct Judge {
 };
 
 struct Verdict {
-  PackReal share, plain, grazing;
+  PackReal share, plain, grazing, most;
 };
 
 STERADIAN_INLINE PackReal code(Share s) { return PackReal(static_cast<int>(s)); }
@@ -115,6 +115,7 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const PackReal with_four = k.far_error_of_four(of(far.third), of(far.fourth), of(far.symmetric) > PackReal(0.5), r2);
   const PackReal nodes = j.over_axes([&](int n, const PackReal& half) { return k.far_error_of_nodes(n, half, r); });
   const PackReal growth(j.lebesgue_xyz);
+  const PackReal rounding = PackReal(kUnit) * (PackReal(kRoundings) + PackReal(kRoundingsOfPlaces) * (distance + j.magnitude) / r);
 
   // Error of one element of a flat light that the horizon may cut (far_error_across_horizon).
   const PackVec3 reach_a = of(far.reach_a), reach_b = of(far.reach_b);
@@ -155,11 +156,15 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   const PackReal allowed = j.error * clamp(facing * (up * inverse + j.turn), 0.2, 1.0);
   // The element of a point light is the point itself.
   const Mask is_point = radius <= zero && area > zero;
-  Verdict v = {select(is_point, code(Share::one_at_points), code(Share::exact)), zero, zero};
+  Verdict v = {select(is_point, code(Share::one_at_points), code(Share::exact)), zero, zero, zero};
   // The offers run from the most expensive to the cheapest.
   const auto offer = [&](const Mask& possible, const Vec2<PackReal>& e, Share share, const PackReal& most) {
     const Mask takes = possible && e.x + j.loss * e.y < most;
-    v = {select(takes, code(share), v.share), select(takes, weight * e.x, v.plain), select(takes, weight * e.y, v.grazing)};
+    const bool together = share == Share::one || share == Share::four;
+    // Points and balls at the receivers have their rounding there: add_elements.
+    const PackReal with_rounding = e.x + (together ? rounding * growth : select(flat, rounding, zero));
+    v = {select(takes, code(share), v.share), select(takes, weight * with_rounding, v.plain), select(takes, weight * e.y, v.grazing),
+         select(takes, together ? weight : zero, v.most)};
   };
   offer(clear && flat, four_at_points, Share::four_at_points, allowed);
   // Next to a light even a small fraction of the most it can send is much. Lights that a horizon cuts err in one direction: half as much
@@ -182,6 +187,7 @@ __attribute__((flatten)) void judge(const FarLights& far, const std::uint32_t* n
     for (std::size_t lane = 0; lane < kLanes; ++lane) result.share[i + lane] = static_cast<Share>(static_cast<int>(share[lane]));
     store(result.plain + i, v.plain);
     store(result.grazing + i, v.grazing);
+    store(result.most + i, v.most);
   }
 }
 
@@ -269,6 +275,15 @@ STERADIAN_INLINE PackVec3 node_places(const Cell& cell, std::size_t first) {
   return broadcast(cell.center) + of(0, cell.half.x) + of(1, cell.half.y) + of(2, cell.half.z);
 }
 
+// Calls add(e) for every element, and next() after each part of them.
+template <class List, class Add, class Next>
+STERADIAN_INLINE void in_parts(const List& list, const Add& add, const Next& next) {
+  for (std::size_t first = 0; first < list.size(); first += kPart) {
+    for (std::size_t i = first; i < std::min(first + kPart, list.size()); ++i) add(list[i]);
+    next();
+  }
+}
+
 template <bool with_grazing>
 STERADIAN_INLINE void add_to_nodes(const Elements& elements, const Cell& cell, Polynomial& values) {
   const PackVec3 eye = broadcast(cell.eye);
@@ -276,21 +291,27 @@ STERADIAN_INLINE void add_to_nodes(const Elements& elements, const Cell& cell, P
     const PackVec3 p = node_places(cell, i);
     const PackVec3 to_eye = eye - p, view = to_eye * inversesqrt(max(dot(to_eye, to_eye), PackReal(1e-30)));
     Sums<with_grazing> sums;
-    for (const Element& e : elements.ones) {
+    const auto put = [&] {
+      sums.put(values, i);
+      sums = {};
+    };
+    const auto add_one = [&](const Element& e) {
       const PackVec3 r = broadcast(e.center) - p;
       const Sent sent = from_flat(broadcast(e.area), r);
       sums.add(sent.vector, grazing_of(r, view, sent.inverse), e.radiance);
-    }
-    for (const Element& e : elements.balls) {
+    };
+    const auto add_ball = [&](const Element& e) {
       const PackVec3 r = broadcast(e.center) - p;
       const Sent sent = from_ball(broadcast(e.area.x), r);
       sums.add(sent.vector, grazing_of(r, view, sent.inverse), e.radiance);
-    }
-    for (const FourElements& e : elements.fours) {
+    };
+    const auto add_four = [&](const FourElements& e) {
       const Sent sent = from_four(e, p);
       sums.add(sent.vector, grazing_of(sent.vector, view, sent.inverse), e.radiance);
-    }
-    sums.put(values, i);
+    };
+    in_parts(elements.ones, add_one, put);
+    in_parts(elements.balls, add_ball, put);
+    in_parts(elements.fours, add_four, put);
   }
 }
 
@@ -421,7 +442,11 @@ __attribute__((flatten)) void add_elements(const Elements& elements, Receivers& 
     const PackReal loss = load(points.fresnel_loss + i);
     const bool lossy = any_lane(loss > PackReal(0.0));
     const PackReal sky = k.lambert_grazing_of_sky(dot(n, v));
-    PackVec3 sum(0.0, 0.0, 0.0);
+    PackVec3 total(0.0, 0.0, 0.0), sum(0.0, 0.0, 0.0), rounding(0.0, 0.0, 0.0);
+    const auto end_part = [&] {
+      total = total + sum;
+      sum = PackVec3(0.0, 0.0, 0.0);
+    };
     // Like lambert_irradiance_below.
     const auto add = [&](const Sent& sent, const PackVec3& r, const Vec3f& radiance) {
       PackReal e = max(dot(sent.vector, n), PackReal(0.0));
@@ -431,28 +456,82 @@ __attribute__((flatten)) void add_elements(const Elements& elements, Receivers& 
       }
       sum = sum + broadcast(radiance) * e;
     };
-    for (const Element& e : elements.ones) {
+    const auto add_one = [&](const Element& e) {
       const PackVec3 r = broadcast(e.center) - p;
       add(from_flat(broadcast(e.area), r), r, e.radiance);
-    }
-    for (const Element& e : elements.balls) {
+    };
+    // Points may be as near as they like: their rounding is that of each receiver.
+    const auto add_ball = [&](const Element& e) {
       const PackVec3 r = broadcast(e.center) - p;
-      add(from_ball(broadcast(e.area.x), r), r, e.radiance);
-    }
-    for (const FourElements& e : elements.fours) {
+      const Sent sent = from_ball(broadcast(e.area.x), r);
+      add(sent, r, e.radiance);
+      const PackReal of_places = PackReal(kRoundingsOfPlaces) * broadcast(length(e.center)) * sent.inverse;
+      const PackReal most = broadcast(e.area.x) * (sent.inverse * sent.inverse);
+      rounding = rounding + broadcast(e.radiance) * (most * (PackReal(kRoundings) + of_places));
+    };
+    const auto add_four = [&](const FourElements& e) {
       const Sent sent = from_four(e, p);
       add(sent, sent.vector, e.radiance);
+    };
+    in_parts(elements.ones, add_one, end_part);
+    in_parts(elements.balls, add_ball, end_part);
+    in_parts(elements.fours, add_four, end_part);
+    const auto put = [&](TileVector& to, const PackVec3& by) {
+      store(to.x.data() + i, load(to.x.data() + i) + by.x);
+      store(to.y.data() + i, load(to.y.data() + i) + by.y);
+      store(to.z.data() + i, load(to.z.data() + i) + by.z);
+    };
+    put(receivers.irradiance, total);
+    put(receivers.rounding, rounding * PackReal(kUnit));
+  }
+}
+
+// The receiver is at least as far away as the light's ball, and as its plane. No light sends more than pi.
+__attribute__((flatten)) void add_outline(const FarLights& far, std::uint32_t number, const float* sent, Receivers& receivers) {
+  const auto at = [number](const Planes& planes) { return Vec3f{planes.x[number], planes.y[number], planes.z[number]}; };
+  const Vec3f middle = at(far.center), radiance = at(far.radiance);
+  const PackVec3 center = broadcast(middle), normal = broadcast(at(far.normal)), light = broadcast(radiance);
+  const PackReal radius = broadcast(far.radius[number]), outline = broadcast(far.outline[number]), places = broadcast(length(middle));
+  const bool is_flat = far.is_flat[number] > 0;
+  const PackReal of_arithmetic(is_flat && far.lights[number]->is_polygon() ? kRoundings : kRoundingsOfRound);
+  const PackReal of_places = PackReal(kRoundingsOfPlaces) * (places + radius);
+  // Rounded corners tilt the light's plane; no edge subtends more than pi.
+  const PackReal tilt = PackReal(kUnit) * of_places * outline / max(broadcast(far.area[number]), PackReal(1e-30));
+  const auto* polygon = std::get_if<packed::Polygon>(&far.lights[number]->shape);
+  const PackReal edges(3.14159265 * static_cast<double>(polygon != nullptr ? polygon->vertices.size() : 2));
+  for (std::size_t i = 0; i < receivers.filled; i += kLanes) {
+    const PackVec3 p = vector_at(arrays_of(receivers.position), i), from = p - center;
+    const PackReal height = dot(from, normal), least = max(sqrt(dot(from, from)) - radius, abs(height));
+    const PackReal inverse = PackReal(1.0) / max(least, PackReal(1e-9));
+    PackReal roundings = of_places * inverse;
+    // The plane of a flat light is a band without a side (packed::kRounding2): what the light sends there is missing.
+    if (is_flat) {
+      const PackReal band2 = PackReal(packed::kRounding2) * (dot(p, p) + places * places) * PackReal(1.01);
+      roundings = roundings + select(height * height <= band2, sqrt(band2) * inverse * PackReal(1 / kUnit), PackReal(0.0));
     }
-    store(receivers.irradiance.x.data() + i, load(receivers.irradiance.x.data() + i) + sum.x);
-    store(receivers.irradiance.y.data() + i, load(receivers.irradiance.y.data() + i) + sum.y);
-    store(receivers.irradiance.z.data() + i, load(receivers.irradiance.z.data() + i) + sum.z);
+    // Behind its plane and above the horizon, the directions to a one-sided light lie between two planes: their cosines are small.
+    PackReal most(3.14159265);
+    if (is_flat && !(far.two_sided[number] > 0)) {
+      const PackVec3 apart = vector_at(arrays_of(receivers.normal), i) - normal;
+      most = min(most, PackReal(6.2831853) * (sqrt(dot(apart, apart)) + tilt));
+    }
+    const PackReal angle = outline * inverse;
+    const PackReal rounding = PackReal(kUnit) * of_arithmetic * min(angle, edges) + min(PackReal(kUnit) * angle * roundings, most);
+    const PackReal irradiance = load(sent + i);
+    const auto put = [&](TilePlane& to, TilePlane& error, const PackReal& r) {
+      store(to.data() + i, load(to.data() + i) + r * irradiance);
+      store(error.data() + i, load(error.data() + i) + r * rounding);
+    };
+    put(receivers.irradiance.x, receivers.rounding.x, light.x);
+    put(receivers.irradiance.y, receivers.rounding.y, light.y);
+    put(receivers.irradiance.z, receivers.rounding.z, light.z);
   }
 }
 
 }  // namespace
 
 const lights::CellTable& cell_table() {
-  static constexpr lights::CellTable table = {judge, fit, add_polynomial, add_elements};
+  static constexpr lights::CellTable table = {judge, fit, add_polynomial, add_outline, add_elements};
   return table;
 }
 

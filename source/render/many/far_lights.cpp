@@ -19,7 +19,7 @@ bool is_plain_point(const PackLight& light) {
 
 struct One {
   Vec3f center, normal, reach_a, reach_b;
-  float area = 0, radius = 0, spread = 0, deviation2 = 0, third = 0, fourth = 0;
+  float area = 0, radius = 0, spread = 0, deviation2 = 0, third = 0, fourth = 0, outline = 0;
   bool symmetric = false, two_sided = false, is_flat = false;
 };
 
@@ -73,6 +73,9 @@ std::optional<float> fourth_of_parallelogram(const packed::Polygon& p) {
   return mean_fourth((p.vertices[1] - p.vertices[0]) / 2, (p.vertices[3] - p.vertices[0]) / 2, 1.0f / 5, 1.0f / 9);
 }
 
+// Convex outlines inside a ball are at most as long as its great circle.
+float of_round(const One& one) { return 2 * std::numbers::pi_v<float> * one.radius; }
+
 struct Prepare {
   One& one;
 
@@ -81,11 +84,15 @@ struct Prepare {
     one.two_sided = p.two_sided;
     float radius = 0;
     for (const Vec3f& v : p.vertices) radius = std::max(radius, length(v - p.middle));
+    for (std::size_t c = 0; c + 1 < p.contours.size(); ++c)
+      for (std::size_t i = p.contours[c]; i < p.contours[c + 1]; ++i)
+        one.outline += length(p.vertices[i + 1 < p.contours[c + 1] ? i + 1 : p.contours[c]] - p.vertices[i]);
     take_flat(p.middle, p.normal, p.reach_a, p.reach_b, length(p.area), radius, fourth_of_parallelogram(p), one);
   }
   void operator()(const packed::Disk& d) const {
     bound(d, one);
     one.two_sided = d.two_sided;
+    one.outline = of_round(one);
     const float to_reach = std::numbers::sqrt2_v<float> / 2;
     // x and y are conjugate half axes: no point of the ellipse lies further out than the root of the sum of their squares.
     take_flat(d.point, d.normal, d.x * to_reach, d.y * to_reach, std::numbers::pi_v<float> * length(cross(d.x, d.y)),
@@ -93,12 +100,16 @@ struct Prepare {
   }
   void operator()(const packed::Ellipsoid& e) const {
     bound(e, one);
+    one.outline = of_round(one);
     if (!(e.ball.radius > 0)) return;
     one.center = e.center;
     one.radius = e.ball.radius;
     one.area = std::numbers::pi_v<float> * e.ball.radius * e.ball.radius;
   }
-  void operator()(const packed::Capsule& c) const { bound(c, one); }
+  void operator()(const packed::Capsule& c) const {
+    bound(c, one);
+    one.outline = of_round(one);
+  }
   void operator()(const packed::Punctual& p) const {
     one.center = static_cast<Vec3f>(p.position);
     one.area = kPointArea;
@@ -134,6 +145,7 @@ FarLights prepare_far_lights(const std::vector<PackLight>& lights) {
     far.symmetric.push_back(one.symmetric ? 1.0f : 0.0f);
     far.two_sided.push_back(one.two_sided ? 1.0f : 0.0f);
     far.is_flat.push_back(one.is_flat ? 1.0f : 0.0f);
+    far.outline.push_back(one.outline);
   };
   for (const PackLight& light : lights) {
     if (!(light.is_area() || is_plain_point(light)) || light.is_pieces() || !light.is_even()) {

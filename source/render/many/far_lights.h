@@ -41,6 +41,7 @@ struct FarLights {
   Plane spread;                         // largest distance from the centre of a point of the light or an element; 0 for balls
   Plane deviation2, third, fourth;      // moments: see far_error_of_one and far_error_of_four
   Plane symmetric, two_sided, is_flat;  // 1 or 0
+  Plane outline;                        // bound of the length of the light's outline from any point
   std::vector<std::int32_t> number_of;  // by PackLight::index; -1: not in this list
 };
 

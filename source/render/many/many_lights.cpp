@@ -25,9 +25,11 @@ constexpr std::size_t kFewest = 64;  // sets with fewer points are not divided f
 // Error bounds by channel.
 struct ManyLights::Bound {
   Vec3f plain{}, grazing{};
-  void add(Vec3f radiance, float p, float g) {
+  Vec3f most{};  // the largest irradiance: rounding of sums is a fraction of it
+  void add(Vec3f radiance, float p, float g, float m) {
     plain = plain + radiance * p;
     grazing = grazing + radiance * g;
+    most = most + radiance * m;
   }
 };
 
@@ -35,6 +37,7 @@ struct ManyLights::Bound {
 struct ManyLights::Outer {
   const Cell* cell = nullptr;
   const Polynomial* polynomial = nullptr;
+  int fits = 0;  // the number of those that went into it
   Bound bound;
 };
 
@@ -42,7 +45,7 @@ struct ManyLights::Work {
   // Data of one depth of cells.
   struct Level {
     std::vector<Share> share;
-    std::vector<float> plain, grazing;
+    std::vector<float> plain, grazing, most;
     std::vector<std::uint32_t> left, exact;
     Elements elements;
     Polynomial polynomial;
@@ -150,7 +153,9 @@ void ManyLights::add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numb
   level.share.resize(room);
   level.plain.resize(room);
   level.grazing.resize(room);
-  packs_.judge(far_, numbers.numbers, numbers.count, cell, error_, {level.share.data(), level.plain.data(), level.grazing.data()});
+  level.most.resize(room);
+  packs_.judge(far_, numbers.numbers, numbers.count, cell, error_,
+               {level.share.data(), level.plain.data(), level.grazing.data(), level.most.data()});
 
   Outer inner = outer;
   level.left.clear();
@@ -167,12 +172,13 @@ void ManyLights::add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numb
     }
     const bool behind = far_.two_sided[i] > 0 && dot(cell.center - far_.elements[i].center, at(far_.normal, i)) < 0;
     add_element(i, share == Share::four, behind ? -1.0f : 1.0f, level.elements);
-    inner.bound.add(far_.elements[i].radiance, level.plain[k], level.grazing[k]);
+    inner.bound.add(far_.elements[i].radiance, level.plain[k], level.grazing[k], level.most[k]);
   }
   if (!level.elements.empty()) {
     packs_.fit(level.elements, cell, outer.polynomial, outer.cell, level.polynomial);
     inner.cell = &cell;
     inner.polynomial = &level.polynomial;
+    ++inner.fits;
   }
 
   const auto count = static_cast<double>(points.size());
@@ -206,7 +212,7 @@ void ManyLights::add_to_points(ReceiverSpan points, const Cell& cell, Numbers nu
     if (!four && level.share[k] != Share::one_at_points) continue;
     add_element(i, four, 1, level.elements);
     if (far_.two_sided[i] > 0) add_element(i, four, -1, level.elements);  // each point sees one of its sides
-    inner.bound.add(far_.elements[i].radiance, level.plain[k], level.grazing[k]);
+    inner.bound.add(far_.elements[i].radiance, level.plain[k], level.grazing[k], level.most[k]);
     work.counts.elements += points.size();
   }
   work.counts.outlines += points.size() * level.exact.size();
@@ -227,20 +233,28 @@ void ManyLights::add_to_some(ReceiverSpan points, const Cell& cell, Numbers exac
     put(receivers.normal, k, q.normal);
     receivers.loss[k] = q.loss;
     put(receivers.irradiance, k, {});
+    put(receivers.rounding, k, {});
   }
   if (cell.loss > 0)
     for (std::size_t k = 0; k < receivers.filled; ++k) put(receivers.view, k, normalized(eye_ - get(receivers.position, k)));
   if (outer.polynomial != nullptr) packs_.add_polynomial(*outer.polynomial, *outer.cell, receivers);
-  for (std::size_t k = 0; k < exact.count; ++k) add_outline(*far_.lights[exact[k]], cell, receivers);
+  for (std::size_t k = 0; k < exact.count; ++k) add_outline(exact[k], cell, receivers);
   if (!elements.empty()) packs_.add_elements(elements, receivers);
+  // Sums over lights, and a sum over the nodes for each fit and for the receiver.
+  const auto of_sums = static_cast<float>(kPart + far_.count / kPart);
+  const float of_most = kUnit * (of_sums + static_cast<float>(2 * kMostNodes * lebesgue(cell.grid)) * static_cast<float>(outer.fits));
   Received* received = work.received + (points.data() - work.first);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3f lobe = points[k].albedo * std::numbers::inv_pi_v<float>;
-    received[k] = {lobe * get(receivers.irradiance, k), lobe * (outer.bound.plain + outer.bound.grazing * receivers.loss[k])};
+    const Vec3f irradiance = get(receivers.irradiance, k);
+    const Vec3f rounding =
+        get(receivers.rounding, k) + outer.bound.most * of_most + irradiance * (kUnit * (of_sums + static_cast<float>(exact.count + 8)));
+    received[k] = {lobe * irradiance, lobe * (outer.bound.plain + outer.bound.grazing * receivers.loss[k] + rounding)};
   }
 }
 
-void ManyLights::add_outline(const PackLight& light, const Cell& cell, Receivers& receivers) const {
+void ManyLights::add_outline(std::uint32_t number, const Cell& cell, Receivers& receivers) const {
+  const PackLight& light = *far_.lights[number];
   alignas(64) TilePlane sent;
   std::optional<packed::Polygon> cut;
   if (light.is_polygon()) cut = with_long_edges_cut(light.polygon, static_cast<Vec3d>(cell.center), static_cast<double>(cell.radius));
@@ -251,7 +265,7 @@ void ManyLights::add_outline(const PackLight& light, const Cell& cell, Receivers
   } else {
     irradiance_(light, receivers.points(), {}, {sent.data()});
   }
-  for (std::size_t k = 0; k < receivers.count; ++k) put(receivers.irradiance, k, get(receivers.irradiance, k) + light.radiance * sent[k]);
+  packs_.add_outline(far_, number, sent.data(), receivers);
 }
 
 }  // namespace steradian::lights

@@ -66,7 +66,7 @@ class ManyLights {
   void add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth, Work& work) const;
   void add_to_points(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth, Work& work) const;
   void add_to_some(ReceiverSpan points, const Cell& cell, Numbers exact, const Elements& elements, const Outer& outer, Work& work) const;
-  void add_outline(const PackLight& light, const Cell& cell, Receivers& receivers) const;
+  void add_outline(std::uint32_t number, const Cell& cell, Receivers& receivers) const;
   float distance_of_lights(const Cell& cell, Numbers numbers) const;
   void add_element(std::uint32_t number, bool four, float side, Elements& elements) const;
 

@@ -8,7 +8,6 @@
 #include "reference/azimuth_sampler.h"
 #include "reference/spherical_region.h"
 #include "reference/surface_sampler.h"
-#include "shadow/edges/segments.h"
 #include "shadow/region/light_frame.h"
 #include "shapes/polygon.h"
 #include "shapes/punctual.h"
@@ -130,7 +129,7 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
   // With shadows, the point is where closed forms look from (shadow::Viewpoint): off the triangle, and never below it.
   const auto geometric = static_cast<Vec3d>(surface.geometric_normal);
   auto p = static_cast<Vec3d>(surface.position);
-  if (shadows_ != nullptr) p += geometric * shadow::offset_from_surface(p);
+  if (shadows_ != nullptr) p += geometric * shadows_->offset_from_surface(p);
   Estimate result;
 
   for (const PunctualLight& light : scene_.punctual_lights) {

@@ -66,6 +66,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
 ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const {
   thread_local Work work;
   work.flat = nullptr;
+  work.tube = nullptr;
   work.turned = work.whole_outline = work.cut_outs = work.in_parts = false;
   work.in_lanes = true;
   work.points = &points.points;

@@ -301,6 +301,16 @@ TEST(ShadowedLobes, CutOutsLetThroughWhatRaysFind) {
     }
     EXPECT_NEAR(sum, expected, 4.5 * std::sqrt(squares) + 5e-3 * expected);
   }
+
+  // A thread forgets the tube of its last picture.
+  options.threads = 1;
+  options.shadows = Shadows::exact;
+  scene.area_lights = {panel};
+  const Picture before = render(scene, options);
+  scene.area_lights = {{Capsule{kCenter - Vec3d{0.4, 0, 0}, kCenter + Vec3d{0.4, 0, 0}, 0.1}, kColor}};
+  render(scene, options);
+  scene.area_lights = {panel};
+  EXPECT_EQ(before.pixels, render(scene, options).pixels);
 }
 
 }  // namespace

@@ -167,6 +167,7 @@ int shadowed_pixels(const Picture& shadowed, const Picture& open) {
 TEST(ShadowRender, ASmoothTerminatorIsThatOfTheSurfaceThatNormalsDescribe) {
   const Scene scene = ball_scene(16, 8);
   RenderOptions options = small();
+  options.terminator = Terminator::strict;
   const Picture strict = render(scene, options);
   options.terminator = Terminator::smooth;
   const Picture smooth = render(scene, options);
@@ -184,6 +185,35 @@ TEST(ShadowRender, ASmoothTerminatorIsTheSameToRays) {
   const ZTest z = z_test(analytic, reference, 2e-4);
   EXPECT_GT(z.tested, 500u);
   EXPECT_GE(z.share(), 0.9975) << "worst " << z.worst;
+}
+
+// A convex ball occludes no light above its triangles' horizons, however far away the light is: as far as those of an environment, float
+// coordinates from the light's place have no digits for the triangles of the ball.
+TEST(ShadowRender, ABallHasNoSpecksUnderAFarLight) {
+  Scene scene;
+  scene.materials = {diffuse(0.6f)};
+  scene.meshes = {ball_mesh({0.1f, -0.2f, 0.3f}, 1, 0, 64, 32)};
+  scene.cameras = {camera_at({0.1, -0.2, 4.3}, {0, 0, -1}, 0.45)};  // the ball fills it
+  RenderOptions options = small();
+  options.width = options.height = 160;
+  for (const double distance : {30.0, 1e3, 1e4, 1e5}) {
+    const Vec3d center = Vec3d{0.3, 0.2, 1} * distance, x = Vec3d{0.2, 0, -0.06} * distance, y = Vec3d{0, 0.2, -0.04} * distance;
+    scene.area_lights = {{Polygon{{center - x - y, center - x + y, center + x + y, center + x - y}, {}}, {1, 1, 1}}};
+    for (const Terminator terminator : {Terminator::strict, Terminator::smooth}) {
+      options.terminator = terminator;
+      options.shadows = Shadows::off;
+      const Picture open = render(scene, options);
+      options.shadows = Shadows::on;
+      const Picture shadowed = render(scene, options);
+      for (int py = 20; py < 140; ++py)
+        for (int px = 20; px < 140; ++px) {
+          if (std::hypot(px - 79.5, py - 79.5) > 60) continue;
+          const Vec3f a = open.at(px, py), b = shadowed.at(px, py);
+          EXPECT_GT(length(a), 0.01f);
+          EXPECT_LT(length(a - b), 1e-3f * length(a)) << distance << " at " << px << ' ' << py;
+        }
+    }
+  }
 }
 
 TEST(ShadowRender, GivesTheSameBytesAtAnyNumberOfThreads) {

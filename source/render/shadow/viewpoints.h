@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/surface/ray_scene.h"
 #include "render/tile/tile.h"
 #include "shadow/edges/segments.h"
 #include "steradian/render.h"
@@ -30,6 +31,6 @@ struct TilePoints {
   PointGroups groups;
 };
 // The tile's points, moved off their surfaces. With Terminator::strict, nothing below the horizons of their triangles is visible.
-TilePoints points_for_shadows(const SurfaceTile& tile, Terminator terminator);
+TilePoints points_for_shadows(const SurfaceTile& tile, const RayScene& rays, Terminator terminator);
 
 }  // namespace steradian

@@ -83,11 +83,11 @@ bool holds(RTCGeometry geometry, const std::vector<std::uint32_t>& indices) {
                      indices.size() * sizeof(std::uint32_t)) == 0;
 }
 
-float unit_of(const Scene& scene) {
-  float size = 0;
+float reach_of(const Scene& scene) {
+  float reach = 0;
   for (const Mesh& mesh : scene.meshes)
-    for (const Vec3f& p : mesh.positions) size = std::max({size, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  return unit_of_size(size);
+    for (const Vec3f& p : mesh.positions) reach = std::max({reach, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  return reach;
 }
 
 // Multiplies arrays of sixteen rays.
@@ -186,7 +186,8 @@ bool RayScene::put(unsigned number, const Mesh& mesh, const Scene& scene) {
 
 bool RayScene::follow(const Scene& scene) {
   bool any = parts_.empty(), edges = false;
-  unit_ = unit_of(scene);
+  reach_ = reach_of(scene);
+  unit_ = unit_of_size(reach_);
   parts_.resize(std::max(parts_.size(), scene.meshes.size()));
   const Mesh nothing;
   for (unsigned i = 0; i < parts_.size(); ++i) {
@@ -241,17 +242,11 @@ bool RayScene::blocked(Vec3f from, Vec3f direction, float near, float far, unsig
   return ray.tfar < 0;  // Embree's sign for a hit
 }
 
-namespace {
-
-// Distance of a shadow ray's origin from its surface: a few roundings of its coordinates.
-float offset_of(Vec3f p) { return 1e-5f + 4e-6f * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
-
-}  // namespace
-
 bool RayScene::occluded(Vec3f from, Vec3f to) const {
   const Vec3f d = to - from;
   const float distance = length(d);
-  const float near = offset_of(from) + 1e-4f * std::min(distance, 1.0f), far = distance * (1.0f - 1e-4f) - offset_of(to);
+  const auto offset = [&](Vec3f p) { return static_cast<float>(offset_from_surface(static_cast<Vec3d>(p))); };
+  const float near = offset(from) + 1e-4f * std::min(distance, 0.1f * reach_), far = distance * (1.0f - 1e-4f) - offset(to);
   if (!(far > near)) return false;
   return blocked(from * unit_, d / distance, near * unit_, far * unit_, kCastsShadow);
 }

@@ -12,6 +12,7 @@
 
 #include "core/mip_maps.h"
 #include "shadow/edges/gather.h"
+#include "shadow/edges/segments.h"
 #include "shadow/rays/shafts.h"
 #include "steradian/render_cache.h"
 #include "steradian/scene.h"
@@ -50,7 +51,7 @@ class RayScene {
   bool intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const;
 
   // True if something lies between two points, even close to one of them. A point on a surface must first be moved off it
-  // (shadow::offset_from_surface).
+  // (offset_from_surface).
   bool between(Vec3d from, Vec3d to, Casters casters = Casters::with_edges) const;
   // Tests sixteen rays at once, those in the bits of `asked`, against meshes whose edges cast exact shadows. Returns the blocked ones.
   struct Sixteen {
@@ -59,6 +60,10 @@ class RayScene {
     void set(std::size_t i, Vec3d from, Vec3d along);
   };
   std::uint32_t blocked_among(Sixteen& sixteen, std::uint32_t asked) const;
+
+  // Distance that the origin of a shadow ray keeps from its surface, whose position is in float.
+  double offset_from_surface(Vec3d position) const { return shadow::offset_from_surface(position, static_cast<double>(reach_), 0x1p-24); }
+  float reach() const { return reach_; }  // largest coordinate of the meshes
 
   bool blocked_towards(Vec3d from, Vec3d direction) const;  // blocked by any mesh; direction: unit
 
@@ -89,7 +94,8 @@ class RayScene {
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> rtc_;
   std::vector<Part> parts_;  // by mesh
-  float unit_ = 1;           // factor from the scene's lengths to Embree's
+  float reach_ = 0;
+  float unit_ = 1;  // factor from the scene's lengths to Embree's
 };
 
 // SceneParts: structures over a scene's meshes for rays and shadows, and its images at smaller sizes. They serve any camera and any lights.

@@ -156,11 +156,9 @@ Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec
   const Corner at(mesh, triangle, u, v);
   const Vec3f hit = at(mesh.positions);
   Vec3f lift{};
-  for (const auto& [i, weight] : {std::pair{at.i0, at.w0}, std::pair{at.i1, at.u}, std::pair{at.i2, at.v}}) {
-    const Vec3f n = unit(mesh.normals[i]);
-    const Vec3f up = dot(n, outside) < 0 ? -n : n;
-    lift += up * (weight * std::max(0.0f, dot(mesh.positions[i] - hit, up)));
-  }
+  for (const auto& [i, weight] : {std::pair{at.i0, at.w0}, std::pair{at.i1, at.u}, std::pair{at.i2, at.v}})
+    lift += from_kernel(SurfaceKernels().surface_lift(in_kernel(mesh.positions[i] - hit), in_kernel(unit(mesh.normals[i])),
+                                                      in_kernel(outside), in_kernel(weight)));
   return hit + lift;
 }
 

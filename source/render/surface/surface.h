@@ -34,13 +34,9 @@ struct Surface {
 // Base colour with alpha at barycentric coordinates u, v (weights of the second and third vertex) of a mesh's triangle.
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v);
 
-// Moves a hit to the curved surface that the normals of the triangle's vertices describe, if that lies outside the triangle. The result is
-// the mean of the hit's feet on the planes through the vertices, by their weights. At a vertex, on a flat triangle and in a hollow it is
-// the hit itself.
+// Moves a hit to the curved surface that the normals of the triangle's vertices describe, if that lies outside the triangle (surface_lift).
 //
 //   outside  the triangle's normal, turned to the viewer
-//
-// Source: Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021.
 Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec3f outside);
 
 // Footprint of a pixel on a triangle: the changes of the barycentric coordinates u, v to the next pixels. Textures are means over it.

@@ -98,6 +98,11 @@ Camera camera_at(const Affine& world, double yfov, std::string name) {
   return {std::move(name), world.t, frame.x, frame.y, z, yfov};
 }
 
+void GltfNodes::move(Vec3d by) {
+  for (Affine& node : world) node.t += by;
+  for (GltfNode& node : visible) node.world.t += by;
+}
+
 GltfNodes read_nodes(const GltfDocument& document) {
   const JsonElements nodes = document.root().elements("nodes");
   std::vector<std::vector<int>> children(nodes.size());

@@ -22,6 +22,8 @@ struct GltfNodes {
   std::vector<Affine> world;      // for every node of the file, in the scene or not
   std::vector<GltfNode> visible;  // nodes of the scene, parents before children, without those of scale zero
   std::size_t zero_scaled = 0;    // nodes skipped because one of their scales is zero
+
+  void move(Vec3d by);  // moves all of them in the world
 };
 
 // Ray casting and the arithmetic of lights use single precision and square their operands twice. Beyond this distance from the origin

@@ -116,6 +116,12 @@ void EdgeArrays::Vectors::push_back(const Vec3f& v) {
   z.push_back(v.z);
 }
 
+Vec3d EdgeArrays::anchor_of(const LightFrame& frame) const {
+  // Farther away than this many radii, roundings of the light's coordinates come near a point's distance from its triangle.
+  constexpr double kFar = 4;
+  return length(frame.origin - around_.middle) > kFar * around_.radius ? around_.middle : frame.origin;
+}
+
 void EdgeArrays::clear() {
   for (Vectors* v : {&vertices_, &normals_}) v->resize(0);
   for (auto* v : {&vertex_, &plane_, &edge_}) v->clear();
@@ -157,11 +163,14 @@ LaneEdges EdgeArrays::lane_edges() const {
 void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
                         const std::vector<std::uint32_t>& crossing, std::span<const std::uint32_t> inside) {
   clear();
+  around_ = mesh.around;
+  anchor_ = anchor_of(frame);
+  is_far_ = !(anchor_ == frame.origin);
   vertices_seen.begin(mesh.vertices.size());
   planes_seen.begin(mesh.triangles.size());
   const auto vertex = [&](std::uint32_t v) {
     return vertices_seen.of(v, [&] {
-      vertices_.push_back(to_float(frame.to_local(mesh.vertices[v])));
+      vertices_.push_back(to_float(frame.axes.to_local(mesh.vertices[v] - anchor_)));
       vertex_.push_back(v);
       return static_cast<std::uint32_t>(vertex_.size() - 1);
     });
@@ -170,8 +179,8 @@ void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std
     return planes_seen.of(t, [&] {
       const Plane& p = mesh.planes[t];
       normals_.push_back(to_float(frame.axes.to_local(p.normal)));
-      // A plane far from the light's origin keeps its digits only if the offset is taken there.
-      offsets_.push_back(static_cast<float>(p.offset - dot(p.normal, frame.origin)));
+      // A plane far from the anchor keeps its digits only if the offset is taken there.
+      offsets_.push_back(static_cast<float>(p.offset - dot(p.normal, anchor_)));
       plane_.push_back(t);
       return static_cast<std::uint32_t>(plane_.size() - 1);
     });
@@ -215,9 +224,12 @@ void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std
 void EdgeArrays::assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, const EdgeArrays& tile, const LightFrame& frame,
                                const Shaft& shaft) {
   clear();
+  around_ = tile.around_;
+  anchor_ = tile.anchor_;
+  is_far_ = tile.is_far_;
   found_.resize(tile.walks0_.size());
   const std::size_t kept = packs.filter(tile.view(), tile.vertices_.view(), tile.normals_.view(), tile.offsets_.data(),
-                                        shaft.view_from(frame), tile.has_more_.data(), found_.data());
+                                        shaft.view_from(frame.axes, anchor_), tile.has_more_.data(), found_.data());
   vertices_seen.begin(tile.vertex_.size());
   planes_seen.begin(tile.plane_.size());
   const auto vertex = [&](std::uint32_t v) {
@@ -269,28 +281,28 @@ void EdgeArrays::assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, c
 
 void EdgeArrays::see(const ShadowTable& packs, const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline,
                      SegmentSet& result) {
-  collect(packs, frame, vertices_, frame.to_local(from.position), from, outline, result);
+  collect(packs, frame, vertices_, frame.axes.to_local(from.position - anchor_), from, outline, result);
 }
 
 void EdgeArrays::see_turned(const ShadowTable& packs, const LightFrame& base, const LightFrame& frame, const Viewpoint& from,
                             const std::vector<Segment>& outline, SegmentSet& result) {
   const Vec3f x = to_float(base.axes.to_local(frame.axes.x)), y = to_float(base.axes.to_local(frame.axes.y)),
-              z = to_float(base.axes.to_local(frame.axes.z)), o = to_float(base.to_local(frame.origin));
+              z = to_float(base.axes.to_local(frame.axes.z)), o = to_float(base.axes.to_local(anchor_of(frame) - anchor_));
   const float axes[9] = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z}, origin[3] = {o.x, o.y, o.z};
   packs.turn(vertices_.view(), vertices_.size(), axes, origin, turned_.span());
-  collect(packs, frame, turned_, base.to_local(from.position), from, outline, result);
+  collect(packs, frame, turned_, base.axes.to_local(from.position - anchor_), from, outline, result);
 }
 
 void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, const Vectors& vertices, const Vec3d& in_planes,
                          const Viewpoint& from, const std::vector<Segment>& outline, SegmentSet& result) {
   result.clear();
-  const Vec3d point = frame.to_local(from.position);
-  const Vec3f eye = to_float({point.x, point.y, -point.z}), seen_by_planes = to_float(in_planes);
+  const Eye point = eye_of(frame, anchor_of(frame), from.position);
+  const Vec3f eye = to_float(point.eye), shift = to_float(point.shift), seen_by_planes = to_float(in_planes);
   const K::vec2 box(static_cast<float>(frame.box_x), static_cast<float>(frame.box_y));
-  const auto height = static_cast<float>(-frame.eta);
+  const auto height = static_cast<float>(point.height);
   const float at[3] = {seen_by_planes.x, seen_by_planes.y, seen_by_planes.z};
   packs.facing(normals_.view(), offsets_.data(), normals_.size(), at, facing_.data());
-  packs.project(vertices.view(), vertices.size(), {eye.x, eye.y, eye.z, box.x.v, box.y.v, height},
+  packs.project(vertices.view(), vertices.size(), {{eye.x, eye.y, eye.z}, {shift.x, shift.y, shift.z}, {box.x.v, box.y.v}, height},
                 {homogeneous_.span(), cell_x_.data(), cell_y_.data(), outside_.data()});
   std::size_t count = packs.contours(view(), facing_.data(), outside_.data(), found_.data(), weights_.data());
 
@@ -313,7 +325,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
     }
   }
 
-  const K::vec3 eye_kernel(eye.x, eye.y, eye.z);
+  const K::vec3 eye_kernel(eye.x, eye.y, eye.z), shift_kernel(shift.x, shift.y, shift.z);
   const auto position = [&](std::size_t v) { return K::vec3(vertices.x[v], vertices.y[v], vertices.z[v]); };
   const auto end_of = [&](std::size_t v) -> End {
     return {{homogeneous_.x[v], homogeneous_.y[v], homogeneous_.z[v]},
@@ -322,7 +334,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
             static_cast<int>(outside_[v])};
   };
   const auto cut_between = [&](std::size_t v0, std::size_t v1) {
-    return end_at(K().shadow_project(eye_kernel, K().shadow_cut(position(v0), position(v1), height)), box);
+    return end_at(K().shadow_project(eye_kernel, shift_kernel, K().shadow_cut(position(v0), position(v1), height)), box);
   };
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t e = found_[i];

@@ -24,6 +24,12 @@ class EdgeArrays {
   // Takes the edges of a tile that a shaft needs. The shaft is in the world of the tile's frame.
   void assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, const EdgeArrays& tile, const LightFrame& frame, const Shaft& shaft);
 
+  // Positions in float are relative to an anchor: the origin of a light's frame, or the middle of all triangles for a light that is so far
+  // away that its coordinates have no digits for distances between triangles.
+  Vec3d anchor() const { return anchor_; }
+  Vec3d anchor_of(const LightFrame& frame) const;
+  bool is_far() const { return is_far_; }  // the light
+
   bool empty() const { return edge_.empty() && crossing_.empty(); }
   std::size_t edge_count() const { return edge_.size(); }
   std::size_t vertex_count() const { return vertex_count_; }
@@ -70,6 +76,9 @@ class EdgeArrays {
   void collect(const ShadowTable& packs, const LightFrame& frame, const Vectors& vertices, const Vec3d& plane_point, const Viewpoint& from,
                const std::vector<Segment>& outline, SegmentSet& result);
 
+  Around around_;
+  Vec3d anchor_;
+  bool is_far_ = false;
   std::size_t vertex_count_ = 0, plane_count_ = 0;
   Vectors vertices_;
   std::vector<std::uint32_t> vertex_;  // numbers in the mesh

@@ -66,6 +66,13 @@ void sort_into_leaves(EdgeMesh& mesh) {
     for (std::uint32_t& e : sides) e = place[e];
 }
 
+Around ball_around(const EdgeMesh& mesh) {
+  Box3d box;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) box.add(box_of(mesh, t));
+  if (box.is_empty()) return {};
+  return {box.center(), length(box.half())};
+}
+
 struct TriangleSide {
   std::uint32_t v0, v1, triangle, corner;
   std::int32_t walks;
@@ -115,12 +122,13 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
     for (const std::uint32_t t : triangles)
       for (const std::uint32_t e : mesh.triangle_edges[t]) mesh.edges[e].at_body = true;
   sort_into_leaves(mesh);
+  mesh.around = ball_around(mesh);
   return mesh;
 }
 
-EdgeMesh build_edges(const Scene& scene) {
-  std::vector<Vec3d> positions;
-  std::vector<std::uint32_t> indices;
+BlockingTriangles blocking_triangles(const Scene& scene) {
+  BlockingTriangles result;
+  auto& [positions, indices] = result;
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.is_light_shape || !mesh.casts_shadow || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask)
       continue;
@@ -128,7 +136,12 @@ EdgeMesh build_edges(const Scene& scene) {
     for (const Vec3f p : mesh.positions) positions.push_back(static_cast<Vec3d>(p));
     for (const std::uint32_t i : mesh.indices) indices.push_back(first + i);
   }
-  return build_edges(positions, indices, bodies_of(scene.area_lights));
+  return result;
+}
+
+EdgeMesh build_edges(const Scene& scene) {
+  const BlockingTriangles triangles = blocking_triangles(scene);
+  return build_edges(triangles.positions, triangles.indices, bodies_of(scene.area_lights));
 }
 
 std::vector<Body> bodies_of(const std::vector<AreaLight>& lights) {

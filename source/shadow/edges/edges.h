@@ -32,6 +32,12 @@ struct Edge {
   bool at_body = false;  // a triangle of it lies within a round light, and does not block that light
 };
 
+// A ball around the triangles.
+struct Around {
+  Vec3d middle;
+  double radius = 0;
+};
+
 struct EdgeMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -40,6 +46,7 @@ struct EdgeMesh {
   std::vector<EdgeTriangle> edge_triangles;                  // in the order of edges
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
   std::vector<std::vector<std::uint32_t>> inside;            // for each body, the triangles inside it, ascending
+  Around around;
 };
 
 // The box around a triangle.
@@ -52,8 +59,14 @@ inline constexpr std::uint32_t kLeafEdges = 16;
 // that is not finite are dropped. Triangles that enter a body are cut along its surface.
 EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices, std::span<const Body> bodies = {});
 
-// Builds the edges of everything that blocks a scene's light exactly: no shapes that stand for lights, no cut-outs. The bodies are those of
-// the scene's area lights (bodies_of).
+// Everything that blocks a scene's light exactly: no shapes that stand for lights, no cut-outs.
+struct BlockingTriangles {
+  std::vector<Vec3d> positions;
+  std::vector<std::uint32_t> indices;  // three a triangle
+};
+BlockingTriangles blocking_triangles(const Scene& scene);
+
+// Builds the edges of a scene's blocking triangles. The bodies are those of its area lights (bodies_of).
 EdgeMesh build_edges(const Scene& scene);
 
 // The bodies of the round lights among a scene's area lights, in their order.

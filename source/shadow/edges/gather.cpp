@@ -114,7 +114,7 @@ bool Shaft::needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const {
   return count != 2 || may_meet_segment(ends[0], ends[1]);
 }
 
-ShaftView Shaft::view_from(const LightFrame& frame) const {
+ShaftView Shaft::view_from(const Frame& axes, Vec3d anchor) const {
   ShaftView view{};
   const auto put = [](float to[3], Vec3d v) {
     to[0] = static_cast<float>(v.x);
@@ -122,13 +122,13 @@ ShaftView Shaft::view_from(const LightFrame& frame) const {
     to[2] = static_cast<float>(v.z);
   };
   for (std::size_t i = 0; i < kShaftSides; ++i) {
-    put(view.normal[i], frame.axes.to_local(bounds_[i].normal));
-    const double offset = bounds_[i].offset - dot(bounds_[i].normal, frame.origin);
+    put(view.normal[i], axes.to_local(bounds_[i].normal));
+    const double offset = bounds_[i].offset - dot(bounds_[i].normal, anchor);
     view.offset[i] = static_cast<float>(offset + 1e-6 * std::fabs(offset));
   }
-  put(view.middle, frame.to_local(center_));
-  for (int i = 0; i < 3; ++i) put(view.half[i], frame.axes.to_local(half_[i]) * (1 + 1e-6));
-  view.reach = static_cast<float>(length(origin_ - frame.origin) + 2 * far_);
+  put(view.middle, axes.to_local(center_ - anchor));
+  for (int i = 0; i < 3; ++i) put(view.half[i], axes.to_local(half_[i]) * (1 + 1e-6));
+  view.reach = static_cast<float>(length(origin_ - anchor) + 2 * far_);
   return view;
 }
 
@@ -183,10 +183,7 @@ EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint3
 
 void EdgeTree::gather(const ShadowTable& packs, const Shaft& shaft, std::vector<std::uint32_t>& edges) const {
   edges.clear();
-  LightFrame here;
-  here.origin = middle_;
-  here.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const ShaftView view = shaft.view_from(here);
+  const ShaftView view = shaft.view_from({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, middle_);
   // The margins are those of edges, for the whole box.
   const auto meets = [&view](const BoxTree<Box3f>::Node& node) {
     const Vec3f c = node.volume.center(), h = node.volume.half();

@@ -83,8 +83,8 @@ class Shaft {
   // Returns true if a triangle's section by the light's plane may be a segment.
   bool needs_triangle(const EdgeMesh& mesh, std::uint32_t triangle) const;
 
-  // The shaft in a frame's coordinates, for packs.
-  ShaftView view_from(const LightFrame& frame) const;
+  // The shaft for packs: in coordinates along some axes, relative to an anchor.
+  ShaftView view_from(const Frame& axes, Vec3d anchor) const;
 
  private:
   struct Bound {  // inside: dot(normal, x) <= offset

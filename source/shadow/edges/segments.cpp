@@ -103,7 +103,7 @@ void SegmentSet::clear() {
   occluders = 0;
 }
 
-double offset_from_surface(Vec3d p) { return 1e-5 + 4e-6 * std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
+double offset_from_surface(Vec3d p, double reach, double rounding) { return rounding * (64 * largest_coordinate(p) + 32 * reach); }
 
 std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame, std::span<const std::uint32_t> inside) {
   std::vector<std::uint32_t> result;
@@ -206,7 +206,7 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
   result.clear();
   const Vec3d point = frame_->to_local(from.position);
   const vec3 at = {static_cast<S>(point.x), static_cast<S>(point.y), static_cast<S>(point.z)};
-  const vec3 eye = {at.x, at.y, -at.z};
+  const vec3 eye = {at.x, at.y, -at.z}, shift = {S(0), S(0), eye.z.v};
   const auto height = static_cast<S>(-frame_->eta);
   const auto vertex = [&](std::uint32_t i) { return vec3(vertices_[i].x, vertices_[i].y, vertices_[i].z); };
   const auto below = [&](std::uint32_t i) { return vertices_[i].z < height; };
@@ -228,7 +228,8 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
       (below0 ? b : a) = cut;
       (below0 ? id_b : id_a) = kCutId | edge.number;
     }
-    add_clipped<S>(*frame_, k.shadow_project(eye, a), k.shadow_project(eye, b), id_a, id_b, weight, Source::edge, edge.number, result);
+    add_clipped<S>(*frame_, k.shadow_project(eye, shift, a), k.shadow_project(eye, shift, b), id_a, id_b, weight, Source::edge, edge.number,
+                   result);
   }
 
   const std::size_t sections = result.segments.size();
@@ -244,7 +245,8 @@ void LocalEdges<S>::see(const Viewpoint& from, SegmentSet& result) const {
     const auto cut = [&](int side) {
       const std::uint32_t from_v = t.corners[side], to_v = t.corners[(side + 1) % 3];
       return k.shadow_project(
-          eye, from_v < to_v ? k.shadow_cut(vertex(from_v), vertex(to_v), height) : k.shadow_cut(vertex(to_v), vertex(from_v), height));
+          eye, shift,
+          from_v < to_v ? k.shadow_cut(vertex(from_v), vertex(to_v), height) : k.shadow_cut(vertex(to_v), vertex(from_v), height));
     };
     const std::uint64_t id_a = kCutId | t.edges[leaving], id_b = kCutId | t.edges[returning];
     add_section(result, sections, [&] {

@@ -2,6 +2,8 @@
 // to 4 of docs/shadows.md.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -59,8 +61,14 @@ struct Viewpoint {
   std::uint64_t seed = 0;                 // seed of everything found by random rays from the point
 };
 
-// Distance that a point keeps from its triangle: a few roundings of its coordinates.
-double offset_from_surface(Vec3d position);
+// Distance that a point keeps from its triangle. It exceeds the roundings of the point, and those of triangles in the frame of a light
+// (docs/theory/shadows.md, "The point").
+//
+//   reach     largest coordinate of the triangles and the light
+//   rounding  of the numbers that hold them, relative
+double offset_from_surface(Vec3d position, double reach, double rounding);
+
+inline double largest_coordinate(Vec3d p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 
 // Edges and crossing triangles that some points need, in a light's frame. S is the type in which positions are computed: double, or float
 // as packs do.

@@ -23,11 +23,11 @@ struct alignas(64) LaneInts {
 // The points and their views of the light's plane (Projection). Lanes without a point repeat another one.
 struct LaneView {
   LaneBits valid = 0;
-  LaneReals at[3];   // in the coordinates of the edges
-  LaneReals eye[3];  // (x, y, -z) of the point in its light's frame
+  LaneReals at[3];             // in the coordinates of the edges
+  LaneReals eye[3], shift[3];  // of the point in its light's frame (shadow_project)
   LaneReals box_x, box_y, height;
   LaneReals axes[9];    // axes of its frame in world space, row by row
-  LaneReals origin[3];  // origin of its frame, in the coordinates of the edges
+  LaneReals origin[3];  // anchor of its frame, in the coordinates of the edges
   bool turned = false;  // true: axes and origin are not those of the edges' frame and differ from lane to lane
   LaneReals normal[3];  // shading normal in world space
   LaneInts base;        // count at the lower left corner

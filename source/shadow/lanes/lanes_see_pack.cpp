@@ -32,7 +32,7 @@ class View {
   template <class To>
   STERADIAN_INLINE void look(const PackVec3& v, std::size_t i, To& to, std::uint32_t out[4]) const {
     K k;
-    const PackVec3 h = k.shadow_project(get(view_.eye, i), v);
+    const PackVec3 h = k.shadow_project(get(view_.eye, i), get(view_.shift, i), v);
     const K::vec2 b = box(i), cell = k.shadow_cell(h, b, 0.0);
     put(to.x, i, h.x);
     put(to.y, i, h.y);

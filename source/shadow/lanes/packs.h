@@ -25,9 +25,9 @@ enum OutsideBits { kLeftOut = 1, kRightOut = 2, kBottomOut = 4, kTopOut = 8, kBo
 
 // A point's view of a light's plane.
 struct Projection {
-  float eye_x = 0, eye_y = 0, eye_z = 0;  // (eye_x, eye_y, -eye_z) is the point
-  float box_x = 0, box_y = 0;
-  float height = 0;  // only geometry below it blocks
+  float eye[3], shift[3];  // shadow_project
+  float box[2];
+  float height;  // only geometry below it blocks
 };
 struct ProjectedView {
   VectorSpan homogeneous;                      // result of shadow_project

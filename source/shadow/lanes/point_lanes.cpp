@@ -35,23 +35,25 @@ std::int32_t whole(float x) { return static_cast<std::int32_t>(x); }
 
 }  // namespace
 
-void PointLanes::take_points(const LightFrame& base, bool turned) {
+void PointLanes::take_points(const EdgeArrays& edges, const LightFrame& base, bool turned) {
   view_.turned = turned;
   view_.valid = static_cast<LaneBits>((1u << point_count_) - 1);
   for (std::size_t lane = 0; lane < kPoints; ++lane) {
     const Point& point = points_[std::min(lane, point_count_ - 1)];
     const LightFrame& frame = *point.frame;
-    const Vec3d local = frame.to_local(point.at->position);
-    put(view_.eye, lane, {local.x, local.y, -local.z});
-    put(view_.at, lane, turned ? base.to_local(point.at->position) : local);
-    put(view_.origin, lane, base.to_local(frame.origin));
+    const Vec3d anchor = edges.anchor_of(frame);
+    const Eye eye = eye_of(frame, anchor, point.at->position);
+    put(view_.eye, lane, eye.eye);
+    put(view_.shift, lane, eye.shift);
+    put(view_.at, lane, base.axes.to_local(point.at->position - edges.anchor()));
+    put(view_.origin, lane, base.axes.to_local(anchor - edges.anchor()));
     put(view_.axes, lane, frame.axes.x);
     put(view_.axes + 3, lane, frame.axes.y);
     put(view_.axes + 6, lane, frame.axes.z);
     put(view_.normal, lane, point.at->normal);
     view_.box_x.at[lane] = static_cast<float>(frame.box_x);
     view_.box_y.at[lane] = static_cast<float>(frame.box_y);
-    view_.height.at[lane] = static_cast<float>(-frame.eta);
+    view_.height.at[lane] = static_cast<float>(eye.height);
     view_.base.at[lane] = 0;
   }
 }
@@ -223,7 +225,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   outline_ = &outline;
   point_count_ = points.size();
   std::copy(points.begin(), points.end(), points_.begin());
-  take_points(base, turned);
+  take_points(edges, base, turned);
   const auto grow = [](auto& v, std::size_t n) {
     if (v.size() < n) v.resize(n + n / 2);
   };

@@ -58,7 +58,7 @@ class PointLanes {
   }
 
  private:
-  void take_points(const LightFrame& base, bool turned);
+  void take_points(const EdgeArrays& edges, const LightFrame& base, bool turned);
   void add_surroundings(LaneBits lanes);
   void make_room();
   void sort_boxes(const LaneTable& packs);

@@ -31,11 +31,11 @@ __attribute__((flatten)) void turn(const VectorView& from, std::size_t count, co
 
 __attribute__((flatten)) void project(const VectorView& vertices, std::size_t count, const Projection& by, const ProjectedView& to) {
   K k;
-  const PackVec3 eye = broadcast({by.eye_x, by.eye_y, by.eye_z});
-  const K::vec2 box(broadcast(by.box_x), broadcast(by.box_y));
+  const PackVec3 eye = broadcast({by.eye[0], by.eye[1], by.eye[2]}), shift = broadcast({by.shift[0], by.shift[1], by.shift[2]});
+  const K::vec2 box(broadcast(by.box[0]), broadcast(by.box[1]));
   const PackReal zero(0.0);
   for (std::size_t i = 0; i < count; i += kLanes) {
-    const PackVec3 v = load_vector(vertices, i), h = k.shadow_project(eye, v);
+    const PackVec3 v = load_vector(vertices, i), h = k.shadow_project(eye, shift, v);
     store_vector(to.homogeneous, i, h);
     const K::vec2 cell = k.shadow_cell(h, box, zero);
     store(to.cell_x + i, cell.x);

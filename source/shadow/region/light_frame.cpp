@@ -72,6 +72,11 @@ Vec3d LightFrame::way(Vec3d from, Vec3d place) const {
   return to * std::max((z - eta) / z, 0.0);
 }
 
+Eye eye_of(const LightFrame& frame, Vec3d anchor, Vec3d point) {
+  const Vec3d at = frame.to_local(point), a = frame.to_local(anchor), p = frame.axes.to_local(point - anchor);
+  return {{at.x, at.y, -at.z}, {p.x * a.z - a.x * p.z, p.y * a.z - a.y * p.z, -p.z}, -frame.eta - a.z};
+}
+
 LightFrame light_frame(const PreparedPolygon& light, int side) {
   const Vec3d z = side < 0 ? light.normal : -light.normal;
   const auto [best_x, best_y, best] = bounding_of(light, z);

@@ -36,6 +36,13 @@ struct LightFrame {
   Vec3d way(Vec3d from, Vec3d place) const;
 };
 
+// How a point projects vertices whose coordinates are relative to an anchor (shadow_project).
+struct Eye {
+  Vec3d eye, shift;
+  double height;  // only vertices below it block
+};
+Eye eye_of(const LightFrame& frame, Vec3d anchor, Vec3d point);
+
 // Sets box and eta from the half sides.
 void put_box(LightFrame& frame);
 

@@ -29,6 +29,11 @@ PreparedPolygon light_of(const VisibleRegion& region, const PreparedPolygon& lig
   return part;
 }
 
+Occluders::Occluders(EdgeMesh m) : mesh(std::move(m)), rays(mesh) {
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t) reach = std::max(reach, largest_coordinate(mesh.vertices[v]));
+}
+
 Occluders Occluders::cut_by(const Body& body) const {
   std::vector<std::uint32_t> indices;
   indices.reserve(3 * mesh.triangles.size());

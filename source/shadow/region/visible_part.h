@@ -9,11 +9,12 @@ namespace steradian::shadow {
 
 // Triangles that block light, prepared once.
 struct Occluders {
-  explicit Occluders(EdgeMesh m) : mesh(std::move(m)), rays(mesh) {}
+  explicit Occluders(EdgeMesh m);
   // The same triangles, cut along the surface of a body.
   Occluders cut_by(const Body& body) const;
   EdgeMesh mesh;
   TriangleRays rays;
+  double reach = 0;  // largest coordinate of the triangles
 };
 
 // Converts a region to a light: each piece is a contour of two vertices (visible_part). side: side on which the point lies.

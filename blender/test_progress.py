@@ -1,0 +1,58 @@
+"""What the add-on hears of the program and tells of it, without Blender.
+
+    test_progress.py PROGRAM SCENE
+"""
+import importlib.util
+import sys
+import tempfile
+import time
+import types
+from pathlib import Path
+
+sys.modules["bpy"] = types.ModuleType("bpy")  # program.py asks it for preferences only
+spec = importlib.util.spec_from_file_location("program", Path(__file__).resolve().parent / "steradian" / "program.py")
+program = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(program)
+
+
+def ended(command):
+    """The run, and the shares that it told on its way."""
+    run, shares = program.Run(command), []
+    while run.is_running():
+        time.sleep(0.02)
+        if run.share_done() not in (None, *shares[-1:]):
+            shares.append(run.share_done())
+    run.close()
+    return run, shares
+
+
+def test_render(steradian, scene):
+    """A render of some seconds tells its share about once a second, and nothing of that is left among its lines."""
+    with tempfile.TemporaryDirectory() as folder:
+        run, shares = ended([steradian, "render", scene, "-o", folder + "/x.png", "--size", "640x360", "--aa", "4", "--threads", "1"])
+    assert run.process.returncode == 0, run.lines()
+    assert shares and shares == sorted(shares) and 0 < shares[0] and shares[-1] <= 1, shares
+    assert not any("left" in line for line in run.lines()), run.lines()
+    print(f"{len(shares)} shares, {shares[0]} to {shares[-1]}; said {run.lines()}")
+
+
+def test_other_lines():
+    """Lines that are no progress are kept, also of a program that is stopped."""
+    run, shares = ended(["sh", "-c", "echo 'warning: x'; echo 'render    5.0 %  1 s, 19 s left' >&2; sleep 0.2; echo; echo 7.0 %; exit 3"])
+    assert (run.process.returncode, run.lines(), shares) == (3, ["warning: x", "7.0 %"], [0.05]), (run.lines(), shares)
+    run = program.Run(["sh", "-c", "exec sleep 60"])
+    run.stop()
+    assert run.process.returncode != 0
+
+
+def test_telling():
+    """At most one line a second, whose first comes at once."""
+    telling = program.Telling(100.0)
+    lines = [telling.line(100 + step / 20, None if step < 30 else step / 100) for step in range(61)]
+    told = [line for line in lines if line is not None]
+    assert told == ["rendering, 0 s", "rendering, 1 s", "rendering, 2 s, 40 %", "rendering, 3 s, 60 %"], told
+
+
+test_render(*sys.argv[1:])
+test_other_lines()
+test_telling()
