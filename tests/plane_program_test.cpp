@@ -200,6 +200,58 @@ TEST_F(Program, RenderOfAPlaneLeavesOccludersClear) {
   EXPECT_EQ(in_space.status, 2) << in_space.err;
 }
 
+TEST_F(Program, RenderOfAPlaneSaysWhatIsABackdrop) {
+  const std::string svg = folder / "scene.svg", exr = folder / "a.exr";
+  const auto drawing = [&](const std::string& more) {
+    std::ofstream(svg) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 64'>\n<g inkscape:label='Background'><rect id='page' "
+                          "width='96' height='64' fill='#ffe'"
+                       << more << "/></g>\n<circle class='light' cx='20' cy='30' r='6' fill='#fff'/></svg>";
+    const Outcome r = run({"render", svg, "-o", exr});
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err;
+  };
+  const std::string line = "taken for a backdrop, which blocks no light: page (covers the whole picture); data-steradian=\"occluder\"";
+  const std::string said = drawing("");
+  EXPECT_EQ(occurrences(said, line), 1u) << said;
+  EXPECT_GT(read_picture(exr).at(80, 30).x, 0.01f);
+  EXPECT_EQ(occurrences(drawing(" data-steradian='occluder'"), "backdrop"), 0u);
+  EXPECT_EQ(read_picture(exr).at(80, 30).x, 0.0f) << "it insists";
+
+  std::ofstream(svg) << "<svg viewBox='0 0 96 64'><rect width='96' height='64'/><circle class='light' cy='30' r='6' fill='#fff'>"
+                        "<animate attributeName='cx' from='10' to='50' dur='2s'/></circle></svg>";
+  const Outcome frames = run({"render", svg, "-o", folder / "f_#.exr", "--frames", "0..2"});
+  ASSERT_EQ(frames.status, 0) << frames.err;
+  EXPECT_EQ(occurrences(frames.err, "taken for a backdrop"), 1u) << "once for all frames: " << frames.err;
+  EXPECT_GT(read_picture(folder / "f_2.exr").at(80, 30).x, 0.01f);
+}
+
+TEST_F(Program, InfoTellsWhatADrawingHolds) {
+  const std::string svg = folder / "scene.svg";
+  std::ofstream(svg) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 64'>\n<rect id='page' width='96' height='64'/>\n"
+                        "<circle id='lamp' class='light' cx='20' cy='30' r='6' fill='#fff' data-range='40'/>\n"
+                        "<circle id='noon' data-steradian='sun' data-sun-direction='-90 10' fill='#fff'/>\n"
+                        "<rect id='pane' x='40' y='9' width='5' height='20' data-transmittance='0.5'/><rect x='70' y='9' width='5' height='9'/>"
+                        "\n<g style='display:none'><rect width='1' height='1'/></g><image/></svg>";
+  const Outcome r = run({"info", svg, "--json"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const json facts = json::parse(r.out);
+  ASSERT_EQ(facts["lights"].size(), 1u);
+  EXPECT_EQ(facts["lights"][0]["name"], "lamp");
+  EXPECT_EQ(facts["lights"][0]["range"], 40);
+  ASSERT_EQ(facts["suns"].size(), 1u);
+  EXPECT_NEAR(facts["suns"][0]["half_width"].get<double>(), 10, 1e-9);
+  ASSERT_EQ(facts["occluders"].size(), 2u);
+  EXPECT_EQ(facts["occluders"][0]["name"], "pane");
+  EXPECT_TRUE(facts["occluders"][0].contains("transmittance"));
+  EXPECT_EQ(facts["left_out"][0]["name"], "page");
+  EXPECT_EQ(facts["left_out"][0]["reason"], "covers the whole picture");
+  EXPECT_EQ(facts["left_out"][1]["name"], "<g> in line 6");
+  EXPECT_EQ(facts["not_supported"], json({"<image>"}));
+  const Outcome text = run({"info", svg});
+  EXPECT_NE(text.out.find("page; count 1; reason covers the whole picture"), std::string::npos) << text.out;
+  EXPECT_EQ(run({"info", folder / "none.svg"}).status, 1);
+}
+
 TEST_F(Program, RenderOfAPlaneTakesEveryMethod) {
   const std::string svg = folder / "scene.svg";
   std::ofstream(svg) << kScene;

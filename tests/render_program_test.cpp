@@ -303,6 +303,20 @@ TEST_F(Program, DiffNamesWhatItDoesNotCompare) {
   EXPECT_NE(r.err.find("not compared: layer variance"), std::string::npos) << r.err;
 }
 
+TEST_F(Program, RenderSaysOnceThatSurfacesDoNotLightEachOther) {
+  const std::string line = "direct light only", room = test::kSourceDir + "/scenes/room.glb";
+  const auto said = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", folder / "a.exr", "--size", "32x18"});
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 0) << r.err;
+    const std::size_t first = r.err.find(line);
+    return first == std::string::npos ? 0 : r.err.find(line, first + 1) == std::string::npos ? 1 : 2;
+  };
+  EXPECT_EQ(said({"render", room}), 1);
+  EXPECT_EQ(said({"render", room, "--indirect", "ltc", "--vpls", "1024"}), 0);
+  EXPECT_EQ(said({"render", floor_scene()}), 0) << "a floor alone sends itself no light";
+}
+
 TEST_F(Program, ExposesPngToMiddleGreyUnlessTold) {
   const std::string exr = folder / "a.exr", automatic = folder / "a.png", told = folder / "b.png";
   ASSERT_EQ(run({"render", floor_scene(), "-o", exr, "--size", "64x36"}).status, 0);

@@ -1,4 +1,4 @@
-// steradian info: the version and this machine's features; steradian info SCENE: the contents of a scene.
+// steradian info: the version and this machine's features; steradian info SCENE: the contents of a scene or of a drawing.
 #include <fmt/format.h>
 #include <xsimd/config/xsimd_config.hpp>
 #include <simdjson.h>
@@ -9,7 +9,9 @@
 #include "core/budget.h"
 #include "core/simd.h"
 #include "device/vulkan/device.h"
+#include "info_plane.h"
 #include "info_scene.h"
+#include "render_plane.h"
 #include "steradian/version.h"
 #include "verbs.h"
 
@@ -69,7 +71,7 @@ std::string text_of(const Json& value) {
 }  // namespace
 
 void add_info(CommandLine& line) {
-  Verb verb = line.verb("info", "Print the contents of a scene (.gltf, .glb), or the facts of this machine");
+  Verb verb = line.verb("info", "Print the contents of a scene (.gltf, .glb, .svg), or the facts of this machine");
   verb.group("This machine");
   struct Options {
     std::string scene;
@@ -81,7 +83,9 @@ void add_info(CommandLine& line) {
   verb.add_flag("--json", options->json, "print JSON");
   verb.add_limits(options->limits);
   verb.callback([options] {
-    const Json info = options->scene.empty() ? facts() : scene_facts(options->scene, options->limits);
+    const Json info = options->scene.empty()          ? facts()
+                      : is_plane_scene(options->scene) ? plane_facts(options->scene, options->limits)
+                                                       : scene_facts(options->scene, options->limits);
     if (!options->scene.empty() && !options->json) return fmt::print("{}", scene_text(info));
     if (options->json) return fmt::print("{}\n", info.dump(1));
     for (auto [key, value] : info.items()) {

@@ -15,6 +15,7 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/simd.h"
+#include "direct_only.h"
 #include "picture_options.h"
 #include "render_frames.h"
 #include "render_plane.h"
@@ -226,6 +227,7 @@ void run(const Verb& verb, RenderArguments& options) {
   LoadedScene loaded = load_scene(options.scene, load);
   const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  say_direct_only(loaded.scene, render_options.indirect.mode);
 
   for (const char* option : {"--background", "--environment-rotation"})
     verb.refuse_without_effect({{option, loaded.scene.environment != nullptr, "--environment, or a file with one"}});

@@ -1,4 +1,5 @@
 #include "render_frames.h"
+#include "direct_only.h"
 
 #include <fmt/format.h>
 
@@ -44,6 +45,8 @@ class Moments {
     LoadedScene loaded = scene::load_scene(moment, load_);
     for (const std::string& warning : loaded.warnings)
       if (said_.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
+    if (!said_direct_only_) say_direct_only(loaded.scene, job_.render.indirect.mode);
+    said_direct_only_ = true;
     loaded.scene.multiple_scattering = job_.multiple_scattering;
     return std::move(loaded.scene);
   }
@@ -54,6 +57,7 @@ class Moments {
   GltfFile file_;
   GltfAnimation animation_;
   std::set<std::string> said_;
+  bool said_direct_only_ = false;
 };
 
 // The exposure of the first frame at a quarter of its size. It is the same for all frames, even if the first frame exists already.

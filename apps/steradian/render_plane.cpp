@@ -1,4 +1,5 @@
 #include "command_line.h"
+#include "left_out.h"
 #include "render_plane.h"
 #include "render_plane_frames.h"
 
@@ -27,7 +28,9 @@ bool is_plane_scene(const std::string& path) { return path.size() > 4 && (path.e
 void render_plane_scene(const PlaneRender& job) {
   PlaneSvg loaded = load_plane_scene(job.scene, job.limits);
   // For an animated drawing, animations are skipped only if no frames are requested.
-  if (!loaded.ignored.empty() && (job.frames.empty() || !PlaneAnimation(job.scene, job.limits).moves())) {
+  const bool still = job.frames.empty() || !PlaneAnimation(job.scene, job.limits).moves();
+  if (still) say_backdrops(loaded, job.scene);
+  if (!loaded.ignored.empty() && still) {
     std::string names;
     for (const std::string& name : loaded.ignored) names += (names.empty() ? "" : ", ") + name;
     fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, names);

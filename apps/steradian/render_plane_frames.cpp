@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "left_out.h"
 #include "steradian/error.h"
 #include "steradian/plane_animation.h"
 #include "steradian/plane_device.h"
@@ -113,6 +114,7 @@ void render_animation(const PlaneRender& job, const std::vector<int>& wanted, co
   std::set<std::string> named;
   for (const int frame : wanted) {
     PlaneSvg now = animation.at(frame / job.fps);
+    if (frame == wanted.front()) say_backdrops(now, job.scene);
     for (const std::string& name : now.ignored)
       if (named.insert(name).second) fmt::print(stderr, "steradian: {}: not supported and left out: {}\n", job.scene, name);
     // A stage keeps the suns and the fog that it began with.

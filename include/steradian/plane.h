@@ -191,9 +191,29 @@ Picture render_plane(const PlaneWorld& world, const PlaneFrameOptions& options, 
 // frame's time.
 void render_plane_into(Picture& picture, const PlaneWorld& world, const PlaneFrameOptions& options, PlaneFrameStats* stats = nullptr);
 
+// Shapes of a file that are not in the scene, by the reason.
+struct PlaneLeftOut {
+  enum class Why {
+    covers_picture,  // a filled shape that leaves no point of the picture free: taken for a backdrop, which blocks nothing
+    covers_lights,   // a filled shape that holds every light, without suns: likewise
+    ignored,         // not displayed, or its role is to be ignored
+    transparent,     // without opacity
+    unpainted,       // without a fill and a stroke
+    clipped,         // outside of its clip-path or mask
+  };
+  Why why = Why::ignored;
+  std::size_t count = 0;
+  std::vector<std::string> names;  // of the first eight: the id, or the element and its line
+
+  bool is_backdrop() const { return why == Why::covers_picture || why == Why::covers_lights; }
+};
+// The reason in words, as in "covers every light".
+const char* words_of(PlaneLeftOut::Why why);
+
 struct PlaneSvg {
   PlaneScene scene;
-  std::vector<std::string> ignored;  // unsupported elements and attributes that the file uses, each once
+  std::vector<std::string> ignored;    // unsupported elements and attributes that the file uses, each once
+  std::vector<PlaneLeftOut> left_out;  // at most one for each reason
 };
 
 // Reads an SVG file as a scene; docs/plane-drawings.md defines lights and occluders. Throws Error with file, line and a hint.

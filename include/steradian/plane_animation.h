@@ -6,6 +6,8 @@
 // docs/plane-drawings.md says which animations are supported; PlaneSvg::ignored names the others.
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 
 #include "steradian/plane.h"
@@ -26,9 +28,17 @@ class PlaneAnimation {
   bool endless() const;     // true if an animation repeats without end
 
  private:
+  // The drawing at a time, without its animations, and those that are not supported.
+  struct Still {
+    std::string svg;
+    std::set<std::string> ignored;
+  };
+  Still still_at(double seconds) const;
+
   std::string svg_, name_;
   Limits limits_;
   bool moves_ = false;
+  std::map<std::size_t, PlaneLeftOut::Why> backdrops_;  // by element; judged at the beginning, so that they remain while things move
 };
 
 }  // namespace steradian

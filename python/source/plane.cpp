@@ -12,7 +12,11 @@ struct World {
   std::vector<std::string> ignored;
 };
 
-World world_of(PlaneSvg svg) { return {PlaneWorld(std::move(svg.scene)), std::move(svg.ignored)}; }
+World world_of(PlaneSvg svg) {
+  for (const PlaneLeftOut& shapes : svg.left_out)
+    if (shapes.is_backdrop()) svg.ignored.push_back(std::string("a backdrop, which ") + words_of(shapes.why));
+  return {PlaneWorld(std::move(svg.scene)), std::move(svg.ignored)};
+}
 
 py::tuple frame(const World& world, const py::dict& o) {
   PlaneFrameOptions options;

@@ -93,6 +93,35 @@ TEST(FirstPicture, BlendersPunctualLightsAreBroughtToTheUnitOfEmission) {
   EXPECT_EQ(intensity(steradian::load_scene(with_punctual("by hand").write(), {.light_units = LightUnits::watt})), 1);
 }
 
+TEST(FirstPicture, AFileOfBlenderWithoutLampsSaysHowToExportThem) {
+  const char* part = "\"Punctual Lights\"";
+  GltfTestFile f = GltfTestFile::square();
+  EXPECT_FALSE(warns(steradian::load_scene(f.write()), part));
+  f.json["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.60";
+  EXPECT_TRUE(warns(steradian::load_scene(f.write()), part));
+  f.material()["emissiveFactor"] = {1, 1, 1};
+  EXPECT_FALSE(warns(steradian::load_scene(f.write()), part)) << "it shines";
+  EXPECT_FALSE(warns(steradian::load_scene(with_punctual("Khronos glTF Blender I/O v4.2.60").write()), part));
+}
+
+TEST(FirstPicture, RefractionIsNamedAsMissing) {
+  const auto missing = [](const json& extensions) {
+    GltfTestFile f = GltfTestFile::square();
+    f.material()["extensions"] = extensions;
+    f.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_transmission"};
+    const LoadedScene loaded = steradian::load_scene(f.write());
+    const bool listed = !loaded.file.not_supported.empty() && loaded.file.not_supported[0].starts_with("refraction");
+    EXPECT_EQ(listed, warns(loaded, "left out: refraction"));
+    return listed;
+  };
+  const json pane = {{"transmissionFactor", 1}};
+  EXPECT_TRUE(missing({{"KHR_materials_transmission", pane}, {"KHR_materials_ior", {{"ior", 1.45}}}}));
+  EXPECT_TRUE(missing({{"KHR_materials_transmission", pane}, {"KHR_materials_volume", {{"thicknessFactor", 0.2}}}}));
+  EXPECT_FALSE(missing({{"KHR_materials_transmission", pane}})) << "a thin wall does not bend light";
+  EXPECT_FALSE(missing({{"KHR_materials_transmission", pane}, {"KHR_materials_ior", {{"ior", 1}}}}));
+  EXPECT_FALSE(missing({{"KHR_materials_ior", {{"ior", 1.45}}}}));
+}
+
 TEST(FirstPicture, WhatAFileRequiresIsCheckedBeforeItsBuffers) {
   GltfTestFile f = GltfTestFile::square();
   f.json["buffers"] = {{{"byteLength", 40}, {"uri", "not_there.bin"}}};

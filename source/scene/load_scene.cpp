@@ -84,6 +84,11 @@ void scale_to_emission(Scene& scene, const std::string& generator, LightUnits un
   for (PunctualLight& light : scene.punctual_lights) light.intensity = light.intensity / kExportersFactor;
 }
 
+// Neither lamps, nor surfaces that shine, nor an environment, from a program that leaves lamps out unless asked.
+bool lacks_blenders_lamps(const Scene& scene, const std::string& generator) {
+  return generator.find("Blender") != std::string::npos && scene.punctual_lights.empty() && scene.area_lights.empty() && !scene.environment;
+}
+
 // Below this extent the products of three lengths vanish in single precision. For a scene of one point the camera chooses the extent.
 constexpr double kSmallest = 1e-12;
 
@@ -102,7 +107,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
 
   Scene scene;
   GltfTextures textures(document, scene.images, warnings, options.pictures);
-  scene.materials = read_materials(document, textures);
+  scene.materials = read_materials(document, textures, warnings);
   const std::size_t materials = scene.materials.size();
   PlacedMeshes placed = read_meshes(document, nodes, scene.materials, warnings, options.meshes.get());
   const Vec3d origin = options.near_origin ? far_middle(box_around(placed.meshes)) : Vec3d{};
@@ -144,6 +149,10 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
     scene.cameras.push_back(framing_camera(scene, options.aspect));
     warnings.say("the scene has no camera: a default one frames it from the front");
   }
+  if (lacks_blenders_lamps(scene, facts.generator))
+    warnings.say(
+        "the file has no light, and Blender's exporter writes lamps only with \"Punctual Lights\" in its export options: perhaps they were "
+        "left out");
   if (!options.lights.empty()) {
     add_lights(scene, options.lights);
   } else if (!scene.environment && wants_light(scene, scene.cameras.front())) {

@@ -12,6 +12,7 @@
 
 #include "core/budget.h"
 #include "plane/svg/document.h"
+#include "plane/svg/load.h"
 #include "plane/svg/path.h"
 #include "plane/svg/style/values.h"
 #include "plane/svg/timing.h"
@@ -306,9 +307,9 @@ class Animating {
 
   // Overrides style sheets and the element's own attributes.
   static void put(pugi::xml_node target, const std::string& key, const std::string& value) {
-    static constexpr std::array<std::string_view, 14> kProperties = {
+    static constexpr std::array<std::string_view, 15> kProperties = {
         "fill",    "stroke",     "opacity",   "fill-opacity", "stroke-opacity", "stroke-width", "color",
-        "display", "visibility", "font-size", "stop-color",   "fill-rule",      "clip-rule",    "stroke-linecap"};
+        "display", "visibility", "font-size", "stop-color",   "fill-rule",      "clip-rule",    "stroke-linecap", "stroke-linejoin"};
     if (std::find(kProperties.begin(), kProperties.end(), key) == kProperties.end()) return set(target, key.c_str(), value);
     auto declarations = parse_declarations(target.attribute("style").value());
     declarations[key] = value;
@@ -336,6 +337,16 @@ using plane::svg::Document;
 PlaneAnimation::PlaneAnimation(std::string svg, std::string name, const Limits& limits)
     : svg_(std::move(svg)), name_(std::move(name)), limits_(limits) {
   moves_ = !plane::svg::animations_of(Document(svg_, name_).root()).empty();
+  if (moves_) backdrops_ = plane::svg::read_drawing(still_at(0).svg, name_, limits_).backdrops;
+}
+
+PlaneAnimation::Still PlaneAnimation::still_at(double seconds) const {
+  Document document(svg_, name_);
+  Budget budget(limits_);
+  plane::svg::Animating(document, seconds, budget).run();
+  std::ostringstream text;
+  document.root().print(text, "", pugi::format_raw);
+  return {text.str(), document.ignored};
 }
 
 PlaneAnimation::PlaneAnimation(const std::string& path, const Limits& limits)
@@ -358,14 +369,10 @@ bool PlaneAnimation::endless() const {
 PlaneSvg PlaneAnimation::at(double seconds) const {
   if (!std::isfinite(seconds)) throw Error(name_, "the time is not finite", "give seconds");
   if (!moves_) return load_plane_scene_from_text(svg_, name_, limits_);
-  Document document(svg_, name_);
-  Budget budget(limits_);
-  plane::svg::Animating(document, seconds, budget).run();
-  std::ostringstream text;
-  document.root().print(text, "", pugi::format_raw);
-  PlaneSvg result = load_plane_scene_from_text(text.str(), name_, limits_);
-  std::set<std::string> ignored(result.ignored.begin(), result.ignored.end());
-  ignored.insert(document.ignored.begin(), document.ignored.end());
+  Still still = still_at(seconds);
+  PlaneSvg result = plane::svg::read_drawing(still.svg, name_, limits_, &backdrops_).svg;
+  std::set<std::string>& ignored = still.ignored;
+  ignored.insert(result.ignored.begin(), result.ignored.end());
   result.ignored.assign(ignored.begin(), ignored.end());
   return result;
 }

@@ -204,6 +204,7 @@ PlaneBody flattened(const PlaneBody& body, double tolerance) {
   PlaneBody result = body;
   result.shape = PlaneBody::Shape::polygon;
   result.contours.clear();
+  result.radius = 0;
   result.even_odd = false;
   Contour outline;
   if (body.shape == PlaneBody::Shape::ellipse) {

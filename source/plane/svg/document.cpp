@@ -31,9 +31,15 @@ Document::Document(std::string text, std::string name) : text_(std::move(text)),
   ignored.insert(sheet_.unsupported.begin(), sheet_.unsupported.end());
 }
 
-std::string Document::place(std::ptrdiff_t offset) const {
+std::ptrdiff_t Document::line(std::ptrdiff_t offset) const {
   const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-  return name_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n'));
+  return 1 + std::count(text_.begin(), end, '\n');
+}
+std::string Document::place(std::ptrdiff_t offset) const { return name_ + ":" + std::to_string(line(offset)); }
+std::string Document::called(pugi::xml_node n) const {
+  if (*n.attribute("id").value() != '\0') return n.attribute("id").value();
+  const std::string element = std::string("<") + n.name() + ">";
+  return text_.find('\n') == std::string::npos ? element : element + " in line " + std::to_string(line(n.offset_debug()));
 }
 std::string Document::place_of(pugi::xml_node n) const {
   std::string where = place(n.offset_debug());

@@ -24,6 +24,8 @@ class Document {
 
   pugi::xml_node root() const { return document_.document_element(); }
   std::string place_of(pugi::xml_node n) const;  // file, line and name, for messages
+  // The id; without one the element, and its line unless that is the file's only one.
+  std::string called(pugi::xml_node n) const;
   [[noreturn]] void fail(pugi::xml_node n, const std::string& problem, const std::string& hint) const;
 
   // The element that href names; empty if it is not in this file.
@@ -41,6 +43,7 @@ class Document {
 
  private:
   std::string place(std::ptrdiff_t offset) const;
+  std::ptrdiff_t line(std::ptrdiff_t offset) const;
 
   std::string text_, name_;
   pugi::xml_document document_;

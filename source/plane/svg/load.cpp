@@ -1,14 +1,18 @@
 // Converts SVG to bodies: the tree, inherited properties, and the shapes.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <new>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "core/budget.h"
+#include "plane/svg/backdrop.h"
 #include "plane/svg/light.h"
+#include "plane/svg/load.h"
 #include "plane/svg/path.h"
 #include "plane/svg/stroke.h"
 #include "plane/svg/style/style.h"
@@ -26,6 +30,18 @@ constexpr double kCurveFlatness = 1e-5;
 constexpr int kDeepest = 64;  // nested groups and uses: deeper ones are a cycle or an attack
 constexpr std::size_t kMostBodies = 1'000'000, kMostUses = 100'000, kMostSuns = 1000;
 constexpr std::uint64_t kElementSteps = 1000, kPortion = 20'000'000;
+constexpr std::size_t kMostNamed = 8;  // of the shapes that are left out for one reason
+
+// All elements, each behind its parent. Not recursive: files may nest to any depth.
+std::vector<pugi::xml_node> elements_of(pugi::xml_node root) {
+  std::vector<pugi::xml_node> order{root};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const pugi::xml_node n = order[i];
+    for (pugi::xml_node child : n.children())
+      if (child.type() == pugi::node_element) order.push_back(child);
+  }
+  return order;
+}
 
 class Reader {
  public:
@@ -34,13 +50,16 @@ class Reader {
     find_drawing(document_.root());
   }
 
-  PlaneSvg read() try {
+  Drawing read(const Backdrops* backdrops) try {
+    if (backdrops != nullptr) keep_backdrops(*backdrops);
     const pugi::xml_node root = document_.root();
     read_frame(root);
     styles_.emplace(document_, diagonal());
     children(root, styles_->inherit(root, {}), 0);
+    if (backdrops == nullptr) judge_backdrops();
     result_.ignored.assign(document_.ignored.begin(), document_.ignored.end());
-    return std::move(result_);
+    for (auto& [why, shapes] : left_out_) result_.left_out.push_back(std::move(shapes));
+    return {std::move(result_), std::move(backdrops_)};
   } catch (const std::bad_alloc&) {
     throw budget_.out_of_memory();
   }
@@ -63,13 +82,7 @@ class Reader {
 
   // Finds elements that draw anything, themselves or by their children: empty groups are not traversed again and again.
   void find_drawing(pugi::xml_node root) {
-    std::vector<pugi::xml_node> order{root};
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      // Not recursive: files may nest to any depth.
-      const pugi::xml_node n = order[i];
-      for (pugi::xml_node child : n.children())
-        if (child.type() == pugi::node_element) order.push_back(child);
-    }
+    const std::vector<pugi::xml_node> order = elements_of(root);
     for (std::size_t i = order.size(); i-- > 0;) {
       const std::string_view name = order[i].name();
       const bool is_group = name == "g" || name == "a" || name == "svg" || name == "symbol" || name == "defs";
@@ -124,7 +137,7 @@ class Reader {
       return;
     }
     Style style = styles_->inherit(n, outer);
-    if (style.role == Role::ignore) return;
+    if (style.role == Role::ignore) return leave_out(n, style, PlaneLeftOut::Why::ignored);
     if (!style.clip.empty()) clip(n, style, depth);
     if (!style.mask.empty()) mask(n, style, depth);
     if (name == "g" || name == "a" || name == "switch") return children(n, style, depth + 1);
@@ -248,7 +261,10 @@ class Reader {
     if (!fonts_) fonts_.emplace();
     for (const TextRun& run : lay_out_text(document_, *styles_, *fonts_, n, style, size(), [&] { spend(n, 2000, 100); })) {
       const bool filled = run.style.fill != "none" && run.style.fill_opacity > 0;
-      if (run.style.opacity * run.style.fill_opacity == 0 || (!filled && run.style.role == Role::by_shape)) continue;
+      if (run.style.opacity * run.style.fill_opacity == 0 || (!filled && run.style.role == Role::by_shape)) {
+        leave_out(run.node, run.style, filled ? PlaneLeftOut::Why::transparent : PlaneLeftOut::Why::unpainted);
+        continue;
+      }
       PlaneBody body;
       for (const TextRun::Letter& letter : run.letters) {
         // FreeType calls the pen, so that it must not throw: the cost of a letter is counted afterwards.
@@ -268,7 +284,7 @@ class Reader {
     const bool outlined = style.purpose == Purpose::clip;
     const bool filled = (outlined || (style.fill != "none" && style.fill_opacity > 0)) && name != "line";
     const double opacity = outlined ? 1 : style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
-    if (opacity == 0) return;
+    if (opacity == 0) return leave_out(n, style, PlaneLeftOut::Why::transparent);
     if (opacity < 1 && style.role != Role::light && style.purpose == Purpose::picture)
       document_.ignored.insert("opacity (what is not a light blocks wholly)");
     PlaneBody body;
@@ -282,16 +298,12 @@ class Reader {
       body.center = style.transform.apply({document_.length_attribute(n, "cx", w), document_.length_attribute(n, "cy", h)});
       body.x_axis = style.transform.apply_vector({rx, 0});
       body.y_axis = style.transform.apply_vector({0, ry});
-      if (!filled) {
-        if (style.stroke == "none" && style.role == Role::by_shape) return;
-        // Visible from both sides: a closed polyline.
-        Pen pen({body.x_axis.x, body.x_axis.y, body.y_axis.x, body.y_axis.y, body.center.x, body.center.y}, flatness(), {});
-        pen.move({1, 0});
-        for (double x : {-1.0, 1.0}) pen.arc(1, 1, 0, false, true, {x, 0});
-        body.shape = PlaneBody::Shape::polyline;
-        body.contours = pen.finish().points;
-      }
-      return add(n, std::move(body), style, filled);
+      if (filled) return add(n, std::move(body), style, true);
+      Pen pen({body.x_axis.x, body.x_axis.y, body.y_axis.x, body.y_axis.y, body.center.x, body.center.y}, flatness(), {});
+      pen.move({1, 0});
+      for (double x : {-1.0, 1.0}) pen.arc(1, 1, 0, false, true, {x, 0});
+      pen.close();
+      return stroke(n, pen.finish(), style);
     }
     Pen pen(style.transform, flatness(), [&](std::size_t points) { spend(n, 400 * points, 40 * points); });
     draw_shape(document_, n, size(), pen);
@@ -303,21 +315,40 @@ class Reader {
       if (body.contours.empty()) return;
       return add(n, std::move(body), style, true);
     }
-    if (style.stroke == "none" && style.role == Role::by_shape) return;
-    const double radius = 0.5 * style.stroke_width * std::sqrt(std::fabs(style.transform.determinant()));
-    if (style.cap == "round" && radius > 0) {
-      for (std::size_t i = 0; i < contours.points.size(); ++i) {
-        spend(n, 60 * contours.points[i].size(), 80 * contours.points[i].size());
-        add(n, stroke_of(contours.points[i], contours.closed[i], radius, flatness()), style, false);
-      }
-      return;
-    }
+    stroke(n, std::move(contours), style);
+  }
+
+  // A shape without a fill: a body of the stroke's width, or a line of no thickness, which is visible from both sides.
+  void stroke(pugi::xml_node n, Contours contours, const Style& style) {
+    if (style.stroke == "none" && style.role == Role::by_shape) return leave_out(n, style, PlaneLeftOut::Why::unpainted);
+    const Stroke pen = pen_of(style);
+    const bool textured = n.attribute("data-texture") && pen.cap != Cap::round;
+    if (pen.radius > 0 && style.transform.determinant() != 0 && !textured) return thick_stroke(n, contours, style, pen);
     if (contours.points.empty()) return;
     for (std::size_t i = 0; i < contours.points.size(); ++i)
       if (contours.closed[i]) contours.points[i].push_back(contours.points[i].front());
+    PlaneBody body;
     body.shape = PlaneBody::Shape::polyline;
     body.contours = std::move(contours.points);
     add(n, std::move(body), style, false);
+  }
+
+  void thick_stroke(pugi::xml_node n, const Contours& contours, const Style& style, const Stroke& pen) {
+    for (std::size_t i = 0; i < contours.points.size(); ++i) {
+      const std::uint64_t points = most_points(style.transform, contours.points[i], pen, flatness());
+      spend(n, 60 * points, 20 * points);
+      PlaneBody body = stroke_after(style.transform, contours.points[i], contours.closed[i], pen, flatness());
+      if (!body.contours.empty()) add(n, std::move(body), style, false);
+    }
+  }
+
+  static Stroke pen_of(const Style& style) {
+    Stroke pen;
+    pen.cap = style.cap == "round" ? Cap::round : style.cap == "square" ? Cap::square : Cap::butt;
+    pen.join = style.join == "round" ? Join::round : style.join == "bevel" ? Join::bevel : Join::miter;
+    pen.radius = 0.5 * style.stroke_width.value_or(pen.cap == Cap::round ? 1 : 0);
+    pen.miter_limit = style.miter_limit;
+    return pen;
   }
 
   void add(pugi::xml_node n, PlaneBody body, const Style& style, bool filled) {
@@ -332,7 +363,54 @@ class Reader {
     if (body.light) dim(*body.light, style.opacity * (filled ? style.fill_opacity : style.stroke_opacity));
     if (style.purpose == Purpose::picture) take_extras(document_, n, style, body);
     if (body.light && n.attribute("data-texture")) return add_textured(n, body, style);
+    if (!filled || !may_lie_behind(body, style)) return finish(n, std::move(body), style);
+    if (const auto kept = kept_.find(n.internal_object()); kept != kept_.end()) return leave_out(n, style, kept->second);
+    const std::size_t number = result_.scene.bodies.size();
     finish(n, std::move(body), style);
+    if (result_.scene.bodies.size() > number) fills_.push_back({number, n});
+  }
+
+  // A shape that blocks only because nothing says otherwise.
+  static bool may_lie_behind(const PlaneBody& body, const Style& style) {
+    return style.role == Role::by_shape && style.purpose == Purpose::picture && !body.transmittance && !body.mirror &&
+           !(body.light_depth > 0);
+  }
+
+  void keep_backdrops(const Backdrops& backdrops) {
+    backdrops_ = backdrops;
+    const std::vector<pugi::xml_node> elements = elements_of(document_.root());
+    for (const auto& [number, why] : backdrops)
+      if (number < elements.size()) kept_[elements[number].internal_object()] = why;
+  }
+
+  // Takes the backdrops out of the scene.
+  void judge_backdrops() {
+    std::vector<std::size_t> bodies;
+    for (const Fill& fill : fills_) bodies.push_back(fill.body);
+    const std::vector<Backdrop> found =
+        backdrops_among(result_.scene, bodies, flatness(), [&](std::uint64_t pairs) { spend(document_.root(), 20 * pairs, 0); });
+    if (found.empty()) return;
+    std::unordered_map<const void*, PlaneLeftOut::Why> why;
+    std::vector<char> behind(result_.scene.bodies.size(), 0);
+    auto fill = fills_.begin();
+    for (const Backdrop& backdrop : found) {
+      while (fill->body != backdrop.body) ++fill;
+      why[fill->element.internal_object()] = backdrop.why;
+      behind[backdrop.body] = 1;
+      leave_out(fill->element, {}, backdrop.why);
+    }
+    std::size_t body = 0;
+    std::erase_if(result_.scene.bodies, [&](const PlaneBody&) { return behind[body++] != 0; });
+    const std::vector<pugi::xml_node> elements = elements_of(document_.root());
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      if (const auto found_here = why.find(elements[i].internal_object()); found_here != why.end()) backdrops_[i] = found_here->second;
+  }
+
+  void leave_out(pugi::xml_node n, const Style& style, PlaneLeftOut::Why why) {
+    if (style.purpose != Purpose::picture) return;
+    PlaneLeftOut& shapes = left_out_[why];
+    shapes.why = why;
+    if (shapes.count++ < kMostNamed) shapes.names.push_back(document_.called(n));
   }
 
   // A line with colours along it, separated by semicolons.
@@ -357,7 +435,7 @@ class Reader {
       spend(n, 300 * body.light->gradient->stops.size(), sizeof(PlaneStop) * body.light->gradient->stops.size());
     for (const auto& region : style.clips) {
       body = clipped(body, *region, flatness(), [&](std::uint64_t pairs) { spend(n, 20 * pairs, 0); });
-      if (body.contours.empty() && body.shape != PlaneBody::Shape::ellipse) return;
+      if (body.contours.empty() && body.shape != PlaneBody::Shape::ellipse) return leave_out(n, style, PlaneLeftOut::Why::clipped);
     }
     result_.scene.bodies.push_back(std::move(body));
   }
@@ -382,17 +460,41 @@ class Reader {
   std::uint64_t steps_ = 0, bytes_ = 0;
   std::unordered_set<const void*> drawing_;
   std::size_t uses_ = 0;
+  struct Fill {
+    std::size_t body;
+    pugi::xml_node element;
+  };
+  std::vector<Fill> fills_;                                     // that may lie behind the drawing
+  std::unordered_map<const void*, PlaneLeftOut::Why> kept_;     // backdrops of another frame
+  Backdrops backdrops_;
+  std::map<PlaneLeftOut::Why, PlaneLeftOut> left_out_;
   PlaneSvg result_;
 };
 
 }  // namespace
 
+Drawing read_drawing(const std::string& text, const std::string& name, const Limits& limits, const Backdrops* backdrops) {
+  return Reader(text, name, limits).read(backdrops);
+}
+
 }  // namespace steradian::plane::svg
 
 namespace steradian {
 
+const char* words_of(PlaneLeftOut::Why why) {
+  switch (why) {
+    case PlaneLeftOut::Why::covers_picture: return "covers the whole picture";
+    case PlaneLeftOut::Why::covers_lights: return "covers every light";
+    case PlaneLeftOut::Why::ignored: return "not displayed, or its role is ignore";
+    case PlaneLeftOut::Why::transparent: return "has no opacity";
+    case PlaneLeftOut::Why::unpainted: return "has no fill and no stroke";
+    case PlaneLeftOut::Why::clipped: return "outside of its clip or mask";
+  }
+  return "";
+}
+
 PlaneSvg load_plane_scene_from_text(const std::string& svg, const std::string& name, const Limits& limits) {
-  return plane::svg::Reader(svg, name, limits).read();
+  return plane::svg::read_drawing(svg, name, limits).svg;
 }
 
 }  // namespace steradian

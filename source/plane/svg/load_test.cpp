@@ -5,7 +5,6 @@
 
 #include "plane/exact/outline.h"
 #include "plane/exact/random.h"
-#include "plane/svg/stroke.h"
 #include "steradian/error.h"
 #include "steradian/plane.h"
 #include "support/plane_families.h"
@@ -185,35 +184,6 @@ TEST(LoadSvg, StrokesAreThinOrCapsules) {
   EXPECT_NEAR(svg.scene.bodies[1].light->radiance.x, 1, 1e-15);
   EXPECT_EQ(svg.scene.bodies[2].shape, PlaneBody::Shape::polyline);
   EXPECT_EQ(svg.scene.bodies[3].shape, PlaneBody::Shape::polygon);
-}
-
-// The outline of a round stroke contains the points nearer to the line than its radius, and no others: cut corners, tight bends, closed and
-// open.
-TEST(LoadSvg, RoundStrokesHoldWhatIsNear) {
-  SceneRandom random(8);
-  for (int i = 0; i < 60; ++i) {
-    std::vector<Vec2d> line;
-    const int n = 3 + i % 5;
-    for (int k = 0; k < n; ++k) line.push_back({random.uniform(20, 80), random.uniform(20, 80)});
-    if (i % 3 == 1)
-      for (int k = 0; k < 40; ++k)
-        line.push_back(line[static_cast<std::size_t>(n) - 1] + Vec2d{3 * std::cos(k * 0.1) - 3, 3 * std::sin(k * 0.1)});
-    const bool closed = i % 2 == 0;
-    const double radius = random.uniform(0.5, 9);
-    const PlaneBody stroke = svg::stroke_of(line, closed, radius, 1e-3);
-    for (int k = 0; k < 400; ++k) {
-      const Vec2d p{random.uniform(0, 100), random.uniform(0, 100)};
-      double nearest = 1e300;
-      for (std::size_t s = 0; s + (closed ? 0 : 1) < line.size(); ++s) {
-        const Vec2d a = line[s], ab = line[(s + 1) % line.size()] - a;
-        const double t = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
-        nearest = std::min(nearest, length(p - a - ab * t));
-      }
-      if (std::fabs(nearest - radius) < 2e-3) continue;  // within the flattening's tolerance of its edge
-      EXPECT_EQ(contains(stroke, p), nearest < radius)
-          << "stroke " << i << " of radius " << radius << " at " << p.x << ", " << p.y << ", " << nearest << " away";
-    }
-  }
 }
 
 TEST(LoadSvg, GradientsFollowTheirBoxAndTransform) {

@@ -112,6 +112,7 @@ std::string plane_scene_to_svg(const PlaneScene& scene) {
     const char* paint = stroked ? "stroke" : "fill";
     std::string rest = body.light ? emission(*body.light, i, paint) : std::string(" ") + paint + "=\"" + color(body.color) + "\"";
     if (stroked) rest += " fill=\"none\"";
+    if (!stroked && !body.light) rest += " data-steradian=\"occluder\"";  // also if it looks like a backdrop
     if (body.albedo) rest += shares("data-albedo", *body.albedo);
     if (body.transmittance) rest += shares("data-transmittance", *body.transmittance);
     if (body.mirror) rest += shares("data-mirror", *body.mirror);

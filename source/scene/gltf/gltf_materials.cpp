@@ -164,7 +164,18 @@ Material read_lobe(const JsonCursor& lobe) {
   return draft.material;
 }
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures) {
+namespace {
+
+// Would light that passes be bent? Transmission alone is that of a thin wall, which does not.
+bool asks_for_refraction(const SurfaceMaterial& m, const JsonCursor& json) {
+  if (!(m.transmission > 0) || m.ior == 1) return false;
+  const auto volume = find_extension(json, "KHR_materials_volume");
+  return find_extension(json, "KHR_materials_ior").has_value() || (volume && volume->number("thicknessFactor", 0) > 0);
+}
+
+}  // namespace
+
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings) {
   std::vector<SurfaceMaterial> result;
   for (const JsonCursor& json : document.root().elements("materials")) {
     SurfaceMaterial m;
@@ -172,6 +183,7 @@ std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTe
     read_base(m, json, textures);
     read_alpha(m, json);
     read_extensions(m, json, textures);
+    if (asks_for_refraction(m, json)) warnings.not_supported("refraction (light passes straight through what transmits)");
     read_extras(m, json);
     result.push_back(std::move(m));
   }

@@ -8,7 +8,8 @@
 
 namespace steradian::scene {
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures);
+// Names refraction as not supported where a material asks for it.
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings);
 
 // Reads a lobe in the form of `steradian eval`: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.
 Material read_lobe(const JsonCursor& lobe);

@@ -120,6 +120,8 @@ EMSCRIPTEN_KEEPALIVE Plane* plane_from_svg(const char* svg, const char* name) {
     auto made = std::make_unique<Plane>();
     made->scene = std::move(read.scene);
     for (const std::string& what : read.ignored) made->ignored += what + "\n";
+    for (const PlaneLeftOut& shapes : read.left_out)
+      if (shapes.is_backdrop()) made->ignored += std::string("a backdrop, which ") + words_of(shapes.why) + "\n";
     return made.release();
   });
 }

@@ -51,7 +51,7 @@ const Styles::Declared& Styles::declared(pugi::xml_node n) {
 
 void Styles::read_declared(pugi::xml_node n, Declared& d) {
   const std::pair<const char*, std::optional<std::string>*> texts[] = {
-      {"fill", &d.fill},          {"stroke", &d.stroke},       {"color", &d.color},        {"stroke-linecap", &d.cap},
+      {"fill", &d.fill},          {"stroke", &d.stroke},       {"color", &d.color},        {"stroke-linecap", &d.cap}, {"stroke-linejoin", &d.join},
       {"fill-rule", &d.rule},     {"clip-rule", &d.clip_rule}, {"font-family", &d.family}, {"font-size", &d.font_size},
       {"font-weight", &d.weight}, {"font-style", &d.slant},    {"text-anchor", &d.anchor}};
   for (const auto& [key, value] : texts) {
@@ -62,6 +62,7 @@ void Styles::read_declared(pugi::xml_node n, Declared& d) {
     d.stroke_width = document_.length_of(*width, diagonal_);
     if (!d.stroke_width || *d.stroke_width < 0) document_.fail(n, "stroke-width=\"" + *width + "\" is not a length", "write a number");
   }
+  if (const auto limit = document_.property(n, "stroke-miterlimit")) d.miter_limit = document_.length_of(*limit, 1);
   if (n.attribute("data-intensity")) d.intensity = document_.number_attribute(n, "data-intensity", 0, "give a number of at least 0");
   if (n.attribute("data-range")) {
     d.range = document_.number_attribute(n, "data-range", 0, "give a positive distance in user units");
@@ -97,7 +98,7 @@ void Styles::read_declared(pugi::xml_node n, Declared& d) {
 Style Styles::inherit(pugi::xml_node n, Style style) {
   const Declared& d = declared(n);
   const std::pair<const std::optional<std::string>*, std::string*> texts[] = {
-      {&d.fill, &style.fill},   {&d.stroke, &style.stroke},       {&d.color, &style.color},   {&d.cap, &style.cap},
+      {&d.fill, &style.fill},   {&d.stroke, &style.stroke},       {&d.color, &style.color},   {&d.cap, &style.cap}, {&d.join, &style.join},
       {&d.rule, &style.rule},   {&d.clip_rule, &style.clip_rule}, {&d.family, &style.family}, {&d.weight, &style.weight},
       {&d.slant, &style.slant}, {&d.anchor, &style.anchor}};
   for (const auto& [own, value] : texts)
@@ -105,7 +106,8 @@ Style Styles::inherit(pugi::xml_node n, Style style) {
   if (d.font_size) style.font_size = font_size_of(*d.font_size, style.font_size);
   style.clip = d.clip.value_or("");
   style.mask = d.mask.value_or("");
-  style.stroke_width = d.stroke_width.value_or(style.stroke_width);
+  if (d.stroke_width) style.stroke_width = d.stroke_width;
+  style.miter_limit = std::max(d.miter_limit.value_or(style.miter_limit), 1.0);
   style.intensity = d.intensity.value_or(style.intensity);
   style.range = d.range.value_or(style.range);
   if (d.albedo) style.albedo = d.albedo;

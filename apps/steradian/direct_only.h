@@ -1,0 +1,16 @@
+// What a picture of direct light lacks.
+#pragma once
+
+#include "steradian/indirect.h"
+#include "steradian/scene.h"
+
+namespace steradian::app {
+
+// The mean part of the light of a surface that the others would send back to it, at most: by their form factors and base colours, without
+// shadows, from 256 points spread over all surfaces that do not shine.
+double light_between_surfaces(const Scene& scene);
+
+// Prints one line if indirect light is off and would matter: a twentieth of the light, or more.
+void say_direct_only(const Scene& scene, IndirectMode mode);
+
+}  // namespace steradian::app

@@ -1,0 +1,23 @@
+// Backdrops: filled shapes that leave no light in the picture if they block, as a page or a layer "Background" does.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "steradian/plane.h"
+
+namespace steradian::plane::svg {
+
+struct Backdrop {
+  std::size_t body;
+  PlaneLeftOut::Why why;
+};
+
+// Those of the bodies with these numbers that cover the picture but for a thousandth of its larger side, or hold every light without
+// touching its outline, in a scene without suns. `tolerance`: of the flattened outlines; `spend` receives the number of tested pairs of
+// edges.
+std::vector<Backdrop> backdrops_among(const PlaneScene& scene, const std::vector<std::size_t>& bodies, double tolerance,
+                                      const std::function<void(std::uint64_t)>& spend);
+
+}  // namespace steradian::plane::svg
