@@ -227,11 +227,12 @@ TEST_F(Program, RenderOfAPlaneSaysWhatIsABackdrop) {
 
 TEST_F(Program, InfoTellsWhatADrawingHolds) {
   const std::string svg = folder / "scene.svg";
-  std::ofstream(svg) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 64'>\n<rect id='page' width='96' height='64'/>\n"
-                        "<circle id='lamp' class='light' cx='20' cy='30' r='6' fill='#fff' data-range='40'/>\n"
-                        "<circle id='noon' data-steradian='sun' data-sun-direction='-90 10' fill='#fff'/>\n"
-                        "<rect id='pane' x='40' y='9' width='5' height='20' data-transmittance='0.5'/><rect x='70' y='9' width='5' height='9'/>"
-                        "\n<g style='display:none'><rect width='1' height='1'/></g><image/></svg>";
+  std::ofstream(svg)
+      << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 96 64'>\n<rect id='page' width='96' height='64'/>\n"
+         "<circle id='lamp' class='light' cx='20' cy='30' r='6' fill='#fff' data-range='40'/>\n"
+         "<circle id='noon' data-steradian='sun' data-sun-direction='-90 10' fill='#fff'/>\n"
+         "<rect id='pane' x='40' y='9' width='5' height='20' data-transmittance='0.5'/><rect x='70' y='9' width='5' height='9'/>"
+         "\n<g style='display:none'><rect width='1' height='1'/></g><image/></svg>";
   const Outcome r = run({"info", svg, "--json"});
   ASSERT_EQ(r.status, 0) << r.err;
   const json facts = json::parse(r.out);

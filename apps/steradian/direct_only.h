@@ -1,4 +1,4 @@
-// What a picture of direct light lacks.
+// The part of the light that a picture of direct light lacks.
 #pragma once
 
 #include "steradian/indirect.h"

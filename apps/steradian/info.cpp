@@ -83,7 +83,7 @@ void add_info(CommandLine& line) {
   verb.add_flag("--json", options->json, "print JSON");
   verb.add_limits(options->limits);
   verb.callback([options] {
-    const Json info = options->scene.empty()          ? facts()
+    const Json info = options->scene.empty()           ? facts()
                       : is_plane_scene(options->scene) ? plane_facts(options->scene, options->limits)
                                                        : scene_facts(options->scene, options->limits);
     if (!options->scene.empty() && !options->json) return fmt::print("{}", scene_text(info));

@@ -16,8 +16,7 @@ std::string names_of(const PlaneLeftOut& left_out) {
 void say_backdrops(const PlaneSvg& drawing, const std::string& file) {
   std::string shapes;
   for (const PlaneLeftOut& left_out : drawing.left_out)
-    if (left_out.is_backdrop())
-      shapes += fmt::format("{}{} ({})", shapes.empty() ? "" : "; ", names_of(left_out), words_of(left_out.why));
+    if (left_out.is_backdrop()) shapes += fmt::format("{}{} ({})", shapes.empty() ? "" : "; ", names_of(left_out), words_of(left_out.why));
   if (shapes.empty()) return;
   fmt::print(stderr, "steradian: {}: taken for a backdrop, which blocks no light: {}; data-steradian=\"occluder\" makes it block\n", file,
              shapes);

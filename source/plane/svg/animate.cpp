@@ -308,8 +308,8 @@ class Animating {
   // Overrides style sheets and the element's own attributes.
   static void put(pugi::xml_node target, const std::string& key, const std::string& value) {
     static constexpr std::array<std::string_view, 15> kProperties = {
-        "fill",    "stroke",     "opacity",   "fill-opacity", "stroke-opacity", "stroke-width", "color",
-        "display", "visibility", "font-size", "stop-color",   "fill-rule",      "clip-rule",    "stroke-linecap", "stroke-linejoin"};
+        "fill",       "stroke",    "opacity",    "fill-opacity", "stroke-opacity", "stroke-width",   "color",          "display",
+        "visibility", "font-size", "stop-color", "fill-rule",    "clip-rule",      "stroke-linecap", "stroke-linejoin"};
     if (std::find(kProperties.begin(), kProperties.end(), key) == kProperties.end()) return set(target, key.c_str(), value);
     auto declarations = parse_declarations(target.attribute("style").value());
     declarations[key] = value;

@@ -54,7 +54,8 @@ bool enters(const Box2d& box, Vec2d a, Vec2d b) {
 }
 
 double distance_between(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
-  const bool cross_each_other = (cross(b - a, c - a) > 0) != (cross(b - a, d - a) > 0) && (cross(d - c, a - c) > 0) != (cross(d - c, b - c) > 0);
+  const bool cross_each_other =
+      (cross(b - a, c - a) > 0) != (cross(b - a, d - a) > 0) && (cross(d - c, a - c) > 0) != (cross(d - c, b - c) > 0);
   return cross_each_other ? 0
                           : std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
                                       distance_to_segment(d, a, b)});

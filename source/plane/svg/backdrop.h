@@ -14,7 +14,7 @@ struct Backdrop {
   PlaneLeftOut::Why why;
 };
 
-// Those of the bodies with these numbers that cover the picture but for a thousandth of its larger side, or hold every light without
+// Returns those of the numbered bodies that cover the picture but for a thousandth of its larger side, or hold every light without
 // touching its outline, in a scene without suns. `tolerance`: of the flattened outlines; `spend` receives the number of tested pairs of
 // edges.
 std::vector<Backdrop> backdrops_among(const PlaneScene& scene, const std::vector<std::size_t>& bodies, double tolerance,

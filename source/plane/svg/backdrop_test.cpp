@@ -36,7 +36,8 @@ TEST(Backdrop, IsWhatCoversThePicture) {
   EXPECT_GT(PlaneWorld(svg.scene).query({80, 20}).radiance.x, 0.01);
   for (const std::string cover :
        {"<circle cx='50' cy='40' r='70'/>", "<path d='M-9 -9H200V200H-9Z'/>", "<rect x='0.05' y='0.05' width='99.9' height='79.9'/>",
-        "<g transform='rotate(90)'><rect y='-100' width='80' height='100'/></g>", "<use href='#p'/><defs><rect id='p' width='100%' height='100%'/></defs>"})
+        "<g transform='rotate(90)'><rect y='-100' width='80' height='100'/></g>",
+        "<use href='#p'/><defs><rect id='p' width='100%' height='100%'/></defs>"})
     EXPECT_EQ(load(cover + "<circle class='light' cx='150' cy='9' r='2' fill='#fff'/>").scene.bodies.size(), 1u) << cover;
 }
 
@@ -44,17 +45,17 @@ TEST(Backdrop, IsWhatHoldsEveryLight) {
   const PlaneSvg svg = load("<ellipse cx='45' cy='38' rx='40' ry='25'/>" + kLamps);
   EXPECT_EQ(svg.scene.bodies.size(), 2u);
   EXPECT_EQ(reasons(svg), "<ellipse> in line 2 covers every light; ");
-  const PlaneSvg line = load("<rect x='10' y='10' width='80' height='60'/><path class='light' d='M20 20L50 60' fill='none' stroke='#fff'/>");
+  const PlaneSvg line =
+      load("<rect x='10' y='10' width='80' height='60'/><path class='light' d='M20 20L50 60' fill='none' stroke='#fff'/>");
   EXPECT_EQ(line.scene.bodies.size(), 1u) << "lights without thickness";
 }
 
 TEST(Backdrop, IsNotWhatLeavesLightInThePicture) {
-  for (const std::string shape :
-       {"<rect width='100' height='70'/>",                                                                  // light below it
-        "<path fill-rule='evenodd' d='M-9 -9H109V89H-9Z M10 10H90V70H10Z'/>",                              // a room
-        "<path fill-rule='evenodd' d='M-9 -9H109V89H-9Z M45 45H50V50H45Z'/>",                              // a small hole
-        "<circle cx='50' cy='40' r='60'/>",                                                                 // corners are free
-        "<path d='M-99 -99H300V300H-99V41H50V39H-99Z'/>"}) {                                                // a slit
+  for (const std::string shape : {"<rect width='100' height='70'/>",                                     // light below it
+                                  "<path fill-rule='evenodd' d='M-9 -9H109V89H-9Z M10 10H90V70H10Z'/>",  // a room
+                                  "<path fill-rule='evenodd' d='M-9 -9H109V89H-9Z M45 45H50V50H45Z'/>",  // a small hole
+                                  "<circle cx='50' cy='40' r='60'/>",                                    // corners are free
+                                  "<path d='M-99 -99H300V300H-99V41H50V39H-99Z'/>"}) {                   // a slit
     const std::string lamp = "<circle class='light' cx='-150' cy='75' r='2' fill='#fff'/>";
     const PlaneSvg svg = load(shape + lamp + kLamps);
     EXPECT_EQ(svg.scene.bodies.size(), 4u) << shape << ": " << reasons(svg);
@@ -87,13 +88,14 @@ TEST(Backdrop, IsWrittenAsAnOccluderIfItBlocks) {
   EXPECT_EQ(load_plane_scene_from_text(plane_scene_to_svg(svg.scene), "written.svg").scene.bodies.size(), 3u);
 }
 
-// What hides the only lamp for a while does not vanish meanwhile, and what is a backdrop at the beginning remains one.
+// A body that hides the only lamp for a while does not vanish meanwhile, and a backdrop at the beginning remains one.
 TEST(Backdrop, StaysWhatItIsWhileThingsMove) {
   const auto at = [](const std::string& inside, double seconds) {
     const PlaneAnimation animation(svg_of(inside), "test.svg", {});
     return animation.at(seconds).scene.bodies.size();
   };
-  const std::string lamp = "<circle class='light' cy='40' r='3' fill='#fff'><animate attributeName='cx' from='10' to='90' dur='8s'/></circle>";
+  const std::string lamp =
+      "<circle class='light' cy='40' r='3' fill='#fff'><animate attributeName='cx' from='10' to='90' dur='8s'/></circle>";
   for (const double seconds : {0, 4, 7}) {
     EXPECT_EQ(at("<rect x='40' width='30' height='70'/>" + lamp, seconds), 2u) << seconds;
     EXPECT_EQ(at("<rect x='5' width='30' height='70'/>" + lamp, seconds), 1u) << seconds;
@@ -121,7 +123,8 @@ TEST(Backdrop, LeftOutShapesAreCountedByReason) {
 // Nested covers and many lights are judged in time, or refused.
 TEST(Backdrop, IsJudgedWithinTheLimits) {
   std::string inside;
-  for (int i = 0; i < 3000; ++i) inside += "<rect x='1' y='1' width='98' height='78'/><circle class='light' cx='50' cy='40' r='3' fill='#fff'/>";
+  for (int i = 0; i < 3000; ++i)
+    inside += "<rect x='1' y='1' width='98' height='78'/><circle class='light' cx='50' cy='40' r='3' fill='#fff'/>";
   try {
     EXPECT_EQ(load(inside).scene.bodies.size(), 3000u);
   } catch (const Error& e) {

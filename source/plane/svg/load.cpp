@@ -464,8 +464,8 @@ class Reader {
     std::size_t body;
     pugi::xml_node element;
   };
-  std::vector<Fill> fills_;                                     // that may lie behind the drawing
-  std::unordered_map<const void*, PlaneLeftOut::Why> kept_;     // backdrops of another frame
+  std::vector<Fill> fills_;                                  // that may lie behind the drawing
+  std::unordered_map<const void*, PlaneLeftOut::Why> kept_;  // backdrops of another frame
   Backdrops backdrops_;
   std::map<PlaneLeftOut::Why, PlaneLeftOut> left_out_;
   PlaneSvg result_;

@@ -87,7 +87,8 @@ void expect_definition(SceneRandom& random, const Stroke& stroke, int i) {
   const int n = 3 + i % 5;
   for (int k = 0; k < n; ++k) line.push_back({random.uniform(20, 80), random.uniform(20, 80)});
   if (i % 3 == 1)  // a tight bend of many points
-    for (int k = 1; k < 40; ++k) line.push_back(line[static_cast<std::size_t>(n) - 1] + Vec2d{3 * std::cos(k * 0.1) - 3, 3 * std::sin(k * 0.1)});
+    for (int k = 1; k < 40; ++k)
+      line.push_back(line[static_cast<std::size_t>(n) - 1] + Vec2d{3 * std::cos(k * 0.1) - 3, 3 * std::sin(k * 0.1)});
   const bool closed = i % 2 == 0;
   const Definition definition(line, closed, stroke, 2e-3);
   const PlaneBody body = svg::stroke_of(line, closed, stroke, 1e-3);
@@ -151,8 +152,9 @@ TEST(Stroke, OfClosedShapesIsARing) {
 }
 
 TEST(Stroke, OfAStretchedLineIsStretched) {
-  const auto bodies = bodies_of("<g transform='scale(1 4)'><path d='M10 5H90' stroke='#000' fill='none' stroke-width='2'/>"
-                                "<path d='M50 0V20' stroke='#000' fill='none' stroke-width='2' stroke-linecap='round'/></g>");
+  const auto bodies = bodies_of(
+      "<g transform='scale(1 4)'><path d='M10 5H90' stroke='#000' fill='none' stroke-width='2'/>"
+      "<path d='M50 0V20' stroke='#000' fill='none' stroke-width='2' stroke-linecap='round'/></g>");
   ASSERT_EQ(bodies.size(), 2u);
   EXPECT_NEAR(bounds_of(bodies[0]).size().y, 8, 1e-9) << "the width is that of the element's own coordinates";
   // Both ends are as far within as curves may be: 1e-5 of 100 units.
@@ -185,8 +187,8 @@ TEST(Stroke, OfBackAndForthAndDotsKeepsItsWidth) {
 // A stroke of the width of many pictures has a bounded number of points.
 TEST(Stroke, OfAnyWidthIsBounded) {
   for (const char* width : {"1e-9", "1e6", "1e18", "1e200"}) {
-    const auto bodies = bodies_of(std::string("<path d='M20 50H80V90L30 20' fill='none' stroke='#000' stroke-linejoin='round' stroke-width='") +
-                                  width + "'/>");
+    const auto bodies = bodies_of(
+        std::string("<path d='M20 50H80V90L30 20' fill='none' stroke='#000' stroke-linejoin='round' stroke-width='") + width + "'/>");
     ASSERT_EQ(bodies.size(), 1u) << width;
     EXPECT_LT(bodies[0].contours[0].size(), 30'000u) << width;
   }
