@@ -68,6 +68,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"environment_spots", stats.environment_spots},
           {"diffuse_residual", stats.diffuse_residual},
           {"specular_residual", stats.specular_residual},
+          {"environment_shadow_error", stats.environment_shadow_error},
           {"shadow_fallback", stats.shadow_fallback},
           {"shadow_on_host", stats.shadow_on_host},
           {"light_sum", stats.light_tree ? "tree" : "all"},
@@ -258,8 +259,8 @@ void run(const Verb& verb, RenderArguments& options) {
     fmt::print(
         stderr,
         "steradian: environment: {:.1f} % of its light as polygons, diffuse light of the rest within {:.2g} % rms, rough metal within "
-        "{:.2g} % rms\n",
-        100 * stats.environment_spots, 100 * stats.diffuse_residual, 100 * stats.specular_residual);
+        "{:.2g} % rms, shadows of the rest within {:.2g} % rms\n",
+        100 * stats.environment_spots, 100 * stats.diffuse_residual, 100 * stats.specular_residual, 100 * stats.environment_shadow_error);
 
   const float exposure = fixed_exposure.value_or(auto_exposure(picture));
   if (!fixed_exposure && options.output.ends_with(".png")) fmt::print(stderr, "steradian: --exposure {:.2f} (auto)\n", exposure);

@@ -74,17 +74,18 @@ struct RenderStats {
   std::string device = "cpu";
   std::size_t lights = 0;
   std::size_t triangles = 0;
-  double environment_spots = 0;       // fraction of the environment's light that polygon lights carry
-  double diffuse_residual = 0;        // bound of the rms error of the rest's irradiance over its mean
-  double specular_residual = 0;       // rms error of the rest's light on rough metal over the mean of all the map's (docs/environments.md)
-  bool light_tree = false;            // many lights were summed together; the layer "light_bound" gives each pixel's possible error
-  double light_elements = 0;          // lights that were one or four elements at a point by themselves, on average over diffuse points
-  double light_outlines = 0;          // and lights whose outline was walked
-  double light_bound_max = 0;         // the layer's largest value ...
-  double light_bound_mean = 0;        // ... and its mean, over pixels and channels
-  double shadow_fallback = 0;         // fraction of pairs of a surface and a light whose shadows rays have estimated
-  double shadow_on_host = 0;          // fraction of a device's pairs that see a part of the light for which the host found that part
-  std::vector<std::string> warnings;  // omissions of the method, a sentence each
+  double environment_spots = 0;  // fraction of the environment's light that polygon lights carry
+  double diffuse_residual = 0;   // bound of the rms error of the rest's irradiance over its mean
+  double specular_residual = 0;  // rms error of the rest's light on rough metal over the mean of all the map's (docs/environments.md)
+  double environment_shadow_error = 0;  // rms error of the shadows of the rest's light over its mean; 0 where no ray is blocked
+  bool light_tree = false;              // many lights were summed together; the layer "light_bound" gives each pixel's possible error
+  double light_elements = 0;            // lights that were one or four elements at a point by themselves, on average over diffuse points
+  double light_outlines = 0;            // and lights whose outline was walked
+  double light_bound_max = 0;           // the layer's largest value ...
+  double light_bound_mean = 0;          // ... and its mean, over pixels and channels
+  double shadow_fallback = 0;           // fraction of pairs of a surface and a light whose shadows rays have estimated
+  double shadow_on_host = 0;            // fraction of a device's pairs that see a part of the light for which the host found that part
+  std::vector<std::string> warnings;    // omissions of the method, a sentence each
 };
 
 // Renders a scene. Throws Error for a missing camera and for a method that does not serve a lobe of the scene. The same scene, options and

@@ -182,7 +182,7 @@ struct Frame::Parts {
       else
         distances = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
       if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
-      surfaces.add_environment(tile);
+      surfaces.add_environment(job.tile, sample, tile);
       lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
       shadowed[i].clear();
       tiles[i].lights.lights = host.hand_over_shadows(tile, tiles[i].lights.lights, shadowed[i]);
@@ -298,6 +298,7 @@ struct Frame::Parts {
       stats.environment_spots = environment->share_of_spots();
       stats.diffuse_residual = environment->diffuse_residual();
       stats.specular_residual = environment->specular_residual();
+      stats.environment_shadow_error = surfaces.environment_shadow_error();
     }
     if (bounced) stats.passes.push_back(capture_clock.time(threads));
     for (PassTime& pass : stats.passes) pass.ms -= std::exchange(reported[pass.name], pass.ms);

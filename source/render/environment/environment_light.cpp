@@ -12,8 +12,6 @@ namespace {
 
 // Resolution of the map for integrals: the sun's disc is one and a half texels wide.
 constexpr int kMostColumns = 1024;
-// Number of cones that represent a lobe. EnvironmentRender.SpecularAgreesWithTheReference measures their error.
-constexpr int kCones = 32;
 // Distance of the spots' polygons over the scene's radius: across the scene they move by less than 1e-4 rad.
 constexpr double kDistance = 1e4;
 
@@ -45,11 +43,22 @@ double integrate_mean_grazing(double cos_view) {
   return sum / (kSteps * kSteps);
 }
 
-// Positions in the unit square, uniform in both directions: a Fibonacci lattice.
-std::array<double, 2> place_of_cone(int i) {
+// Positions in the unit square, uniform in both directions: a Fibonacci lattice, shifted in its second direction.
+std::array<double, 2> place_of_cone(int i, int count, double turn) {
   const double golden = 0.61803398874989485;
-  const double v = i * golden;
-  return {(i + 0.5) / kCones, v - std::floor(v)};
+  const double v = i * golden + turn;
+  return {(i + 0.5) / count, v - std::floor(v)};
+}
+
+// Points of the unit disc, with the square of their radius.
+std::vector<Vec3f> points_of_disc(int count) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < count; ++i) {
+    const auto [u, v] = place_of_cone(i, count, 0);
+    const double r = std::sqrt(u), phi = 2 * std::numbers::pi * v;
+    points.push_back(static_cast<Vec3f>(Vec3d{r * std::cos(phi), r * std::sin(phi), u}));
+  }
+  return points;
 }
 
 }  // namespace
@@ -66,9 +75,11 @@ double mean_grazing(double cos_view) {
   return table[i] * (1 - t) + table[i + 1] * t;
 }
 
-struct EnvironmentLight::GgxSums {
-  Vec3f plain{}, grazing{};
-};
+Vec3f LobeCones::sum() const {
+  Vec3f all{};
+  for (std::size_t i = 0; i < count; ++i) all += cones[i].reflected;
+  return all;
+}
 
 EnvironmentLight::EnvironmentLight(const Scene& scene)
     : EnvironmentLight(scene, DirectionGrid::averaged(scene.environment->map, kMostColumns)) {}
@@ -121,7 +132,10 @@ double EnvironmentLight::measured_residual(const DirectionGrid& whole, const Dir
         of_rest += t.left * reflected;
       }
       const auto alpha = static_cast<float>(metal.alpha_x);
-      const double cones = luminance(static_cast<Vec3d>(ggx_through_cones(frame, static_cast<Vec3f>(view), alpha, alpha).plain));
+      Vec3f sum{};
+      each_ggx_cone(frame, static_cast<Vec3f>(view), alpha, alpha, LobeCones::kFew, 0,
+                    [&](Vec3f, Vec3f radiance, float) { sum += radiance; });
+      const double cones = luminance(static_cast<Vec3d>(sum));
       squares += (cones - of_rest) * (cones - of_rest);
       mean += of_all;
     }
@@ -131,27 +145,24 @@ double EnvironmentLight::measured_residual(const DirectionGrid& whole, const Dir
 }
 
 // Irradiance times the fraction that passes the boundary above the surface under a uniform sky.
-Vec3d EnvironmentLight::diffuse(const Material& lobe, Vec3d normal, Vec3d view) const {
+Vec3f EnvironmentLight::diffuse(const SurfaceLobe& of, Vec3f to_view) const {
+  const Material& lobe = of.material;
+  const Vec3d normal = normalized(static_cast<Vec3d>(of.normal)), view = normalized(static_cast<Vec3d>(to_view));
   const Vec3d irradiance = environment_.irradiance ? environment_.irradiance->at(normal) : harmonics_.at(normal);
   const double passed = lobe.fresnel_loss > 0 ? 1 - lobe.fresnel_loss * mean_grazing(dot(normal, view)) : 1;
-  return lobe.albedo * irradiance * (passed / std::numbers::pi);
+  return static_cast<Vec3f>(lobe.albedo * irradiance * (passed / std::numbers::pi));
 }
 
-// Integrates a GGX lobe by half vectors that are visible from the view, in float.
+// Finds the cones of a GGX lobe by half vectors that are visible from the view, in float.
 //
-//   view      in the lobe's frame, above its surface
-//   returns   sums of the map's mean in every cone times G2 / G1, plain and times (1 - v.h)^5
+//   view   in the lobe's frame, above its surface
+//   use    use(axis, the map's mean in the cone times G2 / G1, (1 - v.h)^5)
 // Source: the visible normals and their density: Heitz, "Sampling the GGX distribution of visible normals", 2018, algorithm 1.
-EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame, Vec3f view, float ax, float ay) const {
-  static const auto discs = [] {  // points of the unit disc, with the square of their radius
-    std::array<Vec3f, kCones> d;
-    for (int i = 0; i < kCones; ++i) {
-      const auto [u, v] = place_of_cone(i);
-      const double r = std::sqrt(u), phi = 2 * std::numbers::pi * v;
-      d[static_cast<std::size_t>(i)] = static_cast<Vec3f>(Vec3d{r * std::cos(phi), r * std::sin(phi), u});
-    }
-    return d;
-  }();
+template <class Use>
+void EnvironmentLight::each_ggx_cone(const Frame& frame, Vec3f view, float ax, float ay, int count, double turn, Use use) const {
+  static const std::vector<Vec3f> few = points_of_disc(LobeCones::kFew), most = points_of_disc(LobeCones::kMost);
+  const auto turn_x = static_cast<float>(std::cos(2 * std::numbers::pi * turn)),
+             turn_y = static_cast<float>(std::sin(2 * std::numbers::pi * turn));
   const auto stretched_length = [&](Vec3f w) { return std::sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z); };
   const Vec3f fx = static_cast<Vec3f>(frame.x), fy = static_cast<Vec3f>(frame.y), fz = static_cast<Vec3f>(frame.z);
   const float view_length = stretched_length(view);
@@ -159,9 +170,9 @@ EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame
   const float square = v.x * v.x + v.y * v.y;
   const Vec3f t1 = square > 0 ? Vec3f{-v.y, v.x, 0} * (1 / std::sqrt(square)) : Vec3f{1, 0, 0}, t2 = cross(v, t1);
   const float s = 0.5f * (1 + v.z);
-  GgxSums sums;
-  for (const Vec3f& disc : discs) {
-    const float p1 = disc.x, p2 = (1 - s) * std::sqrt(std::max(1 - p1 * p1, 0.0f)) + s * disc.y;
+  for (const Vec3f& disc : count == LobeCones::kFew ? few : most) {
+    const float p1 = disc.x * turn_x - disc.y * turn_y, disc_y = disc.x * turn_y + disc.y * turn_x;
+    const float p2 = (1 - s) * std::sqrt(std::max(1 - p1 * p1, 0.0f)) + s * disc_y;
     const Vec3f n = t1 * p1 + t2 * p2 + v * std::sqrt(std::max(1 - p1 * p1 - p2 * p2, 0.0f));
     const Vec3f h = normalized(Vec3f{ax * n.x, ay * n.y, std::max(n.z, 1e-6f)});
     const float v_dot_h = dot(view, h);
@@ -169,56 +180,54 @@ EnvironmentLight::GgxSums EnvironmentLight::ggx_through_cones(const Frame& frame
     if (!(l.z > 0) || !(v_dot_h > 0)) continue;
     const float light_length = stretched_length(l);
     // G2 / G1 = l.z (|Av| + v.z) / (l.z |Av| + v.z |Al|), where |Aw| is the length in the stretched space.
-    const float weight = l.z * (view_length + view.z) / (l.z * view_length + view.z * light_length) * (1.0f / kCones);
+    const float weight = l.z * (view_length + view.z) / (l.z * view_length + view.z * light_length) / static_cast<float>(count);
     // Density per solid angle: G1 D / (4 v.z), G1 = 2 v.z / (v.z + |Av|).
     const float k = h.x * h.x / (ax * ax) + h.y * h.y / (ay * ay) + h.z * h.z;
     const float pdf = 1 / (2 * (view.z + view_length) * static_cast<float>(std::numbers::pi) * ax * ay * k * k);
-    const float width = 0.5f / std::sqrt(kCones * pdf * static_cast<float>(std::numbers::pi));
-    const Vec3f radiance = filtered_.mean(fx * l.x + fy * l.y + fz * l.z, width) * weight;
+    const float width = 0.5f / std::sqrt(static_cast<float>(count) * pdf * static_cast<float>(std::numbers::pi));
+    const Vec3f axis = fx * l.x + fy * l.y + fz * l.z;
     const float c = std::max(1 - v_dot_h, 0.0f), grazing = c * c * c * c * c;
-    sums.plain += radiance;
-    sums.grazing += radiance * grazing;
+    use(axis, filtered_.mean(axis, width) * weight, grazing);
   }
-  return sums;
 }
 
-// Integrates any lobe: directions of equal probability, each with a cone of the sky as large as it represents.
-Vec3d EnvironmentLight::through_cones(const Material& material, const Surface& surface, Vec3d normal, Vec3d view) const {
+// Finds the cones of any lobe: directions of equal probability, each with a cone of the sky as large as it represents.
+LobeCones EnvironmentLight::cones_of(const SurfaceLobe& of, const Surface& surface, Vec3f to_view, int count, double turn) const {
+  LobeCones result;
+  const Material& material = of.material;
   const Vec3d tangent = material.tangent == Vec3d{} ? static_cast<Vec3d>(surface.tangent) : material.tangent;
-  const Frame frame = Frame::from_normal_and_tangent(normal, tangent);
-  const Vec3d local_view = normalized(frame.to_local(view));
-  if (!(local_view.z > 0)) return {};
+  const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(of.normal)), tangent);
+  const Vec3d local_view = normalized(frame.to_local(normalized(static_cast<Vec3d>(to_view))));
+  if (!(local_view.z > 0)) return result;
   if (material.brdf == Brdf::ggx && material.shadowing && !material.multiple_scattering) {
-    const GgxSums sums = ggx_through_cones(frame, static_cast<Vec3f>(local_view), static_cast<float>(material.alpha_x),
-                                           static_cast<float>(material.alpha_y));
-    const Vec3d r = material.f0 * static_cast<Vec3d>(sums.plain - sums.grazing) + material.f90 * static_cast<Vec3d>(sums.grazing);
-    return {std::max(r.x, 0.0), std::max(r.y, 0.0), std::max(r.z, 0.0)};
+    const Vec3f f0 = static_cast<Vec3f>(material.f0), f90 = static_cast<Vec3f>(material.f90);
+    each_ggx_cone(frame, static_cast<Vec3f>(local_view), static_cast<float>(material.alpha_x), static_cast<float>(material.alpha_y), count,
+                  turn,
+                  [&](Vec3f axis, Vec3f radiance, float grazing) { result.add(axis, radiance * (f0 * (1 - grazing) + f90 * grazing)); });
+    return result;
   }
   const lobes::Lobe lobe(lobes::in_frame(material, frame), local_view);
-  if (!lobe.above_surface()) return {};
-  Vec3d sum{};
-  for (int i = 0; i < kCones; ++i) {
-    const auto [u, v] = place_of_cone(i);
+  if (!lobe.above_surface()) return result;
+  for (int i = 0; i < count; ++i) {
+    const auto [u, v] = place_of_cone(i, count, turn);
     const Vec3d l = lobe.sample(u, v);
     if (!(l.z > 0)) continue;
     const double pdf = lobe.pdf(l);
     if (!(pdf > 0)) continue;
     // A disc of solid angle 1 / (n pdf) varies by a quarter of its radius' square in each direction.
-    const double width = 0.5 * std::sqrt(1 / (kCones * pdf * std::numbers::pi));
-    const auto radiance = static_cast<Vec3d>(filtered_.mean(static_cast<Vec3f>(frame.to_world(l)), static_cast<float>(width)));
-    sum += lobe.radiance(lobe.evaluate(l)) * radiance * (1 / (kCones * pdf));
+    const double width = 0.5 * std::sqrt(1 / (count * pdf * std::numbers::pi));
+    const Vec3f axis = static_cast<Vec3f>(frame.to_world(l));
+    const auto radiance = static_cast<Vec3d>(filtered_.mean(axis, static_cast<float>(width)));
+    result.add(axis, static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) * radiance * (1 / (count * pdf))));
   }
-  return {std::max(sum.x, 0.0), std::max(sum.y, 0.0), std::max(sum.z, 0.0)};
+  return result;
 }
 
-Vec3f EnvironmentLight::reflected(const Surface& surface, Vec3f to_view) const {
-  Vec3d sum{};
-  const Vec3d view = normalized(static_cast<Vec3d>(to_view));
-  for (const SurfaceLobe& lobe : lobes_of(surface)) {
-    const Vec3d normal = normalized(static_cast<Vec3d>(lobe.normal));
-    sum += lobe.material.brdf == Brdf::lambert ? diffuse(lobe.material, normal, view) : through_cones(lobe.material, surface, normal, view);
-  }
-  return static_cast<Vec3f>(sum);
+Vec3f EnvironmentLight::reflected(const Surface& surface, Vec3f view) const {
+  Vec3f sum{};
+  for (const SurfaceLobe& lobe : lobes_of(surface))
+    sum += lobe.material.brdf == Brdf::lambert ? diffuse(lobe, view) : cones_of(lobe, surface, view, LobeCones::kFew, 0).sum();
+  return sum;
 }
 
 }  // namespace steradian::environment

@@ -1,6 +1,8 @@
 // EnvironmentLight: an environment prepared for a scene. Bright spots become polygon lights. Spherical harmonics of the rest light the
-// diffuse lobe, and a few cones of a blurred map light all other lobes. The rest casts no shadows.
+// diffuse lobe, and a few cones of a blurred map light all other lobes. EnvironmentShadows is the rest past the meshes.
 #pragma once
+
+#include <array>
 
 #include "render/environment/bright_spots.h"
 #include "render/environment/direction_grid.h"
@@ -9,6 +11,22 @@
 #include "render/surface/surface.h"
 
 namespace steradian::environment {
+
+// A cone of directions, and the radiance that a lobe reflects from it to the view.
+struct LobeCone {
+  Vec3f axis;  // unit, in the world
+  Vec3f reflected;
+};
+
+// The cones of one lobe.
+struct LobeCones {
+  static constexpr int kFew = 32;    // cones of the whole map; EnvironmentRender.SpecularAgreesWithTheReference measures their error
+  static constexpr int kMost = 128;  // cones past meshes, where each has one ray
+  std::array<LobeCone, kMost> cones;
+  std::size_t count = 0;
+  void add(Vec3f axis, Vec3f reflected) { cones[count++] = {axis, reflected}; }
+  Vec3f sum() const;
+};
 
 class EnvironmentLight {
  public:
@@ -25,17 +43,22 @@ class EnvironmentLight {
   // Radiance that a camera sees past all meshes.
   Vec3f background(Vec3f direction) const { return radiance_from(environment_.map, static_cast<Vec3d>(direction)); }
 
-  // Radiance that a surface reflects to a unit view, without the spots.
+  // Radiance of the rest, the map without the spots, averaged over a width [rad] about a direction.
+  Vec3f rest(Vec3f direction, float width) const { return filtered_.mean(direction, width); }
+
+  // Radiance that a surface reflects to a unit view from the rest, if nothing is in its way.
   Vec3f reflected(const Surface& surface, Vec3f view) const;
+  // The same for a diffuse lobe, and for any other lobe by `count` cones (kFew or kMost). turn: rotation of the cones about the lobe, in
+  // turns.
+  Vec3f diffuse(const SurfaceLobe& lobe, Vec3f view) const;
+  LobeCones cones_of(const SurfaceLobe& lobe, const Surface& surface, Vec3f view, int count, double turn) const;
 
  private:
   EnvironmentLight(const Scene& scene, const DirectionGrid& grid);
   EnvironmentLight(const Scene& scene, const DirectionGrid& grid, const SplitMap& split);
-  Vec3d diffuse(const Material& lobe, Vec3d normal, Vec3d view) const;
-  struct GgxSums;
-  GgxSums ggx_through_cones(const Frame& frame, Vec3f view, float ax, float ay) const;
+  template <class Use>
+  void each_ggx_cone(const Frame& frame, Vec3f view, float ax, float ay, int count, double turn, Use use) const;
   double measured_residual(const DirectionGrid& whole, const DirectionGrid& rest) const;
-  Vec3d through_cones(const Material& lobe, const Surface& surface, Vec3d normal, Vec3d view) const;
 
   const Environment& environment_;
   std::vector<AreaLight> spots_;

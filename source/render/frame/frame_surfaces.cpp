@@ -16,11 +16,16 @@ FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, c
       camera_(find_camera(scene, options.camera), options.width, options.height),
       rays_(parts.rays),
       environment_(prepare_environment()),
+      environment_shadows_(environment_ != nullptr && options.shadows != Shadows::off
+                               ? std::make_unique<const environment::EnvironmentShadows>(*environment_, *rays_, options)
+                               : nullptr),
       maps_(parts.maps),
       shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, maps_.get(),
                camera_.steps(options.aa)},
       tiles_x_((options.width + kTileSide - 1) / kTileSide),
-      tiles_y_((options.height + kTileSide - 1) / kTileSide) {}
+      tiles_y_((options.height + kTileSide - 1) / kTileSide) {
+  halves_of_rays_.resize(static_cast<std::size_t>(tile_count()));
+}
 
 std::unique_ptr<const environment::EnvironmentLight> FrameSurfaces::prepare_environment() {
   if (!scene_.environment) return nullptr;
@@ -78,17 +83,42 @@ void FrameSurfaces::show_background(const TileVector& directions, SurfaceTile& t
   }
 }
 
-void FrameSurfaces::add_environment(SurfaceTile& tile) {
+void FrameSurfaces::add_environment(int index, int sample, SurfaceTile& tile) {
   if (!environment_) return;
+  const auto view = [&](std::size_t i) { return get(tile.view, i); };
+  const auto add = [&](std::size_t i, Vec3f r) {
+    tile.radiance.x[i] += r.x;
+    tile.radiance.y[i] += r.y;
+    tile.radiance.z[i] += r.z;
+  };
   environment_clock_.run([&] {
-    for (std::size_t i = 0; i < kTilePixels; ++i) {
-      if (tile.material[i] == nullptr) continue;
-      const Vec3f r = environment_->reflected(surface_in(tile, i), {tile.view.x[i], tile.view.y[i], tile.view.z[i]});
-      tile.radiance.x[i] += r.x;
-      tile.radiance.y[i] += r.y;
-      tile.radiance.z[i] += r.z;
+    if (environment_shadows_ == nullptr) {
+      for (std::size_t i = 0; i < kTilePixels; ++i)
+        if (tile.material[i] != nullptr) add(i, environment_->reflected(surface_in(tile, i), view(i)));
+      return;
+    }
+    using environment::EnvironmentShadows;
+    EnvironmentShadows::Surfaces some;
+    for (std::size_t first = 0; first < kTilePixels; first += EnvironmentShadows::kLanes) {
+      some.lit = 0;
+      for (std::size_t i = 0; i < EnvironmentShadows::kLanes; ++i) {
+        if (tile.material[first + i] == nullptr) continue;
+        some.surface[i] = surface_in(tile, first + i);
+        some.view[i] = view(first + i);
+        some.lit |= 1u << i;
+      }
+      if (some.lit == 0) continue;
+      const auto reflected = environment_shadows_->reflected(some, sample, halves_of_rays_[static_cast<std::size_t>(index)]);
+      for (std::size_t i = 0; i < EnvironmentShadows::kLanes; ++i)
+        if ((some.lit >> i & 1) != 0) add(first + i, reflected[i]);
     }
   });
+}
+
+double FrameSurfaces::environment_shadow_error() const {
+  environment::HalvesOfRays all;
+  for (const environment::HalvesOfRays& tile : halves_of_rays_) all += tile;
+  return all.relative_rms();
 }
 
 void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind) {

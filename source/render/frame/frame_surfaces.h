@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "render/environment/environment_light.h"
+#include "render/environment/environment_shadows.h"
 #include "render/surface/camera_rays.h"
 #include "render/surface/gbuffer.h"
 #include "render/surface/ray_scene.h"
@@ -38,8 +40,10 @@ class FrameSurfaces {
   }
   // Adds the background where a tile holds no surface, for callers that fill the tile in another way.
   void add_background(int index, int sample, SurfaceTile& tile) const;
-  // Adds all of the environment's light except that of its spots.
-  void add_environment(SurfaceTile& tile);
+  // Adds all of the environment's light except that of its spots, past the meshes if the picture has shadows.
+  void add_environment(int index, int sample, SurfaceTile& tile);
+  // Error of the shadows of that light: rms over its mean (HalvesOfRays).
+  double environment_shadow_error() const;
 
   double environment_build_ms() const { return environment_build_ms_; }
   // Times of the passes `rays` and `gbuffer`, and of `environment` if the scene has one.
@@ -57,6 +61,8 @@ class FrameSurfaces {
   const std::shared_ptr<const RayScene> rays_;
   double environment_build_ms_ = 0;
   const std::unique_ptr<const environment::EnvironmentLight> environment_;
+  const std::unique_ptr<const environment::EnvironmentShadows> environment_shadows_;  // null without an environment or without shadows
+  std::vector<environment::HalvesOfRays> halves_of_rays_;                             // by tile
   const std::shared_ptr<const MipMaps> maps_;
   const Shading shading_;
   const int tiles_x_, tiles_y_;

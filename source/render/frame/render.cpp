@@ -102,6 +102,7 @@ class Renderer {
       stats.environment_spots = environment()->share_of_spots();
       stats.diffuse_residual = environment()->diffuse_residual();
       stats.specular_residual = environment()->specular_residual();
+      stats.environment_shadow_error = surfaces_.environment_shadow_error();
     }
     if (many_lights_) many_lights_->report(stats);
     if (lighting_.has_shadows()) {
@@ -282,7 +283,8 @@ class Renderer {
 
   enum class Sum { tile, block };
   // Computes the light that a tile's surfaces send to the camera, in the tile's radiance. The fraction `shares` of it arrives.
-  void light_tile(SurfaceTile& tile, TileArea a, int sample, int layer, int pairs, const TileVector* shares, Picture& picture, Sum sum) {
+  void light_tile(SurfaceTile& tile, int index, int sample, int layer, int pairs, const TileVector* shares, Picture& picture, Sum sum) {
+    const TileArea a = area(index);
     const float weight = 1.0f / static_cast<float>(options_.aa);
     bool bounded = many_lights_ != nullptr;
     if (sum == Sum::block) {
@@ -296,7 +298,7 @@ class Renderer {
         lighting_.add(tile, reaching.lights);
       }
     }
-    if (!method_.estimates()) surfaces_.add_environment(tile);
+    if (!method_.estimates()) surfaces_.add_environment(index, sample, tile);
     if (method_.estimates())
       sampling_clock_.run([&] {
         std::vector<Vec3f>& variance = picture.layers.at("variance");
@@ -332,14 +334,14 @@ class Renderer {
     const TileArea a = area(index);
     TilePlane behind = surfaces_.fill(index, s, *tile);
     if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
-    light_tile(*tile, a, s, 0, pairs, nullptr, picture, sum);
+    light_tile(*tile, index, s, 0, pairs, nullptr, picture, sum);
     if (!tile->any_passing) return;
     TileVector shares;
     for (TilePlane* plane : {&shares.x, &shares.y, &shares.z}) plane->fill(1);
     for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
       look_through(*tile, shares, behind);
       behind = surfaces_.fill(index, s, *tile, &behind);
-      light_tile(*tile, a, s, layer, pairs, &shares, picture, Sum::tile);
+      light_tile(*tile, index, s, layer, pairs, &shares, picture, Sum::tile);
     }
   }
 

@@ -78,6 +78,15 @@ unsigned mask_of(const Mesh& mesh, const Scene& scene) {
   return kSeenByCamera | kCastsShadow | (cut_out ? kCutOut : kHasEdges);
 }
 
+unsigned mask_of(Casters casters) {
+  switch (casters) {
+    case Casters::with_edges: return kHasEdges;
+    case Casters::cut_outs: return kCutOut;
+    case Casters::all: break;
+  }
+  return kCastsShadow;
+}
+
 bool holds(RTCGeometry geometry, const std::vector<std::uint32_t>& indices) {
   return std::memcmp(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0), indices.data(),
                      indices.size() * sizeof(std::uint32_t)) == 0;
@@ -252,10 +261,7 @@ bool RayScene::occluded(Vec3f from, Vec3f to) const {
 }
 
 bool RayScene::between(Vec3d from, Vec3d to, Casters casters) const {
-  return blocked(static_cast<Vec3f>(from) * unit_, static_cast<Vec3f>(to - from) * unit_, 0, 1,
-                 casters == Casters::all          ? kCastsShadow
-                 : casters == Casters::with_edges ? kHasEdges
-                                                  : kCutOut);
+  return blocked(static_cast<Vec3f>(from) * unit_, static_cast<Vec3f>(to - from) * unit_, 0, 1, mask_of(casters));
 }
 
 void RayScene::Sixteen::set(std::size_t i, Vec3d from, Vec3d along) {
@@ -268,7 +274,7 @@ void RayScene::Sixteen::set(std::size_t i, Vec3d from, Vec3d along) {
   rays.dir_z[i] = direction.z;
 }
 
-std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked) const {
+std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked, Casters casters) const {
   if (asked == 0) return 0;
   alignas(64) int valid[16];
   RTCRay16& rays = sixteen.rays;
@@ -276,7 +282,7 @@ std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked) con
     valid[i] = (asked >> i & 1) != 0 ? -1 : 0;
     rays.tnear[i] = rays.time[i] = 0;
     rays.tfar[i] = 1;
-    rays.mask[i] = kHasEdges;
+    rays.mask[i] = mask_of(casters);
     rays.id[i] = rays.flags[i] = 0;
     if (valid[i] == 0) disable(rays, i);
   }

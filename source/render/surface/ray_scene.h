@@ -53,13 +53,13 @@ class RayScene {
   // True if something lies between two points, even close to one of them. A point on a surface must first be moved off it
   // (offset_from_surface).
   bool between(Vec3d from, Vec3d to, Casters casters = Casters::with_edges) const;
-  // Tests sixteen rays at once, those in the bits of `asked`, against meshes whose edges cast exact shadows. Returns the blocked ones.
+  // Tests sixteen rays at once, those in the bits of `asked`. Returns the blocked ones.
   struct Sixteen {
     alignas(64) RTCRay16 rays;
     // Sets ray i from a point along a vector, to the vector's end.
     void set(std::size_t i, Vec3d from, Vec3d along);
   };
-  std::uint32_t blocked_among(Sixteen& sixteen, std::uint32_t asked) const;
+  std::uint32_t blocked_among(Sixteen& sixteen, std::uint32_t asked, Casters casters = Casters::with_edges) const;
 
   // Distance that the origin of a shadow ray keeps from its surface, whose position is in float.
   double offset_from_surface(Vec3d position) const { return shadow::offset_from_surface(position, static_cast<double>(reach_), 0x1p-24); }

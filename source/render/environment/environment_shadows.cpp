@@ -1,0 +1,201 @@
+#include "render/environment/environment_shadows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "steradian/area_light.h"  // luminance
+
+namespace steradian::environment {
+namespace {
+
+constexpr double kGolden = 0.61803398874989485;
+constexpr int kSets = 16;  // sets of directions; more primary samples repeat them
+
+// Number of directions on the sphere: about half are above a surface.
+std::size_t directions_for(Quality quality) {
+  switch (quality) {
+    case Quality::draft: return 256;
+    case Quality::high: return 4096;
+    case Quality::normal: break;
+  }
+  return 1024;
+}
+
+// A Fibonacci lattice on the sphere. The sets share their heights and differ by turns.
+Vec3d place_on_sphere(std::size_t i, std::size_t count, int set) {
+  const double y = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count), r = std::sqrt(1 - y * y);
+  const double phi = 2 * std::numbers::pi * std::fmod(static_cast<double>(i) * kGolden + static_cast<double>(set) / kSets, 1.0);
+  return {r * std::cos(phi), y, r * std::sin(phi)};
+}
+
+template <class Use>
+void each_bit(std::uint32_t bits, Use use) {
+  for (; bits != 0; bits &= bits - 1) use(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+}  // namespace
+
+void HalvesOfRays::add(double half_difference, double luminance) {
+  squares += half_difference * half_difference;
+  light += luminance;
+  ++count;
+}
+
+HalvesOfRays& HalvesOfRays::operator+=(const HalvesOfRays& other) {
+  squares += other.squares;
+  light += other.light;
+  count += other.count;
+  return *this;
+}
+
+double HalvesOfRays::relative_rms() const { return light > 0 ? std::sqrt(squares * count) / light : 0; }
+
+// Where the rays of the surfaces begin.
+struct EnvironmentShadows::Origins {
+  std::array<Vec3d, kLanes> position;
+  std::array<Vec3f, kLanes> horizon;  // normal of the triangle, or zero where its horizon occludes nothing
+};
+
+// Visible fractions of the light of all rays, and of two halves of them.
+struct EnvironmentShadows::VisibleFractions {
+  std::array<Vec3f, kLanes> all;
+  std::array<float, kLanes> half_difference;
+};
+
+EnvironmentShadows::EnvironmentShadows(const EnvironmentLight& light, const RayScene& rays, const RenderOptions& options)
+    : light_(light), rays_(rays), terminator_(options.terminator) {
+  const std::size_t count = directions_for(options.quality);
+  const auto width = static_cast<float>(std::sqrt(1.0 / static_cast<double>(count)));  // of a disc of the solid angle of one direction
+  for (int set = 0; set < std::min(options.aa, kSets); ++set) {
+    std::vector<Direction>& directions = sets_.emplace_back();
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto to = static_cast<Vec3f>(place_on_sphere(i, count, set));
+      directions.push_back({to, light.rest(to, width)});
+    }
+  }
+}
+
+// Tests one direction a surface. What lies below the horizon of its triangle is blocked.
+std::uint32_t EnvironmentShadows::blocked(const Origins& origins, const std::array<Vec3f, kLanes>& directions, std::uint32_t asked) const {
+  const double far = 8 * static_cast<double>(rays_.reach());  // beyond every mesh
+  RayScene::Sixteen sixteen;
+  std::uint32_t below = 0;
+  each_bit(asked, [&](std::size_t i) {
+    if (dot(origins.horizon[i], directions[i]) < 0) {
+      below |= 1u << i;
+    } else {
+      sixteen.set(i, origins.position[i], static_cast<Vec3d>(directions[i]) * far);
+    }
+  });
+  return below | rays_.blocked_among(sixteen, asked & ~below, Casters::all);
+}
+
+EnvironmentShadows::VisibleFractions EnvironmentShadows::diffuse_fractions(const Surfaces& surfaces, const Origins& origins,
+                                                                           std::uint32_t asked, int sample) const {
+  std::array<Vec3f, kLanes> normal{};
+  each_bit(asked, [&](std::size_t i) { normal[i] = surfaces.surface[i].normal; });
+  struct Sums {
+    std::array<Vec3f, kLanes> light{}, visible{};
+  };
+  std::array<Sums, 2> halves;
+  const std::vector<Direction>& set = sets_[static_cast<std::size_t>(sample) % sets_.size()];
+  for (std::size_t d = 0; d < set.size(); ++d) {
+    const Direction& direction = set[d];
+    std::uint32_t above = 0;
+    std::array<float, kLanes> cosine;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      cosine[i] = dot(normal[i], direction.to);
+      above |= static_cast<std::uint32_t>(cosine[i] > 0) << i;
+    }
+    above &= asked;
+    if (above == 0) continue;
+    std::array<Vec3f, kLanes> directions;
+    directions.fill(direction.to);
+    const std::uint32_t hidden = blocked(origins, directions, above);
+    Sums& half = halves[d % 2];
+    each_bit(above, [&](std::size_t i) { half.light[i] += direction.light * cosine[i]; });
+    each_bit(above & ~hidden, [&](std::size_t i) { half.visible[i] += direction.light * cosine[i]; });
+  }
+  VisibleFractions result;
+  const auto ratio = [](float part, float whole) { return whole > 0 ? part / whole : 0.0f; };
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const Vec3f light = halves[0].light[i] + halves[1].light[i], visible = halves[0].visible[i] + halves[1].visible[i];
+    result.all[i] = {ratio(visible.x, light.x), ratio(visible.y, light.y), ratio(visible.z, light.z)};
+    const auto of_half = [&](const Sums& half) {
+      return ratio(static_cast<float>(luminance(static_cast<Vec3d>(half.visible[i]))),
+                   static_cast<float>(luminance(static_cast<Vec3d>(half.light[i]))));
+    };
+    result.half_difference[i] = 0.5f * (of_half(halves[0]) - of_half(halves[1]));
+  }
+  return result;
+}
+
+// Adds the visible cones of a lobe of each surface.
+void EnvironmentShadows::add_visible(const std::array<LobeCones, kLanes>& cones, const Origins& origins, std::array<Vec3f, kLanes>& result,
+                                     std::array<double, kLanes>& half_difference) const {
+  std::array<std::array<double, 2>, kLanes> light{}, visible{};  // luminance, by half
+  for (std::size_t c = 0; c < LobeCones::kMost; ++c) {
+    std::array<Vec3f, kLanes> axes;
+    std::uint32_t asked = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (c >= cones[i].count) continue;
+      axes[i] = cones[i].cones[c].axis;
+      asked |= 1u << i;
+      light[i][c % 2] += luminance(static_cast<Vec3d>(cones[i].cones[c].reflected));
+    }
+    if (asked == 0) break;
+    each_bit(asked & ~blocked(origins, axes, asked), [&](std::size_t i) {
+      const Vec3f reflected = cones[i].cones[c].reflected;
+      result[i] += reflected;
+      visible[i][c % 2] += luminance(static_cast<Vec3d>(reflected));
+    });
+  }
+  for (std::size_t i = 0; i < kLanes; ++i)
+    if (light[i][0] > 0 && light[i][1] > 0)
+      half_difference[i] += 0.5 * (light[i][0] + light[i][1]) * (visible[i][0] / light[i][0] - visible[i][1] / light[i][1]);
+}
+
+std::array<Vec3f, EnvironmentShadows::kLanes> EnvironmentShadows::reflected(const Surfaces& surfaces, int sample,
+                                                                            HalvesOfRays& halves) const {
+  Origins origins{};
+  std::array<std::vector<SurfaceLobe>, kLanes> lobes;
+  std::size_t most_lobes = 0;
+  std::uint32_t diffuse = 0;
+  each_bit(surfaces.lit, [&](std::size_t i) {
+    const Surface& surface = surfaces.surface[i];
+    const auto position = static_cast<Vec3d>(surface.position);
+    origins.position[i] = position + static_cast<Vec3d>(surface.geometric_normal) * rays_.offset_from_surface(position);
+    if (terminator_ == Terminator::strict) origins.horizon[i] = surface.geometric_normal;
+    lobes[i] = lobes_of(surface);
+    most_lobes = std::max(most_lobes, lobes[i].size());
+    for (const SurfaceLobe& lobe : lobes[i]) diffuse |= static_cast<std::uint32_t>(lobe.material.brdf == Brdf::lambert) << i;
+  });
+  std::array<Vec3f, kLanes> result{};
+  std::array<double, kLanes> half_difference{};
+  if (diffuse != 0) {
+    const VisibleFractions fractions = diffuse_fractions(surfaces, origins, diffuse, sample);
+    each_bit(diffuse, [&](std::size_t i) {
+      for (const SurfaceLobe& lobe : lobes[i]) {
+        if (lobe.material.brdf != Brdf::lambert) continue;
+        const Vec3f whole = light_.diffuse(lobe, surfaces.view[i]);
+        result[i] += whole * fractions.all[i];
+        half_difference[i] += luminance(static_cast<Vec3d>(whole)) * static_cast<double>(fractions.half_difference[i]);
+      }
+    });
+  }
+  for (std::size_t k = 0; k < most_lobes; ++k) {
+    std::array<LobeCones, kLanes> cones{};
+    each_bit(surfaces.lit, [&](std::size_t i) {
+      if (k < lobes[i].size() && lobes[i][k].material.brdf != Brdf::lambert)
+        cones[i] = light_.cones_of(lobes[i][k], surfaces.surface[i], surfaces.view[i], LobeCones::kMost,
+                                   static_cast<double>(sample % kSets) / kSets);
+    });
+    add_visible(cones, origins, result, half_difference);
+  }
+  each_bit(surfaces.lit, [&](std::size_t i) { halves.add(half_difference[i], luminance(static_cast<Vec3d>(result[i]))); });
+  return result;
+}
+
+}  // namespace steradian::environment
