@@ -386,6 +386,22 @@ TEST(EnvironmentRender, SpecularAgreesWithTheReference) {
     }
 }
 
+// The family of bright strips: any shape, roughness and map, by Monte Carlo of the whole map. docs/environments.md states the errors.
+TEST(EnvironmentRender, StripsOfAnyShapeAgreeWithTheReference) {
+  reference::Random random(31);
+  double worst = 0;
+  const int maps = test::by_day_or_night(3, 40);
+  for (int k = 0; k < maps; ++k) {
+    const auto roughness = static_cast<float>(k % 3 == 0 ? 0.5 : random.uniform(0.3, 1));
+    const Scene scene = ball_in(strips_map(random), metal(roughness));
+    const double error = relative_l2(picture_of(scene, "auto"), picture_of(scene, "reference"));
+    std::printf("map %d, roughness %.2f: %.2f %%\n", k, static_cast<double>(roughness), 100 * error);
+    worst = std::max(worst, error);
+  }
+  std::printf("%d maps: worst %.2f %%\n", maps, 100 * worst);
+  EXPECT_LT(worst, 0.035);
+}
+
 // The residual that is printed is the cones' error: small without the strips, large with them (a file's own irradiance keeps them).
 TEST(EnvironmentRender, TheSpecularResidualTellsWhatTheConesMiss) {
   reference::Random random(29);
