@@ -80,7 +80,6 @@ struct SegmentLanes {
 // Padded by boxes that meet nothing. Blocks of kPadding consecutive segments are padded in the same way.
 struct BoxArrays {
   float *low_x, *high_x, *low_y, *high_y;  // bounds over the lanes where it is present
-  std::uint32_t* order;                    // segment at each position
   float *block_low_x, *block_high_x, *block_low_y, *block_high_y;
 };
 
@@ -149,7 +148,7 @@ struct LaneTable {
   // Writes the segments of edges; returns their number. front: one number per plane; place_of: one per vertex; vertices: capacity for all.
   std::size_t (*see)(const LaneEdges& edges, const LaneView& view, std::uint16_t* front, std::int32_t* place_of, VertexLanes* vertices,
                      std::size_t& vertex_count, SegmentLanes* to);
-  // Computes the boxes of segments, in their order.
+  // Computes the boxes of segments.
   void (*bound)(const SegmentLanes* segments, std::size_t count, const BoxArrays& boxes);
   // Finds all crossings; returns false if the capacity is too small.
   bool (*cross)(LaneWork& work);

@@ -110,9 +110,8 @@ __attribute__((flatten)) bool cross_in_lanes(LaneWork& work) {
   const BoxArrays& b = work.boxes;
   work.crossings.size = 0;
   bool room = true;
-  for (std::size_t place = 0; place < work.count; ++place) {
-    const std::uint32_t e = b.order[place];
-    near(b, work.count, place + 1, b.low_x[place], b.high_x[place], b.low_y[place], b.high_y[place], [&](std::uint32_t f) {
+  for (std::uint32_t e = 0; e < work.count; ++e) {
+    near(b, work.count, e + 1, b.low_x[e], b.high_x[e], b.low_y[e], b.high_y[e], [&](std::uint32_t f) {
       const SegmentLanes &se = work.segments[e], &sf = work.segments[f];
       std::uint32_t lanes = static_cast<std::uint32_t>(se.present) & static_cast<std::uint32_t>(sf.present) & ~shared_ends(se, sf);
       if (lanes == 0) return;

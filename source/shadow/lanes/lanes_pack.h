@@ -64,7 +64,7 @@ STERADIAN_INLINE float largest(std::uint32_t lanes, At at) {
   return -least(lanes, [&](std::size_t i) { return -at(i); });
 }
 
-// Calls use(segment) for segments whose boxes may meet a range, from the place `first` on. It tests the boxes of blocks first, then those
+// Calls use(segment) for segments whose boxes may meet a range, from `first` on. It tests the boxes of blocks first, then those
 // of their segments.
 template <class Use>
 STERADIAN_INLINE void near(const shadow::BoxArrays& b, std::size_t count, std::size_t first, float low_x, float high_x, float low_y,
@@ -83,7 +83,7 @@ STERADIAN_INLINE void near(const shadow::BoxArrays& b, std::size_t count, std::s
     for_each_bit(some, [&](std::size_t of) {
       const std::size_t at = (group + of) * kBlock;
       const std::uint32_t bits = meets(b.low_x, b.high_x, b.low_y, b.high_y, at) & from(first, at);
-      for_each_bit(bits, [&](std::size_t lane) { use(b.order[at + lane]); });
+      for_each_bit(bits, [&](std::size_t lane) { use(static_cast<std::uint32_t>(at + lane)); });
     });
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "shadow/edges/gather.h"
 #include "shadow/region/arrangement.h"
@@ -159,10 +158,9 @@ ExactLanes PointLanes::exact() const {
 // Allocates memory for all results that depend on the segments.
 void PointLanes::make_room() {
   const std::size_t n = segments_.size(), room = padded(n);
-  if (order_.size() < room) {
-    for (std::vector<float>* v : {&low_x_, &high_x_, &low_y_, &high_y_, &unsorted_}) v->resize(room);
+  if (found_.size() < room) {
+    for (std::vector<float>* v : {&low_x_, &high_x_, &low_y_, &high_y_}) v->resize(room);
     for (std::vector<float>* v : {&block_low_x_, &block_high_x_, &block_low_y_, &block_high_y_}) v->resize(padded(room / kPadding));
-    order_.resize(room);
     found_.resize(room);
     events_.resize(room);
     crossing_first_.resize(room + 1);
@@ -176,32 +174,14 @@ void PointLanes::make_room() {
   }
 }
 
-void PointLanes::sort_boxes(const LaneTable& packs) {
+// Computes the boxes of the segments and of their blocks. The order is that of the edges in their tree, so the boxes of a block are near
+// each other: a sort by height gains less than it costs.
+void PointLanes::find_boxes(const LaneTable& packs) {
   constexpr float kFar = 1e9f;
-  constexpr std::size_t kFew = 64;
   const std::size_t n = work_.count, room = padded(n);
-  BoxArrays& b = work_.boxes;
-  b = {low_x_.data(),       high_x_.data(),       low_y_.data(),       high_y_.data(),      order_.data(),
-       block_low_x_.data(), block_high_x_.data(), block_low_y_.data(), block_high_y_.data()};
-  packs.bound(segments_.data(), n, b);
-  std::iota(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(room), 0u);
-  if (n > kFew) {
-    // Sort by height, the long ones first, so that each meets few blocks.
-    constexpr float kRow = kCells / 32.0f, kLong = 2 * kRow;
-    const auto row_of = [&](std::uint32_t s) { return high_y_[s] - low_y_[s] > kLong ? -kFar : std::floor(low_y_[s] / kRow); };
-    std::sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(n), [&](std::uint32_t s, std::uint32_t t) {
-      const float rs = row_of(s), rt = row_of(t);
-      return rs != rt ? rs < rt : low_x_[s] != low_x_[t] ? low_x_[s] < low_x_[t] : s < t;
-    });
-    for (std::vector<float>* v : {&low_x_, &high_x_, &low_y_, &high_y_}) {
-      unsorted_.swap(*v);
-      for (std::size_t i = 0; i < n; ++i) (*v)[i] = unsorted_[order_[i]];
-    }
-    b.low_x = low_x_.data();
-    b.high_x = high_x_.data();
-    b.low_y = low_y_.data();
-    b.high_y = high_y_.data();
-  }
+  work_.boxes = {low_x_.data(),       high_x_.data(),       low_y_.data(),       high_y_.data(),
+                 block_low_x_.data(), block_high_x_.data(), block_low_y_.data(), block_high_y_.data()};
+  packs.bound(segments_.data(), n, work_.boxes);
   for (std::size_t i = n; i < room; ++i) {
     low_x_[i] = low_y_[i] = kFar;
     high_x_[i] = high_y_[i] = -kFar;
@@ -246,7 +226,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   if (arranged == 0) return;
   add_surroundings(arranged);
   make_room();
-  sort_boxes(packs);
+  find_boxes(packs);
   work_.segments = segments_.data();
   work_.place_count = vertex_count_ + outline.size();
   work_.crossing_first = crossing_first_.data();

@@ -61,7 +61,7 @@ class PointLanes {
   void take_points(const EdgeArrays& edges, const LightFrame& base, bool turned);
   void add_surroundings(LaneBits lanes);
   void make_room();
-  void sort_boxes(const LaneTable& packs);
+  void find_boxes(const LaneTable& packs);
   Segment segment(std::uint32_t number, std::size_t lane) const;
   ExactLanes exact() const;
 
@@ -87,10 +87,10 @@ class PointLanes {
   std::vector<SegmentLanes> segments_;
   std::vector<CrossingLanes> crossings_;
   std::vector<CrossedPiece> pieces_;
-  std::vector<float> low_x_, high_x_, low_y_, high_y_, unsorted_, block_low_x_, block_high_x_, block_low_y_, block_high_y_;
+  std::vector<float> low_x_, high_x_, low_y_, high_y_, block_low_x_, block_high_x_, block_low_y_, block_high_y_;
   std::vector<LaneReals> sorted_t_;
   std::vector<LaneInts> sorted_change_;
-  std::vector<std::uint32_t> order_, crossing_first_, crossing_list_, end_first_, ends_, found_, stack_, events_;
+  std::vector<std::uint32_t> crossing_first_, crossing_list_, end_first_, ends_, found_, stack_, events_;
   std::vector<LaneBits> shared_by_two_;
   SegmentSet horizon_;
 };
