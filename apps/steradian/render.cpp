@@ -71,6 +71,8 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"environment_shadow_error", stats.environment_shadow_error},
           {"shadow_fallback", stats.shadow_fallback},
           {"shadow_on_host", stats.shadow_on_host},
+          {"exact_tiles", stats.exact_tiles},
+          {"estimated_shadow_error", stats.estimated_shadow_error},
           {"light_sum", stats.light_tree ? "tree" : "all"},
           {"light_elements", stats.light_elements},
           {"light_outlines", stats.light_outlines},
@@ -146,7 +148,11 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--fps", !options.frames.empty(), "--frames"},
        {"--animation", !options.frames.empty(), "--frames"},
        {"--force", !options.frames.empty(), "--frames"},
-       {"--stats", options.frames.empty(), "one picture, not --frames"}});
+       {"--stats", options.frames.empty(), "one picture, not --frames"},
+       {"--time-limit", r.method != "sampled" && r.method != "reference", "a method without samples"},
+       {"--time-limit", r.shadows != Shadows::off, "--shadows on or exact"},
+       {"--time-limit", r.indirect.mode == IndirectMode::off, "direct light, not --indirect"},
+       {"--time-limit", r.backend == Backend::cpu, "--backend cpu"}});
   verb.refuse({"--moments", "--occluders", "--normal-map", "--lamp-height", "--bounces", "--bounce-lattice", "--edits"},
               "a plane scene (.svg)");
 }
@@ -160,7 +166,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
                "--indirect-quads", "--indirect-clamp", "--max-lights",       "--light",
                "--lights",         "--light-error",    "--environment",      "--environment-rotation",
                "--background",     "--light-units",    "--camera",           "--target-error",
-               "--resume",         "--animation"},
+               "--resume",         "--animation",      "--time-limit"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -227,6 +233,11 @@ void run(const Verb& verb, RenderArguments& options) {
   const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded = load_scene(options.scene, load);
   const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  if (render_options.time_limit > 0) {
+    constexpr double kToWrite = 0.3e-6;  // seconds a pixel: an .exr with a layer takes 0.25 s at 1280x720
+    const double rest = load_ms * 1e-3 + kToWrite * render_options.width * render_options.height;
+    render_options.time_limit = std::max(render_options.time_limit - rest, 1e-3);
+  }
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   say_direct_only(loaded.scene, render_options.indirect.mode);
 
@@ -255,6 +266,12 @@ void run(const Verb& verb, RenderArguments& options) {
   }
   for (const std::string& warning : stats.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
+  if (stats.exact_tiles < 1)
+    fmt::print(
+        stderr,
+        "steradian: --time-limit: {:.0f} % of the tiles are exact; a few rays estimate the shadows of the others, within {:.2g} % rms\n",
+        100 * stats.exact_tiles, 100 * stats.estimated_shadow_error);
+
   if (loaded.scene.environment && stats.method != "sampled" && stats.method != "reference")
     fmt::print(
         stderr,
@@ -274,6 +291,10 @@ void run(const Verb& verb, RenderArguments& options) {
                       {"steradian.seed", std::to_string(render_options.seed)},
                       {"steradian.exposure", fmt::format("{}", exposure)},
                       {"steradian.tone", name_of(options.tone)}};
+  if (render_options.time_limit > 0) {
+    picture.metadata["steradian.exact_tiles"] = fmt::format("{}", stats.exact_tiles);
+    picture.metadata["steradian.estimated_shadow_error"] = fmt::format("{}", stats.estimated_shadow_error);
+  }
   if (stats.light_tree) picture.metadata["steradian.light_error"] = fmt::format("{}", render_options.light_error);
   write_picture(picture, options.output, exposure, options.tone);
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
@@ -333,6 +354,9 @@ void add_render(CommandLine& line) {
   verb.add_word("--backend", r.backend, "where to compute").group("Machine");
   verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
+  verb.add("--time-limit", r.time_limit, "seconds for the picture; rays then estimate shadows; 0: no limit")
+      .range(0.0, 1e6)
+      .group("Machine");
   verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").writes(Writes::file).group("Machine");
 
   verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");

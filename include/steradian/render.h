@@ -45,7 +45,10 @@ struct RenderOptions {
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // for `sampled`: light and lobe sample pairs per light and primary sample
   double target_error = 0.01;  // for `reference`: rms of the standard error over rms of the picture; 0: `spp` pairs in every pixel
-  IndirectOptions indirect;    // one bounce, at the first primary sample of each pixel; see indirect.h
+  // Seconds from the start of render; 0: no limit. With a limit, a few rays estimate the shadows first. Tiles then become exact, the least
+  // certain first, until the time is over. The layer "shadow_bound" gives each pixel's possible error (docs/shadows.md).
+  double time_limit = 0;
+  IndirectOptions indirect;  // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   Backend backend = Backend::cpu;
   std::string device;  // for vulkan: part of its name, or its number in `steradian info`; empty: the first
@@ -84,6 +87,8 @@ struct RenderStats {
   double light_bound_max = 0;           // the layer's largest value ...
   double light_bound_mean = 0;          // ... and its mean, over pixels and channels
   double shadow_fallback = 0;           // fraction of pairs of a surface and a light whose shadows rays have estimated
+  double exact_tiles = 1;               // fraction of the tiles that are exact, where time was limited
+  double estimated_shadow_error = 0;    // estimated rms error of the others over the picture's mean light
   double shadow_on_host = 0;            // fraction of a device's pairs that see a part of the light for which the host found that part
   std::vector<std::string> warnings;    // omissions of the method, a sentence each
 };

@@ -52,7 +52,7 @@ HalvesOfRays& HalvesOfRays::operator+=(const HalvesOfRays& other) {
 
 double HalvesOfRays::relative_rms() const { return light > 0 ? std::sqrt(squares * count) / light : 0; }
 
-// Where the rays of the surfaces begin.
+// Origins of the rays of the surfaces.
 struct EnvironmentShadows::Origins {
   std::array<Vec3d, kLanes> position;
   std::array<Vec3f, kLanes> horizon;  // normal of the triangle, or zero where its horizon occludes nothing

@@ -144,4 +144,34 @@ void add_to_picture(const TileVector& values, TileArea a, const TileVector* shar
     }
 }
 
+namespace {
+
+// Calls use(begin, end) for the numbers of the pixels of each row of a tile.
+template <class Use>
+void each_row(TileArea a, int width, Use use) {
+  for (int y = a.y; y < a.y + a.height; ++y) {
+    const auto row = static_cast<std::ptrdiff_t>(y) * width + a.x;
+    use(row, row + a.width);
+  }
+}
+
+}  // namespace
+
+void clear_area(TileArea area, Picture& picture) {
+  each_row(area, picture.width, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::fill(picture.pixels.begin() + begin, picture.pixels.begin() + end, Vec3f{});
+    for (auto& [name, layer] : picture.layers) std::fill(layer.begin() + begin, layer.begin() + end, Vec3f{});
+  });
+}
+
+void copy_area(TileArea area, const Picture& from, Picture& to) {
+  each_row(area, to.width, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    std::copy(from.pixels.begin() + begin, from.pixels.begin() + end, to.pixels.begin() + begin);
+    for (auto& [name, layer] : to.layers) {
+      const std::vector<Vec3f>& other = from.layers.at(name);
+      std::copy(other.begin() + begin, other.begin() + end, layer.begin() + begin);
+    }
+  });
+}
+
 }  // namespace steradian

@@ -75,4 +75,8 @@ void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind
 // Adds `weight` times a tile's values to the pixels of a picture. shares: fraction of them that arrives; null for all.
 void add_to_picture(const TileVector& values, TileArea area, const TileVector* shares, float weight, std::vector<Vec3f>& pixels, int width);
 
+// Clears the pixels of a tile, in all layers, and copies them to a picture of the same size and layers.
+void clear_area(TileArea area, Picture& picture);
+void copy_area(TileArea area, const Picture& from, Picture& to);
+
 }  // namespace steradian

@@ -9,7 +9,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "core/float_mode.h"
@@ -20,6 +22,7 @@
 #include "render/sampled/monte_carlo.h"
 #include "render/surface/gbuffer.h"
 #include "render/tile/pass_clock.h"
+#include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 
 namespace steradian {
@@ -60,6 +63,10 @@ class Renderer {
     begin(state);
     std::vector<int> pairs(state.done.size(), options_.spp);
     steps_ = static_cast<std::uint64_t>(tile_count());
+    if (is_limited()) {
+      render_within_limit(state);
+      return std::move(state.picture);
+    }
     if (method_.kind == MethodKind::reference && options_.target_error > 0) pairs = plan_pairs();
     if (in_blocks()) {
       each_block([&](const std::vector<int>& tiles) {
@@ -70,15 +77,15 @@ class Renderer {
           return;
         }
         render_block(tiles, state.picture);
-        for (const int index : tiles) stopped() ? clear_tile(index, state.picture) : void(done(index) = 1);
+        for (const int index : tiles) stopped() ? clear_area(area(index), state.picture) : void(done(index) = 1);
       });
     } else {
       each_tile([&](int index) {
         const auto tile = static_cast<std::size_t>(index);
         if (state.done[tile] != 0) return take_surfaces(index);
-        render_tile(index, pairs[tile], state.picture);
+        render_tile(index, pairs[tile], state.picture, {});
         // A tile that was stopped on its way lacks samples, so its result is discarded.
-        stopped() ? clear_tile(index, state.picture) : void(state.done[tile] = 1);
+        stopped() ? clear_area(area(index), state.picture) : void(state.done[tile] = 1);
       });
     }
     Picture picture = options_.stop != nullptr ? state.picture : std::move(state.picture);  // no copy is needed if nothing can stop it
@@ -108,6 +115,8 @@ class Renderer {
     if (lighting_.has_shadows()) {
       stats.passes.push_back(lighting_.shadow_time(threads_));
       stats.shadow_fallback = lighting_.shadow_fallback();
+      stats.exact_tiles = exact_tiles_;
+      stats.estimated_shadow_error = estimated_error_;
     }
     if (indirect_) {
       stats.passes.push_back(capture_clock_.time(threads_));
@@ -150,22 +159,11 @@ class Renderer {
       state.done.assign(tiles, 0);
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
       if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
+      if (is_limited()) picture.layers["shadow_bound"].resize(picture.pixels.size());
     }
     if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||
         (picture.layers.count("variance") != 0) != method_.estimates())
       throw Error("state", "is of another picture", "go on with the options that it was begun with");
-  }
-
-  void clear_tile(int index, Picture& picture) const {
-    const TileArea a = area(index);
-    const auto clear = [&](std::vector<Vec3f>& pixels) {
-      for (int y = a.y; y < a.y + a.height; ++y) {
-        const auto row = static_cast<std::ptrdiff_t>(y) * options_.width + a.x;
-        std::fill_n(pixels.begin() + row, a.width, Vec3f{});
-      }
-    };
-    clear(picture.pixels);
-    for (auto& [name, layer] : picture.layers) clear(layer);
   }
 
   // Hands the surfaces of a tile whose direct light is done to the bounce.
@@ -281,10 +279,89 @@ class Renderer {
     return true;
   }
 
+  // Finder of the shadows of a tile.
+  enum class ShadowsBy { edges, rays, nothing };
+  struct ShadowWork {
+    ShadowsBy by = ShadowsBy::edges;
+    std::size_t rays = 0;  // of a pixel to a light
+  };
+
+  // True if the time is limited. Only shadows take much of it that something else can stand for.
+  bool is_limited() const { return options_.time_limit > 0 && lighting_.has_shadows() && !in_blocks(); }
+  double seconds() const { return ms_since(start_) * 1e-3; }
+
+  // Renders all tiles with shadows by 4 rays, then by 16 and 64 if they fit into a part of the time. Then makes tiles exact, those with the
+  // largest estimated error first, until the time is over. Tiles for which not even rays have time show the light without shadows.
+  void render_within_limit(RenderState& state) {
+    constexpr double kForRays = 0.6;  // fraction of the time that rays may take
+    constexpr std::size_t kMore = 4;  // factor from step to step
+    LimitedPicture limited{state.picture, state.picture, std::vector<double>(state.done.size()), state.done};
+    steps_ = static_cast<std::uint64_t>(2 * tile_count());
+    std::vector<int> order(state.done.size());
+    std::iota(order.begin(), order.end(), 0);
+    double expected = 0, last = 0;  // seconds of a step; the time grows by the same amount a ray
+    for (std::size_t rays = 4; rays <= FewRays::kMost; rays *= kMore) {
+      const double begun = seconds(), end = kForRays * options_.time_limit;
+      if (rays > 4 && begun + expected > end) break;
+      improve(order, {ShadowsBy::rays, rays}, rays > 4 ? end : std::numeric_limits<double>::infinity(), limited);
+      const double took = seconds() - begun;
+      expected = rays > 4 ? took + kMore * (took - last) : kMore / 2 * took;
+      last = took;
+    }
+    const std::vector<double>& errors = limited.errors;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int i, int j) { return errors[static_cast<std::size_t>(i)] > errors[static_cast<std::size_t>(j)]; });
+    improve(order, {}, options_.time_limit, limited);
+    exact_tiles_ = static_cast<double>(std::count(state.done.begin(), state.done.end(), 1)) / static_cast<double>(state.done.size());
+    double light = 0;
+    for (const Vec3f& p : state.picture.pixels) light += luminance(static_cast<Vec3d>(p));
+    const auto pixels = static_cast<double>(state.picture.pixels.size());
+    estimated_error_ = light > 0 ? std::sqrt(std::accumulate(errors.begin(), errors.end(), 0.0) / pixels) / (light / pixels) : 0;
+    std::fill(state.done.begin(), state.done.end(), 1);
+  }
+
+  struct LimitedPicture {
+    Picture& picture;
+    Picture scratch;             // where a tile is rendered before it replaces that of the picture
+    std::vector<double> errors;  // by tile: sum of the squares of the estimated errors
+    std::vector<std::uint8_t>& exact;
+  };
+
+  // Renders tiles again, in an order, as long as the next one is likely to end in time.
+  void improve(const std::vector<int>& order, ShadowWork work, double until, LimitedPicture& limited) {
+    std::atomic<std::size_t> next = 0;
+    std::atomic<double> longest = 0;  // seconds of a tile
+    arena_.execute([&] {
+      tbb::parallel_for(0, threads_, [&](int) {
+        const FlushDenormals flush;
+        while (!stopped() && seconds() + longest < until) {
+          const std::size_t place = next++;
+          if (place >= order.size()) break;
+          const int index = order[place];
+          const auto tile = static_cast<std::size_t>(index);
+          const double begun = seconds();
+          // No limit holds for the first picture, but its last tiles go without shadows.
+          const bool late = begun > options_.time_limit;
+          clear_area(area(index), limited.scratch);
+          limited.errors[tile] = render_tile(index, 0, limited.scratch, late ? ShadowWork{ShadowsBy::nothing} : work);
+          copy_area(area(index), limited.scratch, limited.picture);
+          limited.exact[tile] = work.by == ShadowsBy::edges;
+          const double took = seconds() - begun;
+          for (double before = longest; before < took && !longest.compare_exchange_weak(before, took);) {
+          }
+          if (options_.progress && (work.by == ShadowsBy::edges || work.rays == 4)) options_.progress(++done_, steps_);
+        }
+      });
+    });
+  }
+
   enum class Sum { tile, block };
   // Computes the light that a tile's surfaces send to the camera, in the tile's radiance. The fraction `shares` of it arrives.
-  void light_tile(SurfaceTile& tile, int index, int sample, int layer, int pairs, const TileVector* shares, Picture& picture, Sum sum) {
+  // Returns the sum of the squares of the errors that rays have estimated.
+  double light_tile(SurfaceTile& tile, int index, int sample, int layer, int pairs, const TileVector* shares, Picture& picture, Sum sum,
+                    ShadowWork work) {
     const TileArea a = area(index);
+    EstimatedShadows* estimate = nullptr;
     const float weight = 1.0f / static_cast<float>(options_.aa);
     bool bounded = many_lights_ != nullptr;
     if (sum == Sum::block) {
@@ -292,7 +369,12 @@ class Renderer {
     } else {
       if (bounded) many_lights_->bound() = {};
       const auto reaching = lights_reaching(light_pointers_, tile);
-      if (lighting_.has_shadows()) {
+      if (work.by == ShadowsBy::rays) {
+        const std::size_t rays = std::max(work.rays / static_cast<std::size_t>(options_.aa), std::size_t{2});
+        estimate = estimates_.local().get();
+        estimate->clear();
+        lighting_.add_shadowed_by_rays(tile, reaching.lights, rays, sample, *estimate);
+      } else if (lighting_.has_shadows() && work.by == ShadowsBy::edges) {
         lighting_.add_shadowed(tile, reaching.lights);
       } else {
         lighting_.add(tile, reaching.lights);
@@ -314,35 +396,49 @@ class Renderer {
       });
     add_to_picture(tile.radiance, a, shares, weight, picture.pixels, options_.width);
     if (bounded) add_to_picture(many_lights_->bound(), a, shares, weight, picture.layers.at("light_bound"), options_.width);
+    if (work.by == ShadowsBy::nothing) {  // all of the light may be missing
+      add_to_picture(tile.radiance, a, shares, weight, picture.layers.at("shadow_bound"), options_.width);
+      double squares = 0;
+      for (std::size_t i = 0; i < kTilePixels; ++i)
+        if (tile.material[i] != nullptr) squares += std::pow(luminance(static_cast<Vec3d>(get(tile.radiance, i) * weight)), 2);
+      return squares;
+    }
+    if (estimate == nullptr) return 0;
+    add_to_picture(estimate->bound, a, shares, weight, picture.layers.at("shadow_bound"), options_.width);
+    return estimate->squares * static_cast<double>(weight * weight);
   }
 
-  void render_tile(int index, int pairs, Picture& picture) {
-    for (int s = 0; s < options_.aa; ++s) render_sample(index, s, pairs, picture, Sum::tile);
+  // Returns the sum of the squares of the estimated errors over the pixels.
+  double render_tile(int index, int pairs, Picture& picture, ShadowWork work) {
+    double squares = 0;
+    for (int s = 0; s < options_.aa; ++s) squares += render_sample(index, s, pairs, picture, Sum::tile, work);
+    return squares;
   }
 
   void render_block(const std::vector<int>& tiles, Picture& picture) {
     for (int s = 0; s < options_.aa; ++s) {
       many_lights_->clear_block();
-      for (const int index : tiles) render_sample(index, s, 0, picture, Sum::block);
+      for (const int index : tiles) render_sample(index, s, 0, picture, Sum::block, {});
       block_clock_.run([&] { many_lights_->add_block(1.0f / static_cast<float>(options_.aa), picture); });
     }
   }
 
-  // One primary sample of a tile's pixels.
-  void render_sample(int index, int s, int pairs, Picture& picture, Sum sum) {
+  // Renders one primary sample of a tile's pixels. Returns the sum of the squares of the estimated errors.
+  double render_sample(int index, int s, int pairs, Picture& picture, Sum sum, ShadowWork work) {
     SurfaceTile* tile = workspace();
     const TileArea a = area(index);
     TilePlane behind = surfaces_.fill(index, s, *tile);
     if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
-    light_tile(*tile, index, s, 0, pairs, nullptr, picture, sum);
-    if (!tile->any_passing) return;
+    double squares = light_tile(*tile, index, s, 0, pairs, nullptr, picture, sum, work);
+    if (!tile->any_passing) return squares;
     TileVector shares;
     for (TilePlane* plane : {&shares.x, &shares.y, &shares.z}) plane->fill(1);
     for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
       look_through(*tile, shares, behind);
       behind = surfaces_.fill(index, s, *tile, &behind);
-      light_tile(*tile, index, s, layer, pairs, &shares, picture, Sum::tile);
+      squares += light_tile(*tile, index, s, layer, pairs, &shares, picture, Sum::tile, work);
     }
+    return squares;
   }
 
   const Clock::time_point start_ = Clock::now();
@@ -358,12 +454,14 @@ class Renderer {
   TileLighting lighting_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
+  tbb::enumerable_thread_specific<std::unique_ptr<EstimatedShadows>> estimates_{[] { return std::make_unique<EstimatedShadows>(); }};
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
   double build_ms_ = 0;
   PassClock sampling_clock_{"sampling"}, block_clock_{"block"}, capture_clock_{"indirect: surfaces"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;
+  double exact_tiles_ = 1, estimated_error_ = 0;  // RenderStats
 };
 
 }  // namespace

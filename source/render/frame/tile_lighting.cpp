@@ -6,6 +6,7 @@
 #include "render/direct/lobe_packs.h"
 #include "render/frame/uneven_diffuse.h"
 #include "render/surface/gbuffer.h"
+#include "steradian/area_light.h"  // luminance
 
 namespace steradian {
 namespace {
@@ -19,12 +20,18 @@ void add_radiance(SurfaceTile& tile, std::size_t i, Vec3f r) {
 
 }  // namespace
 
+void EstimatedShadows::clear() {
+  for (TilePlane* plane : {&bound.x, &bound.y, &bound.z}) plane->fill(0);
+  squares = 0;
+}
+
 // State of one tile's shadows, and the memory of one thread.
 struct TileLighting::Work {
   TileShadow shadow;
   ShadowCounts counts;
   OpenLights::Work open;
   PackLight pieces;                  // visible parts of a light, for some slots
+  RayFractions fractions;            // of one light
   std::vector<std::uint32_t> slots;  // slots copied to `some`, side by side
   SurfaceTile some;
   SurfaceTile coats;                 // coats that have a normal of their own
@@ -41,6 +48,7 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
       rays_(parts.rays),
       work_([] { return std::make_shared<Work>(); }) {
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
+  if (shadows_ && options.time_limit > 0) few_rays_.emplace(*rays_, lights);
 }
 
 // plain: lights whose diffuse light is still to be added.
@@ -72,18 +80,67 @@ void TileLighting::add(SurfaceTile& tile, const std::vector<const PackLight*>& l
   if (!method_.estimates()) specular_clock_.run([&] { specular_.add(tile, lights); });
 }
 
+// Calls add(tile) for the surfaces, and for their coats that have a normal of their own.
+template <class Add>
+void TileLighting::with_coats(SurfaceTile& tile, Work& work, Add add) {
+  const bool coats = tile.any_coat && take_coats(tile, work.coats);
+  add(tile);
+  if (!coats) return;
+  add(work.coats);
+  put_back_coats(work.coats, tile);
+}
+
 void TileLighting::add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
   if (lights.empty()) return;
   Work& work = *work_.local();
-  const bool coats = tile.any_coat && take_coats(tile, work.coats);
-  const auto add_all = [&](SurfaceTile& to) {
+  with_coats(tile, work, [&](SurfaceTile& to) {
     const std::vector<const PackLight*> plain = add_past_blockers(to, lights, work);
     if (!plain.empty()) add(to, plain);
-  };
-  add_all(tile);
-  if (!coats) return;
-  add_all(work.coats);
-  put_back_coats(work.coats, tile);
+  });
+}
+
+void TileLighting::add_shadowed_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample,
+                                        EstimatedShadows& estimate) {
+  if (lights.empty()) return;
+  Work& work = *work_.local();
+  with_coats(tile, work, [&](SurfaceTile& to) { add_by_rays(to, lights, rays, sample, work, estimate); });
+}
+
+void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample, Work& work,
+                               EstimatedShadows& estimate) {
+  TilePoints points;
+  shadow_clock_.run([&] {
+    points = points_for_shadows(tile, *rays_, options_.terminator);
+    shadows_->find_open(points, lights, work.open);
+  });
+  std::vector<const PackLight*> plain, punctual;
+  for (const PackLight* light : lights) {
+    if (work.open.open[light->index] != 0) {
+      plain.push_back(light);
+    } else if (!light->is_area()) {
+      punctual.push_back(light);  // one ray decides
+    } else {
+      RayFractions& fractions = work.fractions;
+      shadow_clock_.run([&] { few_rays_->find(tile, points, *light, rays, sample, fractions); });
+      work.slots.clear();
+      for (std::uint32_t i = 0; i < kTilePixels; ++i)
+        if (tile.material[i] != nullptr) work.slots.push_back(i);
+      const SurfaceTile& whole = light_slots(tile, *light, work);
+      for (std::size_t k = 0; k < work.slots.size(); ++k) {
+        const std::uint32_t i = work.slots[k];
+        const Vec3f all = radiance_in(whole, k);
+        add_radiance(tile, i, all * fractions.visible[i]);
+        const float most = std::max(fractions.visible[i], 1 - fractions.visible[i]);
+        estimate.bound.x[i] += all.x * most;
+        estimate.bound.y[i] += all.y * most;
+        estimate.bound.z[i] += all.z * most;
+        const double error = luminance(static_cast<Vec3d>(all)) * static_cast<double>(fractions.half_difference[i]);
+        estimate.squares += error * error;
+      }
+    }
+  }
+  for (const PackLight* light : add_past_blockers(tile, punctual, work)) plain.push_back(light);
+  if (!plain.empty()) add(tile, plain);
 }
 
 std::vector<const PackLight*> TileLighting::hand_over_shadows(SurfaceTile& tile, const std::vector<const PackLight*>& lights,

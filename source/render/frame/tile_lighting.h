@@ -11,12 +11,20 @@
 #include "render/frame/specular.h"
 #include "render/lights/light_list.h"
 #include "render/many/many_light_pass.h"
+#include "render/shadow/few_rays.h"
 #include "render/shadow/pass.h"
 #include "render/surface/ray_scene.h"
 #include "render/tile/pass_clock.h"
 #include "steradian/render.h"
 
 namespace steradian {
+
+// Shadows that rays have estimated over a tile.
+struct EstimatedShadows {
+  TileVector bound;    // largest error of each slot's light: the light that an area light sends times the larger of its fractions
+  double squares = 0;  // of the estimated errors of the luminance, summed over slots
+  void clear();
+};
 
 class TileLighting {
  public:
@@ -34,6 +42,9 @@ class TileLighting {
   }
   // Adds the light of lights that may be occluded.
   void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // The same with the shadows of area lights estimated by a few rays. Adds to the estimate.
+  void add_shadowed_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample,
+                            EstimatedShadows& estimate);
   // Finds the lights that are occluded from the tile: `taker` takes their visibility, and adds their light. Returns the others.
   std::vector<const PackLight*> hand_over_shadows(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker& taker);
   // Visibility of an area light from some points. The result is valid until the thread asks again.
@@ -51,6 +62,10 @@ class TileLighting {
   void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain);
   std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
                                                   ShadowTaker* taker = nullptr);
+  template <class Add>
+  void with_coats(SurfaceTile& tile, Work& work, Add add);
+  void add_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample, Work& work,
+                   EstimatedShadows& estimate);
   void add_whole(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_parts(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, Work& work);
@@ -65,6 +80,7 @@ class TileLighting {
   const SpecularPass specular_;
   const std::shared_ptr<const RayScene> rays_;
   std::optional<ShadowPass> shadows_;
+  std::optional<FewRays> few_rays_;  // only where time is limited
   tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
   PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};
 };

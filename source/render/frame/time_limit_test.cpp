@@ -1,0 +1,99 @@
+// Pictures within a time limit: whatever the time allows, the layer "shadow_bound" holds, and enough time gives the exact picture.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "paths.h"
+#include "render/shadow/few_rays.h"
+#include "steradian/load_scene.h"
+#include "steradian/render.h"
+#include "support/meshes.h"
+
+namespace steradian::time_limit_test {
+namespace {
+
+Picture picture_of(const Scene& scene, double limit, RenderStats& stats) {
+  RenderOptions options;
+  options.width = 160;
+  options.height = 90;
+  options.aa = 2;
+  options.shadows = Shadows::on;
+  options.time_limit = limit;
+  return render(scene, options, &stats);
+}
+
+}  // namespace
+
+TEST(TimeLimit, EveryPixelIsWithinItsBound) {
+  for (const char* name : {"gallery.glb", "room.glb", "tubes.glb"}) {
+    const Scene scene = load_scene(test::kSourceDir + "/scenes/" + name).scene;
+    RenderStats stats;
+    const Picture exact = picture_of(scene, 0, stats);
+    for (const double limit : {1e-9, 0.02, 0.1, 0.4}) {
+      const Picture limited = picture_of(scene, limit, stats);
+      const std::vector<Vec3f>& bound = limited.layers.at("shadow_bound");
+      double most = 0;
+      for (std::size_t i = 0; i < bound.size(); ++i) {
+        const Vec3f a = limited.pixels[i], b = exact.pixels[i];
+        ASSERT_TRUE(is_finite(a));
+        for (const auto [value, truth, of] : {std::array{a.x, b.x, bound[i].x}, {a.y, b.y, bound[i].y}, {a.z, b.z, bound[i].z}}) {
+          // A visible part sends at most what the whole sends, up to the error of the method: 1 % of GGX, in docs/methods.md.
+          EXPECT_LE(std::fabs(value - truth), of * 1.01f + 1e-5f) << name << " limit " << limit << " pixel " << i;
+          most = std::max(most, static_cast<double>(of));
+        }
+      }
+      std::printf("%s, %g s: %.0f %% exact, estimated error %.2f %%, largest bound %.2g\n", name, limit, 100 * stats.exact_tiles,
+                  100 * stats.estimated_shadow_error, most);
+    }
+  }
+}
+
+TEST(TimeLimit, EnoughTimeGivesTheExactPicture) {
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/gallery.glb").scene;
+  RenderStats stats;
+  const Picture exact = picture_of(scene, 0, stats), limited = picture_of(scene, 1e6, stats);
+  EXPECT_EQ(stats.exact_tiles, 1);
+  EXPECT_EQ(stats.estimated_shadow_error, 0);
+  EXPECT_EQ(limited.pixels, exact.pixels);
+  for (const Vec3f& bound : limited.layers.at("shadow_bound")) EXPECT_EQ(bound, Vec3f{});
+}
+
+// A wall hides half of each kind of light from the floor's middle.
+TEST(FewRays, FindHalfOfALightOfAnyShape) {
+  Scene scene = scene::floor_scene(SurfaceMaterial{}, 2, {0, 2, 2});
+  scene.meshes.push_back(scene::quad_mesh({0, 0.5f, 1}, {2, 0.5f, 1}, {2, 0.5f, -1}, {0, 0.5f, -1}, 0));
+  const auto add = [&](Shape shape) {
+    AreaLight light;
+    light.shape = std::move(shape);
+    light.radiance = {1, 1, 1};
+    scene.area_lights.push_back(std::move(light));
+  };
+  Polygon square;
+  square.vertices = {{-0.3, 1, -0.3}, {0.3, 1, -0.3}, {0.3, 1, 0.3}, {-0.3, 1, 0.3}};
+  add(square);
+  add(Ellipse{{0, 1, 0}, {0.3, 0, 0}, {0, 0, 0.3}});
+  add(Ellipsoid{{0, 1, 0}, {0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.3}});
+  add(Capsule{{-0.3, 1, 0}, {0.3, 1, 0}, 0.05});
+  const RayScene rays(scene);
+  const std::vector<PackLight> lights = prepare_lights(scene);
+  ASSERT_EQ(lights.size(), 4u);
+  const FewRays few(rays, lights);
+  auto tile = std::make_unique<SurfaceTile>();
+  tile->material.fill(nullptr);
+  tile->material[0] = &scene.materials[0];
+  TilePoints points;
+  points.points.resize(kTilePixels);
+  points.points[0].position = {0, 1e-4, 0};
+  points.points[0].normal = {0, 1, 0};
+  for (const PackLight& light : lights) {
+    RayFractions fractions;
+    few.find(*tile, points, light, FewRays::kMost, 0, fractions);
+    std::printf("light %zu: %.3f, half the difference of the halves %.3f\n", light.index, static_cast<double>(fractions.visible[0]),
+                static_cast<double>(fractions.half_difference[0]));
+    // 64 places are strips of 1/8: at most one row of 8 lies on the wrong side of the wall's edge.
+    EXPECT_NEAR(fractions.visible[0], 0.5, 1.0 / 16 + 0.02) << light.index;
+  }
+}
+
+}  // namespace steradian::time_limit_test
