@@ -354,7 +354,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--backend", r.backend, "where to compute").group("Machine");
   verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
-  verb.add("--time-limit", r.time_limit, "seconds for the picture, by estimated shadows; 0: no limit").range(0.0, 1e6).group("Machine");
+  verb.add("--time-limit", r.time_limit, "seconds for the picture; 0: no limit").range(0.0, 1e6).group("Machine");
   verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").writes(Writes::file).group("Machine");
 
   verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");

@@ -11,11 +11,10 @@
 
 #include <memory>
 
+#include "steradian/bounces.h"
 #include "steradian/plane.h"
 
 namespace steradian {
-
-inline constexpr int kAllBounces = -1;
 
 struct PlaneBounceOptions {
   int bounces = kAllBounces;  // maximum number of bounces

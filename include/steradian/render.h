@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "steradian/bounces.h"
 #include "steradian/indirect.h"
 #include "steradian/method.h"
 #include "steradian/picture.h"
@@ -48,6 +49,8 @@ struct RenderOptions {
   // Seconds from the start of render; 0: no limit. With a limit, a few rays estimate the shadows first. Tiles then become exact, the least
   // certain first, until the time is over. The layer "shadow_bound" gives each pixel's possible error (docs/shadows.md).
   double time_limit = 0;
+  // Light that other surfaces send, after this number of bounces at most (kAllBounces: any number). Excludes `indirect`.
+  int bounces = 0;
   IndirectOptions indirect;  // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   Backend backend = Backend::cpu;

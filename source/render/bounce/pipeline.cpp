@@ -13,6 +13,7 @@
 #include "render/bounce/receivers/light_receivers.h"
 #include "render/bounce/receivers/resolve.h"
 #include "render/bounce/true_light.h"
+#include "render/sampled/paths.h"
 
 namespace steradian::indirect {
 namespace {
@@ -227,7 +228,7 @@ void Pipeline::add_true(Picture& picture) {
       Vec3d radiance;
       if (path) {
         reference::Random random(options_.seed, pixel * 2 + 1);
-        const Estimate e = trace_bounce(scene_, rays_, *samplers.local(), surface, surfaces_.view[i], options_.spp, random);
+        const Estimate e = trace_paths({scene_, rays_, *samplers.local()}, surface, surfaces_.view[i], 1, options_.spp, random);
         radiance = e.mean;
         variance[pixel] = static_cast<Vec3f>(e.variance);
       } else {

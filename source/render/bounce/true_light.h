@@ -1,4 +1,4 @@
-// Ground truth of the bounce at one receiver, in double: the sum over all virtual lights, and path tracing.
+// Ground truth of the bounce at one receiver, in double: the sum over all virtual lights.
 #pragma once
 
 #include "core/random.h"
@@ -24,10 +24,5 @@ struct SumOptions {
 
 // Radiance towards the unit view from all texels of the map.
 Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f view, const SumOptions& options);
-
-// Radiance that one bounce sends towards the view, by `paths` paths. A path has a direction by the receiver's lobes (balance heuristic
-// among them), then the direct light of the surface it meets, with shadows. Emission does not count.
-Estimate trace_bounce(const Scene& scene, const RayScene& rays, DirectSampler& sampler, const Surface& receiver, Vec3f view, int paths,
-                      reference::Random& random);
 
 }  // namespace steradian::indirect

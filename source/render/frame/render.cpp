@@ -20,6 +20,7 @@
 #include "render/frame/methods.h"
 #include "render/frame/tile_lighting.h"
 #include "render/sampled/monte_carlo.h"
+#include "render/sampled/paths.h"
 #include "render/surface/gbuffer.h"
 #include "render/tile/pass_clock.h"
 #include "steradian/area_light.h"  // luminance
@@ -228,7 +229,10 @@ class Renderer {
         if (tile.material[slot] == nullptr || stopped()) continue;
         reference::Random random = random_of(a, x, y, purpose);
         const Vec3f view{tile.view.x[slot], tile.view.y[slot], tile.view.z[slot]};
-        use(x, y, slot, sampler.estimate(surface_in(tile, slot), view, method_.estimated_lobes, pairs, random));
+        const Surface surface = surface_in(tile, slot);
+        Estimate e = sampler.estimate(surface, view, method_.estimated_lobes, pairs, random);
+        if (options_.bounces != 0) e += trace_paths({scene_, surfaces_.rays(), sampler}, surface, view, options_.bounces, pairs, random);
+        use(x, y, slot, e);
       }
   }
 
