@@ -29,7 +29,7 @@ ROWS = [
     ["source/device/vulkan"],
     ["source/render/frame"],
     ["source/render/bounce", "source/render/shadow", "source/render/many", "source/render/batch"],
-    ["source/render/sampled", "source/render/direct"],
+    ["source/render/sampled", "source/render/direct", "source/render/radiosity"],
     ["source/render/environment", "source/render/lights"],
     ["source/render/surface"],
     ["source/render/tile"],

@@ -78,9 +78,9 @@ double light_between_surfaces(const Scene& scene) {
   return sum / static_cast<double>(patches.size());
 }
 
-void say_direct_only(const Scene& scene, IndirectMode mode) {
-  if (mode != IndirectMode::off || light_between_surfaces(scene) < kMatters) return;
-  fmt::print(stderr, "steradian: direct light only, without what surfaces send to each other: --indirect ltc adds one bounce\n");
+void say_direct_only(const Scene& scene, const RenderOptions& options) {
+  if (options.indirect.mode != IndirectMode::off || options.bounces != 0 || light_between_surfaces(scene) < kMatters) return;
+  fmt::print(stderr, "steradian: direct light only, without what surfaces send to each other: --bounces all adds it\n");
 }
 
 }  // namespace steradian::app

@@ -1,7 +1,7 @@
 // The part of the light that a picture of direct light lacks.
 #pragma once
 
-#include "steradian/indirect.h"
+#include "steradian/render.h"
 #include "steradian/scene.h"
 
 namespace steradian::app {
@@ -10,7 +10,7 @@ namespace steradian::app {
 // shadows, from 256 points spread over all surfaces that do not shine.
 double light_between_surfaces(const Scene& scene);
 
-// Prints one line if indirect light is off and would matter: a twentieth of the light, or more.
-void say_direct_only(const Scene& scene, IndirectMode mode);
+// Prints one line if the picture has no light between surfaces and it would matter: a twentieth of the light, or more.
+void say_direct_only(const Scene& scene, const RenderOptions& options);
 
 }  // namespace steradian::app

@@ -68,6 +68,10 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"environment_spots", stats.environment_spots},
           {"diffuse_residual", stats.diffuse_residual},
           {"specular_residual", stats.specular_residual},
+          {"patches", stats.patches},
+          {"bounce_iterations", stats.bounce_iterations},
+          {"bounce_residual", stats.bounce_residual},
+          {"bounce_error", stats.bounce_error},
           {"environment_shadow_error", stats.environment_shadow_error},
           {"shadow_fallback", stats.shadow_fallback},
           {"shadow_on_host", stats.shadow_on_host},
@@ -149,12 +153,11 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--animation", !options.frames.empty(), "--frames"},
        {"--force", !options.frames.empty(), "--frames"},
        {"--stats", options.frames.empty(), "one picture, not --frames"},
+       {"--bounces", r.indirect.mode == IndirectMode::off, "no --indirect"},
        {"--time-limit", r.method != "sampled" && r.method != "reference", "a method without samples"},
        {"--time-limit", r.shadows != Shadows::off, "--shadows on or exact"},
-       {"--time-limit", r.indirect.mode == IndirectMode::off, "direct light, not --indirect"},
-       {"--time-limit", r.backend == Backend::cpu, "--backend cpu"}});
-  verb.refuse({"--moments", "--occluders", "--normal-map", "--lamp-height", "--bounces", "--bounce-lattice", "--edits"},
-              "a plane scene (.svg)");
+       {"--time-limit", r.indirect.mode == IndirectMode::off, "direct light, not --indirect"}});
+  verb.refuse({"--moments", "--occluders", "--normal-map", "--lamp-height", "--bounce-lattice", "--edits"}, "a plane scene (.svg)");
 }
 
 // Refuses options without effect in the plane, such as those of three dimensions.
@@ -185,6 +188,8 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
        {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
+int bounces_of(const RenderArguments& options) { return options.bounces == "all" ? kAllBounces : std::stoi(options.bounces); }
+
 // A plane scene has its own size, one unit per pixel, and its own methods.
 void run_plane(RenderArguments& options) {
   PlaneRender job = options.plane;
@@ -200,7 +205,7 @@ void run_plane(RenderArguments& options) {
     job.frame.width = options.render.width;
     job.frame.height = options.render.height;
   }
-  job.bounces = options.bounces == "all" ? kAllBounces : std::stoi(options.bounces);
+  job.bounces = bounces_of(options);
   job.frames = options.frames;
   job.fps = options.fps;
   job.force = options.force;
@@ -221,6 +226,7 @@ void run(const Verb& verb, RenderArguments& options) {
   if (!method_of(render_options.method)) throw WrongOption("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
   refuse_unused_in_space(verb, options);
+  render_options.bounces = bounces_of(options);
   const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
   parse_indirect_shadows(options);
   LoadOptions& load = options.load;
@@ -239,7 +245,7 @@ void run(const Verb& verb, RenderArguments& options) {
     render_options.time_limit = std::max(render_options.time_limit - rest, 1e-3);
   }
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  say_direct_only(loaded.scene, render_options.indirect.mode);
+  say_direct_only(loaded.scene, render_options);
 
   for (const char* option : {"--background", "--environment-rotation"})
     verb.refuse_without_effect({{option, loaded.scene.environment != nullptr, "--environment, or a file with one"}});
@@ -271,6 +277,10 @@ void run(const Verb& verb, RenderArguments& options) {
         stderr,
         "steradian: --time-limit: {:.0f} % of the tiles are exact; a few rays estimate the shadows of the others, within {:.2g} % rms\n",
         100 * stats.exact_tiles, 100 * stats.estimated_shadow_error);
+
+  if (stats.patches > 0)
+    fmt::print(stderr, "steradian: --bounces: {} patches, {} iterations; the light between surfaces is estimated to {:.2g} % rms\n",
+               stats.patches, stats.bounce_iterations, 100 * stats.bounce_error);
 
   if (loaded.scene.environment && stats.method != "sampled" && stats.method != "reference")
     fmt::print(
@@ -325,6 +335,12 @@ void add_render(CommandLine& line) {
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   verb.add_word("--terminator", r.terminator, "shadow edge of curved meshes on themselves").group("Light");
   verb.add_word("--indirect", r.indirect.mode, "one bounce, by virtual lights or paths").group("Light");
+  verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all")
+      .check([](const std::string& text) {
+        const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
+        return number || text == "all" ? std::string() : "give a number of bounces, or all";
+      })
+      .group("Light");
   verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");
   verb.add("--light", options->lights, "extra light; may be repeated").words(words::names<AddedLight>()).group("Light");
@@ -363,12 +379,6 @@ void add_render(CommandLine& line) {
   verb.add_word("--indirect-quads", r.indirect.quads, "of ltc: quads for alpha below 0.1").more("Bounce");
   verb.add_word("--indirect-clamp", r.indirect.soften, "bound near virtual lights by their area").more("Bounce");
 
-  verb.add("--bounces", options->bounces, "number of bounces from walls, or all")
-      .check([](const std::string& text) {
-        const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
-        return number || text == "all" ? std::string() : "give a number of bounces, or all";
-      })
-      .more("Plane scenes (.svg)");
   verb.add("--bounce-lattice", options->plane.lattice, "interpolate bounces within this error; 0: never")
       .range(0.0, 1.0)
       .more("Plane scenes (.svg)");

@@ -45,7 +45,7 @@ class Moments {
     LoadedScene loaded = scene::load_scene(moment, load_);
     for (const std::string& warning : loaded.warnings)
       if (said_.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
-    if (!said_direct_only_) say_direct_only(loaded.scene, job_.render.indirect.mode);
+    if (!said_direct_only_) say_direct_only(loaded.scene, job_.render);
     said_direct_only_ = true;
     loaded.scene.multiple_scattering = job_.multiple_scattering;
     return std::move(loaded.scene);

@@ -84,6 +84,10 @@ struct RenderStats {
   double diffuse_residual = 0;   // bound of the rms error of the rest's irradiance over its mean
   double specular_residual = 0;  // rms error of the rest's light on rough metal over the mean of all the map's (docs/environments.md)
   double environment_shadow_error = 0;  // rms error of the shadows of the rest's light over its mean; 0 where no ray is blocked
+  std::size_t patches = 0;              // that carry light from surface to surface (docs/bounces.md)
+  int bounce_iterations = 0;            // over all patches
+  double bounce_residual = 0;           // largest change of the last iteration over the largest radiance
+  double bounce_error = 0;              // estimated rms error of the light between surfaces over the picture's mean
   bool light_tree = false;              // many lights were summed together; the layer "light_bound" gives each pixel's possible error
   double light_elements = 0;            // lights that were one or four elements at a point by themselves, on average over diffuse points
   double light_outlines = 0;            // and lights whose outline was walked

@@ -96,6 +96,8 @@ struct Job {
 }  // namespace
 
 std::string lack_of_devices(const Scene& scene, const RenderOptions& options) {
+  if (options.bounces != 0) return "it has no --bounces";
+  if (options.time_limit > 0) return "it has no --time-limit";
   if (options.lights == LightSum::tree) return "it has no --lights tree";
   return choose_method(scene, options).estimates() ? "it has no method " + options.method : std::string();
 }

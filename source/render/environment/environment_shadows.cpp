@@ -1,16 +1,14 @@
 #include "render/environment/environment_shadows.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numbers>
 
+#include "core/sphere_lattice.h"
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian::environment {
 namespace {
 
-constexpr double kGolden = 0.61803398874989485;
 constexpr int kSets = 16;  // sets of directions; more primary samples repeat them
 
 // Number of directions on the sphere: about half are above a surface.
@@ -21,18 +19,6 @@ std::size_t directions_for(Quality quality) {
     case Quality::normal: break;
   }
   return 1024;
-}
-
-// A Fibonacci lattice on the sphere. The sets share their heights and differ by turns.
-Vec3d place_on_sphere(std::size_t i, std::size_t count, int set) {
-  const double y = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count), r = std::sqrt(1 - y * y);
-  const double phi = 2 * std::numbers::pi * std::fmod(static_cast<double>(i) * kGolden + static_cast<double>(set) / kSets, 1.0);
-  return {r * std::cos(phi), y, r * std::sin(phi)};
-}
-
-template <class Use>
-void each_bit(std::uint32_t bits, Use use) {
-  for (; bits != 0; bits &= bits - 1) use(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 }  // namespace
@@ -71,7 +57,7 @@ EnvironmentShadows::EnvironmentShadows(const EnvironmentLight& light, const RayS
   for (int set = 0; set < std::min(options.aa, kSets); ++set) {
     std::vector<Direction>& directions = sets_.emplace_back();
     for (std::size_t i = 0; i < count; ++i) {
-      const auto to = static_cast<Vec3f>(place_on_sphere(i, count, set));
+      const auto to = static_cast<Vec3f>(lattice_direction(i, count, static_cast<double>(set) / kSets));
       directions.push_back({to, light.rest(to, width)});
     }
   }
@@ -82,7 +68,7 @@ std::uint32_t EnvironmentShadows::blocked(const Origins& origins, const std::arr
   const double far = 8 * static_cast<double>(rays_.reach());  // beyond every mesh
   RayScene::Sixteen sixteen;
   std::uint32_t below = 0;
-  each_bit(asked, [&](std::size_t i) {
+  SixteenSurfaces::each(asked, [&](std::size_t i) {
     if (dot(origins.horizon[i], directions[i]) < 0) {
       below |= 1u << i;
     } else {
@@ -95,7 +81,7 @@ std::uint32_t EnvironmentShadows::blocked(const Origins& origins, const std::arr
 EnvironmentShadows::VisibleFractions EnvironmentShadows::diffuse_fractions(const Surfaces& surfaces, const Origins& origins,
                                                                            std::uint32_t asked, int sample) const {
   std::array<Vec3f, kLanes> normal{};
-  each_bit(asked, [&](std::size_t i) { normal[i] = surfaces.surface[i].normal; });
+  SixteenSurfaces::each(asked, [&](std::size_t i) { normal[i] = surfaces.surface[i].normal; });
   struct Sums {
     std::array<Vec3f, kLanes> light{}, visible{};
   };
@@ -115,8 +101,8 @@ EnvironmentShadows::VisibleFractions EnvironmentShadows::diffuse_fractions(const
     directions.fill(direction.to);
     const std::uint32_t hidden = blocked(origins, directions, above);
     Sums& half = halves[d % 2];
-    each_bit(above, [&](std::size_t i) { half.light[i] += direction.light * cosine[i]; });
-    each_bit(above & ~hidden, [&](std::size_t i) { half.visible[i] += direction.light * cosine[i]; });
+    SixteenSurfaces::each(above, [&](std::size_t i) { half.light[i] += direction.light * cosine[i]; });
+    SixteenSurfaces::each(above & ~hidden, [&](std::size_t i) { half.visible[i] += direction.light * cosine[i]; });
   }
   VisibleFractions result;
   const auto ratio = [](float part, float whole) { return whole > 0 ? part / whole : 0.0f; };
@@ -146,7 +132,7 @@ void EnvironmentShadows::add_visible(const std::array<LobeCones, kLanes>& cones,
       light[i][c % 2] += luminance(static_cast<Vec3d>(cones[i].cones[c].reflected));
     }
     if (asked == 0) break;
-    each_bit(asked & ~blocked(origins, axes, asked), [&](std::size_t i) {
+    SixteenSurfaces::each(asked & ~blocked(origins, axes, asked), [&](std::size_t i) {
       const Vec3f reflected = cones[i].cones[c].reflected;
       result[i] += reflected;
       visible[i][c % 2] += luminance(static_cast<Vec3d>(reflected));
@@ -163,7 +149,7 @@ std::array<Vec3f, EnvironmentShadows::kLanes> EnvironmentShadows::reflected(cons
   std::array<std::vector<SurfaceLobe>, kLanes> lobes;
   std::size_t most_lobes = 0;
   std::uint32_t diffuse = 0;
-  each_bit(surfaces.lit, [&](std::size_t i) {
+  SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
     const Surface& surface = surfaces.surface[i];
     const auto position = static_cast<Vec3d>(surface.position);
     origins.position[i] = position + static_cast<Vec3d>(surface.geometric_normal) * rays_.offset_from_surface(position);
@@ -176,7 +162,7 @@ std::array<Vec3f, EnvironmentShadows::kLanes> EnvironmentShadows::reflected(cons
   std::array<double, kLanes> half_difference{};
   if (diffuse != 0) {
     const VisibleFractions fractions = diffuse_fractions(surfaces, origins, diffuse, sample);
-    each_bit(diffuse, [&](std::size_t i) {
+    SixteenSurfaces::each(diffuse, [&](std::size_t i) {
       for (const SurfaceLobe& lobe : lobes[i]) {
         if (lobe.material.brdf != Brdf::lambert) continue;
         const Vec3f whole = light_.diffuse(lobe, surfaces.view[i]);
@@ -187,14 +173,14 @@ std::array<Vec3f, EnvironmentShadows::kLanes> EnvironmentShadows::reflected(cons
   }
   for (std::size_t k = 0; k < most_lobes; ++k) {
     std::array<LobeCones, kLanes> cones{};
-    each_bit(surfaces.lit, [&](std::size_t i) {
+    SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
       if (k < lobes[i].size() && lobes[i][k].material.brdf != Brdf::lambert)
         cones[i] = light_.cones_of(lobes[i][k], surfaces.surface[i], surfaces.view[i], LobeCones::kMost,
                                    static_cast<double>(sample % kSets) / kSets);
     });
     add_visible(cones, origins, result, half_difference);
   }
-  each_bit(surfaces.lit, [&](std::size_t i) { halves.add(half_difference[i], luminance(static_cast<Vec3d>(result[i]))); });
+  SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) { halves.add(half_difference[i], luminance(static_cast<Vec3d>(result[i]))); });
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/environment/environment_light.h"
+#include "render/surface/gbuffer.h"
 #include "render/surface/ray_scene.h"
 #include "steradian/render.h"
 
@@ -26,12 +27,8 @@ struct HalvesOfRays {
 
 class EnvironmentShadows {
  public:
-  static constexpr std::size_t kLanes = 16;
-  struct Surfaces {
-    std::array<Surface, kLanes> surface;
-    std::array<Vec3f, kLanes> view;
-    std::uint32_t lit = 0;  // bits of the surfaces that exist
-  };
+  static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
+  using Surfaces = SixteenSurfaces;
 
   // All must outlive this object.
   EnvironmentShadows(const EnvironmentLight& light, const RayScene& rays, const RenderOptions& options);

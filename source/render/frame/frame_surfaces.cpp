@@ -83,7 +83,7 @@ void FrameSurfaces::show_background(const TileVector& directions, SurfaceTile& t
   }
 }
 
-void FrameSurfaces::add_environment(int index, int sample, SurfaceTile& tile) {
+void FrameSurfaces::add_environment(int sample, SurfaceTile& tile, environment::HalvesOfRays& halves) {
   if (!environment_) return;
   const auto view = [&](std::size_t i) { return get(tile.view, i); };
   const auto add = [&](std::size_t i, Vec3f r) {
@@ -100,15 +100,9 @@ void FrameSurfaces::add_environment(int index, int sample, SurfaceTile& tile) {
     using environment::EnvironmentShadows;
     EnvironmentShadows::Surfaces some;
     for (std::size_t first = 0; first < kTilePixels; first += EnvironmentShadows::kLanes) {
-      some.lit = 0;
-      for (std::size_t i = 0; i < EnvironmentShadows::kLanes; ++i) {
-        if (tile.material[first + i] == nullptr) continue;
-        some.surface[i] = surface_in(tile, first + i);
-        some.view[i] = view(first + i);
-        some.lit |= 1u << i;
-      }
+      some.take(tile, first);
       if (some.lit == 0) continue;
-      const auto reflected = environment_shadows_->reflected(some, sample, halves_of_rays_[static_cast<std::size_t>(index)]);
+      const auto reflected = environment_shadows_->reflected(some, sample, halves);
       for (std::size_t i = 0; i < EnvironmentShadows::kLanes; ++i)
         if ((some.lit >> i & 1) != 0) add(first + i, reflected[i]);
     }

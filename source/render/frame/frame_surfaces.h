@@ -41,7 +41,11 @@ class FrameSurfaces {
   // Adds the background where a tile holds no surface, for callers that fill the tile in another way.
   void add_background(int index, int sample, SurfaceTile& tile) const;
   // Adds all of the environment's light except that of its spots, past the meshes if the picture has shadows.
-  void add_environment(int index, int sample, SurfaceTile& tile);
+  void add_environment(int index, int sample, SurfaceTile& tile) {
+    add_environment(sample, tile, halves_of_rays_[static_cast<std::size_t>(index)]);
+  }
+  // The same for surfaces of no tile of the picture. Adds to `halves`.
+  void add_environment(int sample, SurfaceTile& tile, environment::HalvesOfRays& halves);
   // Error of the shadows of that light: rms over its mean (HalvesOfRays).
   double environment_shadow_error() const;
 

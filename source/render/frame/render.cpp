@@ -16,6 +16,7 @@
 
 #include "core/float_mode.h"
 #include "render/bounce/pipeline.h"
+#include "render/frame/all_light.h"
 #include "render/frame/frame_surfaces.h"
 #include "render/frame/methods.h"
 #include "render/frame/tile_lighting.h"
@@ -64,6 +65,7 @@ class Renderer {
     begin(state);
     std::vector<int> pairs(state.done.size(), options_.spp);
     steps_ = static_cast<std::uint64_t>(tile_count());
+    if (options_.bounces != 0 && !method_.estimates()) solve_bounces();
     if (is_limited()) {
       render_within_limit(state);
       return std::move(state.picture);
@@ -96,7 +98,7 @@ class Renderer {
 
   bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
 
-  void report(RenderStats& stats) const {
+  void report(RenderStats& stats, const Picture& picture) const {
     stats.passes = {{"build", build_ms_},
                     surfaces_.rays_time(threads_),
                     surfaces_.gbuffer_time(threads_),
@@ -113,6 +115,7 @@ class Renderer {
       stats.environment_shadow_error = surfaces_.environment_shadow_error();
     }
     if (many_lights_) many_lights_->report(stats);
+    if (all_light_) all_light_->report(threads_, stats, picture);
     if (lighting_.has_shadows()) {
       stats.passes.push_back(lighting_.shadow_time(threads_));
       stats.shadow_fallback = lighting_.shadow_fallback();
@@ -161,6 +164,7 @@ class Renderer {
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
       if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
       if (is_limited()) picture.layers["shadow_bound"].resize(picture.pixels.size());
+      if (options_.bounces != 0 && !method_.estimates()) AllLight::begin(picture);
     }
     if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||
         (picture.layers.count("variance") != 0) != method_.estimates())
@@ -283,6 +287,24 @@ class Renderer {
     return true;
   }
 
+  // Solves the light between surfaces from the direct light of their patches.
+  void solve_bounces() {
+    arena_.execute([&] {
+      all_light_ = std::make_unique<AllLight>(scene_, parts_, options_, [&](SurfaceTile& tile) {
+        if (many_lights_) many_lights_->bound() = {};
+        const auto reaching = lights_reaching(light_pointers_, tile);
+        if (lighting_.has_shadows() && options_.quality != Quality::high) {
+          estimates_.local()->clear();
+          lighting_.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, *estimates_.local());
+        } else {
+          lighting_.has_shadows() ? lighting_.add_shadowed(tile, reaching.lights) : lighting_.add(tile, reaching.lights);
+        }
+        environment::HalvesOfRays halves;
+        surfaces_.add_environment(0, tile, halves);
+      });
+    });
+  }
+
   // Finder of the shadows of a tile.
   enum class ShadowsBy { edges, rays, nothing };
   struct ShadowWork {
@@ -385,6 +407,7 @@ class Renderer {
       }
     }
     if (!method_.estimates()) surfaces_.add_environment(index, sample, tile);
+    if (all_light_) all_light_->add(tile, a, sample, shares, weight, picture);
     if (method_.estimates())
       sampling_clock_.run([&] {
         std::vector<Vec3f>& variance = picture.layers.at("variance");
@@ -461,6 +484,7 @@ class Renderer {
   tbb::enumerable_thread_specific<std::unique_ptr<EstimatedShadows>> estimates_{[] { return std::make_unique<EstimatedShadows>(); }};
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
+  std::unique_ptr<AllLight> all_light_;  // null: direct light only
   double build_ms_ = 0;
   PassClock sampling_clock_{"sampling"}, block_clock_{"block"}, capture_clock_{"indirect: surfaces"};
   std::atomic<std::uint64_t> done_{0};
@@ -476,7 +500,7 @@ Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderCa
   RenderState& kept = state != nullptr ? *state : own;
   Picture picture = renderer.render(kept);
   kept.complete = !renderer.stopped();
-  if (stats != nullptr) renderer.report(*stats);
+  if (stats != nullptr) renderer.report(*stats, picture);
   if (const auto layer = picture.layers.find("light_bound"); stats != nullptr && layer != picture.layers.end()) {
     double sum = 0;
     for (const Vec3f& bound : layer->second) {

@@ -48,7 +48,7 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
       rays_(parts.rays),
       work_([] { return std::make_shared<Work>(); }) {
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
-  if (shadows_ && options.time_limit > 0) few_rays_.emplace(*rays_, lights);
+  if (shadows_ && (options.time_limit > 0 || options.bounces != 0)) few_rays_.emplace(*rays_, lights);
 }
 
 // plain: lights whose diffuse light is still to be added.

@@ -80,7 +80,7 @@ class TileLighting {
   const SpecularPass specular_;
   const std::shared_ptr<const RayScene> rays_;
   std::optional<ShadowPass> shadows_;
-  std::optional<FewRays> few_rays_;  // only where time is limited
+  std::optional<FewRays> few_rays_;  // only where time is limited, and for patches
   tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
   PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};
 };

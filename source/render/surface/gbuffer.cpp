@@ -124,6 +124,16 @@ void put_back_coats(const SurfaceTile& coats, SurfaceTile& to) {
   }
 }
 
+void SixteenSurfaces::take(const SurfaceTile& tile, std::size_t first) {
+  lit = 0;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    if (tile.material[first + i] == nullptr) continue;
+    surface[i] = surface_in(tile, first + i);
+    view[i] = get(tile.view, first + i);
+    lit |= 1u << i;
+  }
+}
+
 Surface surface_in(const SurfaceTile& tile, std::size_t i) {
   Surface s;
   s.position = get(tile.position, i);

@@ -64,4 +64,20 @@ void put_back_coats(const SurfaceTile& coats, SurfaceTile& to);
 // Reassembles the surface in a slot that holds one.
 Surface surface_in(const SurfaceTile& tile, std::size_t slot);
 
+// Sixteen neighbouring surfaces of a tile, for packets of rays.
+struct SixteenSurfaces {
+  static constexpr std::size_t kLanes = 16;
+  std::array<Surface, kLanes> surface;
+  std::array<Vec3f, kLanes> view;
+  std::uint32_t lit = 0;  // bits of the surfaces that exist
+
+  // Takes those from slot `first` on.
+  void take(const SurfaceTile& tile, std::size_t first);
+  // Calls use(lane) for the surfaces of some bits.
+  template <class Use>
+  static void each(std::uint32_t bits, Use use) {
+    for (; bits != 0; bits &= bits - 1) use(static_cast<std::size_t>(std::countr_zero(bits)));
+  }
+};
+
 }  // namespace steradian

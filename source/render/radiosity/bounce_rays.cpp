@@ -1,0 +1,47 @@
+#include "render/radiosity/bounce_rays.h"
+
+#include <limits>
+
+namespace steradian::radiosity {
+
+void BounceRays::set(std::size_t lane, const Surface& from, Vec3f direction) {
+  if (!(dot(direction, from.geometric_normal) > 0)) return;
+  const auto offset = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(from.position)));
+  const Vec3f origin = from.position + from.geometric_normal * offset;
+  RTCRay16& ray = packet_.ray;
+  ray.org_x[lane] = origin.x;
+  ray.org_y[lane] = origin.y;
+  ray.org_z[lane] = origin.z;
+  ray.dir_x[lane] = direction.x;
+  ray.dir_y[lane] = direction.y;
+  ray.dir_z[lane] = direction.z;
+  asked_ |= 1u << lane;
+}
+
+std::array<std::uint32_t, BounceRays::kLanes> BounceRays::trace() {
+  std::array<std::uint32_t, kLanes> sides;
+  sides.fill(kNoSide);
+  if (asked_ == 0) return sides;
+  alignas(64) int valid[kLanes];
+  RTCRay16& ray = packet_.ray;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    valid[i] = (asked_ >> i & 1) != 0 ? -1 : 0;
+    if (valid[i] == 0) ray.org_x[i] = ray.org_y[i] = ray.org_z[i] = ray.dir_x[i] = ray.dir_y[i] = 0, ray.dir_z[i] = 1;
+    ray.tnear[i] = ray.time[i] = 0;
+    ray.tfar[i] = std::numeric_limits<float>::infinity();
+    ray.mask[i] = 1;  // what the camera sees
+    ray.id[i] = ray.flags[i] = 0;
+    packet_.hit.geomID[i] = packet_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rays_.intersect(valid, packet_);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    if (valid[i] == 0 || packet_.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    // Embree's normal is that of the winding.
+    const float towards = packet_.hit.Ng_x[i] * ray.dir_x[i] + packet_.hit.Ng_y[i] * ray.dir_y[i] + packet_.hit.Ng_z[i] * ray.dir_z[i];
+    sides[i] = patches_.side_at(packet_.hit.geomID[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
+  }
+  asked_ = 0;
+  return sides;
+}
+
+}  // namespace steradian::radiosity

@@ -1,0 +1,249 @@
+#include "render/radiosity/gather.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/box.h"
+#include "lobes/lobe.h"
+#include "render/environment/environment_light.h"  // mean_grazing
+
+namespace steradian::radiosity {
+namespace {
+
+constexpr int kMostShifts = 16;        // of the grid; more primary samples repeat them
+constexpr std::size_t kLobeRays = 64;  // of a glossy lobe
+
+// Place of each of 4 x 4 pixels in a cell of the grid, a number of 4 x 4. Neither coordinate of the place, nor its first waves, has a
+// component along those of the pixel: the linear fit would keep it.
+constexpr std::array<int, 16> kPlaces = {1, 14, 10, 5, 15, 8, 0, 7, 4, 3, 11, 12, 6, 9, 13, 2};
+
+// Number of rows of the grid over the sphere; it has twice as many columns.
+int rows_for(Quality quality) {
+  switch (quality) {
+    case Quality::draft: return 11;
+    case Quality::high: return 32;
+    case Quality::normal: break;
+  }
+  return 16;
+}
+
+bool is_gathered(const SurfaceLobe& lobe) {
+  return lobe.material.brdf == Brdf::lambert || std::min(lobe.material.alpha_x, lobe.material.alpha_y) >= double{Gather::kLeastWidth};
+}
+
+// Joins the values of sixteen pixels, 4 x 4, by linear fits over those of one plane.
+class BlockFit {
+ public:
+  static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
+  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked) : surfaces_(surfaces), asked_(asked) {
+    Box3f box;
+    SixteenSurfaces::each(asked, [&](std::size_t i) { box.add(surfaces.surface[i].position); });
+    reach_ = kFlat * length(box.size());
+  }
+
+  // The value of the fit at a pixel, and the standard error of the fit. Few pixels keep their own value and error.
+  struct Value {
+    Vec3f value, error;
+  };
+  Value at(std::size_t lane, const std::array<Vec3f, kLanes>& values, const std::array<Vec3f, kLanes>& errors) const {
+    std::uint32_t same = 0;
+    const Surface& here = surfaces_.surface[lane];
+    SixteenSurfaces::each(asked_, [&](std::size_t i) {
+      const Surface& there = surfaces_.surface[i];
+      if (dot(here.normal, there.normal) > kSameDirection && std::fabs(dot(there.position - here.position, here.normal)) <= reach_)
+        same |= 1u << i;
+    });
+    const int count = std::popcount(same);
+    if (count < kFewest) return {values[lane], errors[lane]};
+    // Least squares in coordinates about the mean: the two slopes and the mean are nearly independent.
+    float mean_x = 0, mean_y = 0;
+    Vec3f mean{};
+    SixteenSurfaces::each(same, [&](std::size_t i) {
+      mean_x += x_of(i);
+      mean_y += y_of(i);
+      mean += values[i];
+    });
+    const float over = 1 / static_cast<float>(count);
+    mean_x *= over;
+    mean_y *= over;
+    mean = mean * over;
+    float xx = 0, xy = 0, yy = 0;
+    Vec3f vx{}, vy{}, low = values[lane], high = values[lane];
+    SixteenSurfaces::each(same, [&](std::size_t i) {
+      const float x = x_of(i) - mean_x, y = y_of(i) - mean_y;
+      xx += x * x;
+      xy += x * y;
+      yy += y * y;
+      vx += values[i] * x;
+      vy += values[i] * y;
+      low = {std::min(low.x, values[i].x), std::min(low.y, values[i].y), std::min(low.z, values[i].z)};
+      high = {std::max(high.x, values[i].x), std::max(high.y, values[i].y), std::max(high.z, values[i].z)};
+    });
+    const float determinant = xx * yy - xy * xy;
+    Vec3f slope_x{}, slope_y{};
+    if (determinant > 1) {
+      slope_x = (vx * yy - vy * xy) * (1 / determinant);
+      slope_y = (vy * xx - vx * xy) * (1 / determinant);
+    }
+    const auto fit = [&](std::size_t i) { return mean + slope_x * (x_of(i) - mean_x) + slope_y * (y_of(i) - mean_y); };
+    Vec3f squares{};
+    SixteenSurfaces::each(same, [&](std::size_t i) {
+      const Vec3f d = values[i] - fit(i);
+      squares += d * d;
+    });
+    const Vec3f variance = squares * (1 / static_cast<float>(count - 3));
+    // Slopes that the differences between the rays explain shrink to zero: they would show as steps from block to block.
+    const auto shrunk = [&](Vec3f slope, float moment) {
+      const auto kept = [&](float m, float v) { return m * m * moment > 0 ? std::max(1 - kDoubt * v / (m * m * moment), 0.0f) : 0.0f; };
+      return slope * Vec3f{kept(slope.x, variance.x), kept(slope.y, variance.y), kept(slope.z, variance.z)};
+    };
+    slope_x = shrunk(slope_x, xx);
+    slope_y = shrunk(slope_y, yy);
+    const Vec3f value = fit(lane);
+    const float share = 3 * over;  // of three parameters
+    return {{std::clamp(value.x, low.x, high.x), std::clamp(value.y, low.y, high.y), std::clamp(value.z, low.z, high.z)},
+            {std::sqrt(variance.x * share), std::sqrt(variance.y * share), std::sqrt(variance.z * share)}};
+  }
+
+ private:
+  static constexpr float kSameDirection = 0.98f;  // cosine
+  static constexpr float kFlat = 0.1f;            // distance from the plane over the extent of all pixels
+  static constexpr int kFewest = 6;               // pixels of a fit
+  static constexpr float kDoubt = 4;              // variances below which a slope counts as chance
+  static float x_of(std::size_t lane) { return static_cast<float>(lane % 4); }
+  static float y_of(std::size_t lane) { return static_cast<float>(lane / 4); }
+
+  const SixteenSurfaces& surfaces_;
+  const std::uint32_t asked_;
+  float reach_;
+};
+
+}  // namespace
+
+Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, int samples)
+    : light_(light), rays_(rays), samples_(std::min(samples, kMostShifts)) {
+  const int rows = rows_for(quality), columns = 2 * rows;
+  for (int s = 0; s < samples_; ++s) {
+    std::vector<Cell>& cells = cells_.emplace_back();
+    // The pixels take the places of a 4 x 4 grid in each cell; the primary samples, places in a cell of that.
+    const double golden = 0.61803398874989485, in_x = (s + 0.5) / samples_, in_y = std::fmod(s * golden + 0.5, 1.0);
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < columns; ++column) {
+        Cell& cell = cells.emplace_back();
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          const double x = (kPlaces[i] % 4 + in_x) / 4, y = (kPlaces[i] / 4 + in_y) / 4;
+          const double up = 1 - 2 * (row + y) / rows, phi = 2 * std::numbers::pi * (column + x) / columns, r = std::sqrt(1 - up * up);
+          cell.direction[i] = static_cast<Vec3f>(Vec3d{r * std::cos(phi), up, r * std::sin(phi)});
+        }
+      }
+  }
+}
+
+// The mean radiance about each surface, weighted by the cosine, times its albedo.
+void Gather::add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, Result& result) const {
+  std::array<std::array<Vec3f, 2>, kLanes> light{};  // by half of the rays
+  std::array<std::array<float, 2>, kLanes> weight{};
+  BounceRays rays(rays_, light_.patches());
+  const std::vector<Cell>& cells = cells_[static_cast<std::size_t>(sample % samples_)];
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    std::array<float, kLanes> cosine{};
+    SixteenSurfaces::each(asked, [&](std::size_t i) {
+      const Vec3f to = cells[k].direction[i];
+      cosine[i] = dot(surfaces.surface[i].normal, to);
+      if (!(cosine[i] > 0)) return;
+      weight[i][k % 2] += cosine[i];
+      rays.set(i, surfaces.surface[i], to);
+    });
+    const auto met = rays.trace();
+    for (std::size_t i = 0; i < kLanes; ++i)
+      if (met[i] != kNoSide) light[i][k % 2] += light_.radiance(met[i]) * cosine[i];
+  }
+  std::array<Vec3f, kLanes> mean{}, error{};
+  SixteenSurfaces::each(asked, [&](std::size_t i) {
+    const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
+    mean[i] = over(light[i][0] + light[i][1], weight[i][0] + weight[i][1]);
+    const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f;
+    error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+  });
+  const BlockFit fit(surfaces, asked);
+  SixteenSurfaces::each(asked, [&](std::size_t i) {
+    const Surface& s = surfaces.surface[i];
+    const double cos_view = std::max(static_cast<double>(dot(s.normal, surfaces.view[i])), 0.0);
+    const auto passed = static_cast<float>(1 - static_cast<double>(s.fresnel_loss) * environment::mean_grazing(cos_view));
+    const BlockFit::Value value = fit.at(i, mean, error);
+    result.radiance[i] += s.albedo * value.value * passed;
+    result.error[i] += s.albedo * value.error * passed;
+  });
+}
+
+// Adds one glossy lobe of each surface that has one.
+void Gather::add_lobe(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample, Result& result) const {
+  struct Walker {
+    Frame frame;
+    lobes::Lobe lobe;
+  };
+  std::array<std::optional<Walker>, kLanes> walkers;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    if (of[i] == nullptr) continue;
+    const Surface& s = surfaces.surface[i];
+    const Vec3d tangent = of[i]->material.tangent == Vec3d{} ? static_cast<Vec3d>(s.tangent) : of[i]->material.tangent;
+    const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(of[i]->normal)), tangent);
+    const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
+    if (lobe.above_surface()) walkers[i] = Walker{frame, lobe};
+  }
+  constexpr double kGolden = 0.61803398874989485;
+  BounceRays rays(rays_, light_.patches());
+  std::array<std::array<Vec3f, 2>, kLanes> halves{};
+  for (std::size_t k = 0; k < kLobeRays; ++k) {
+    const double u = (static_cast<double>(k) + 0.5) / kLobeRays,
+                 v = std::fmod(static_cast<double>(k) * kGolden + static_cast<double>(sample % samples_) / samples_, 1.0);
+    std::array<Vec3f, kLanes> weight{};
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (!walkers[i]) continue;
+      const lobes::Lobe& lobe = walkers[i]->lobe;
+      const Vec3d l = lobe.sample(u, v);
+      if (!(l.z > 0)) continue;
+      const double pdf = lobe.pdf(l);
+      if (!(pdf > 0)) continue;
+      weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) / (pdf * kLobeRays));
+      rays.set(i, surfaces.surface[i], static_cast<Vec3f>(walkers[i]->frame.to_world(l)));
+    }
+    const auto met = rays.trace();
+    for (std::size_t i = 0; i < kLanes; ++i)
+      if (met[i] != kNoSide) halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    result.radiance[i] += halves[i][0] + halves[i][1];
+    const Vec3f d = halves[i][0] - halves[i][1];  // each half stands for half of the light
+    result.error[i] += Vec3f{std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+  }
+}
+
+Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample) const {
+  Result result;
+  std::array<std::vector<SurfaceLobe>, kLanes> lobes;
+  std::uint32_t diffuse = 0;
+  std::size_t most = 0;
+  SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
+    for (SurfaceLobe& lobe : lobes_of(surfaces.surface[i])) {
+      if (lobe.material.brdf == Brdf::lambert)
+        diffuse |= 1u << i;
+      else if (is_gathered(lobe))
+        lobes[i].push_back(std::move(lobe));
+    }
+    most = std::max(most, lobes[i].size());
+  });
+  if (diffuse != 0) add_diffuse(surfaces, diffuse, sample, result);
+  for (std::size_t k = 0; k < most; ++k) {
+    std::array<const SurfaceLobe*, kLanes> of{};
+    for (std::size_t i = 0; i < kLanes; ++i)
+      if (k < lobes[i].size()) of[i] = &lobes[i][k];
+    add_lobe(surfaces, of, sample, result);
+  }
+  return result;
+}
+
+}  // namespace steradian::radiosity

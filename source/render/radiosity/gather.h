@@ -1,0 +1,43 @@
+// Gather: the light that surfaces of a picture receive from the patches, by rays of fixed directions.
+//
+// A diffuse lobe takes the mean over a grid of directions, weighted by the cosine. Each of 4 x 4 pixels shifts the grid by its own fraction
+// of a cell, and a linear fit over the pixels of one surface joins their means: together they see sixteen times as many directions. A
+// glossy lobe takes directions of its own. Lobes narrower than kLeastWidth show single patches, so they take nothing.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/radiosity/patch_light.h"
+#include "render/surface/gbuffer.h"
+
+namespace steradian::radiosity {
+
+class Gather {
+ public:
+  static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
+  static constexpr float kLeastWidth = 0.05f;  // alpha
+
+  // All must outlive this object. samples: primary samples of a pixel, which shift the grid.
+  Gather(const PatchLight& light, const RayScene& rays, Quality quality, int samples);
+
+  // Radiance that each surface reflects to its view, and an estimate of its error.
+  struct Result {
+    std::array<Vec3f, kLanes> radiance{}, error{};
+  };
+  Result reflected(const SixteenSurfaces& surfaces, int sample) const;
+
+ private:
+  void add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, Result& result) const;
+  void add_lobe(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, Result& result) const;
+
+  const PatchLight& light_;
+  const RayScene& rays_;
+  const int samples_;
+  struct Cell {
+    std::array<Vec3f, kLanes> direction;  // of each pixel
+  };
+  std::vector<std::vector<Cell>> cells_;  // of the sphere, by primary sample
+};
+
+}  // namespace steradian::radiosity

@@ -1,0 +1,167 @@
+#include "render/radiosity/patch_light.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "core/float_mode.h"
+#include "core/random.h"
+#include "render/surface/gbuffer.h"
+
+namespace steradian::radiosity {
+namespace {
+
+constexpr std::size_t kMostLinks = std::size_t{1} << 25;  // of all sides: 128 MB
+constexpr double kSmallChange = 1e-4;                     // of the largest radiance, at which the iterations end
+constexpr int kMostIterations = 500;
+
+struct PatchSize {
+  std::size_t patches, rays;  // rays of each side
+};
+
+PatchSize size_for(Quality quality) {
+  switch (quality) {
+    case Quality::draft: return {8'000, 64};
+    case Quality::high: return {120'000, 256};
+    case Quality::normal: break;
+  }
+  return {40'000, 128};
+}
+
+// Fraction of even light from above that a surface reflects, diffuse and glossy together.
+// The mean of Schlick's (1 - cos)^5 over the cosine is 1/21.
+Vec3f reflectance_of(const Surface& s) {
+  if (s.material->unlit) return {};
+  constexpr float kGrazing = 1.0f / 21;
+  const Vec3f all = s.albedo * (1 - s.fresnel_loss * kGrazing) + s.f0 + (s.f90 - s.f0) * kGrazing;
+  return {std::clamp(all.x, 0.0f, 1.0f), std::clamp(all.y, 0.0f, 1.0f), std::clamp(all.z, 0.0f, 1.0f)};
+}
+
+// Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Each side turns it by its own angle.
+Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
+  constexpr double kGolden = 0.61803398874989485;
+  const double square = (static_cast<double>(index) + 0.5) / static_cast<double>(count), r = std::sqrt(square);
+  const double phi = 2 * std::numbers::pi * std::fmod(static_cast<double>(index) * kGolden + turn, 1.0);
+  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)};
+}
+
+template <class Work>
+void each(std::size_t count, Work work) {
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const FlushDenormals flush;
+    work(i);
+  });
+}
+
+}  // namespace
+
+PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
+                       const AddDirect& add_direct)
+    : scene_(scene), rays_(rays), maps_(maps), patches_(scene, size_for(options.quality).patches) {
+  const std::size_t sides = patches_.side_count();
+  reflectance_.resize(sides);
+  direct_.resize(sides);
+  find_direct(add_direct);
+  radiance_ = direct_;
+  if (options.bounces == 1 || sides == 0) return;
+  find_links(std::clamp(kMostLinks / sides, std::size_t{16}, size_for(options.quality).rays) / BounceRays::kLanes * BounceRays::kLanes);
+  iterate(options.bounces);
+}
+
+// The surface at the middle of a side, as a ray sees it that comes along the normal.
+Surface PatchLight::surface_of(std::uint32_t side) const {
+  const Patches::Site& at = patches_.site(side);
+  const Mesh& mesh = scene_.meshes[at.mesh];
+  const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
+  const Vec3f across = cross(corner(1) - corner(0), corner(2) - corner(0));
+  const float size = length(across);
+  const Vec3f normal = size > 0 ? across / size : Vec3f{0, 0, 1};
+  return surface_at(scene_, mesh, at.triangle, at.u, at.v, Patches::is_front(side) ? normal : -normal,
+                    {&maps_, {at.step, 0}, {0, at.step}});
+}
+
+// Finds the direct light of the sides, a tile of sides at a time: the fronts of its patches, and then their backs.
+void PatchLight::find_direct(const AddDirect& add_direct) {
+  static const SurfaceMaterial plain;
+  constexpr std::size_t kPatches = kTilePixels / 2;
+  const std::size_t patches = patches_.side_count() / 2;
+  each((patches + kPatches - 1) / kPatches, [&](std::size_t number) {
+    const auto tile = std::make_unique<SurfaceTile>();
+    clear_kinds(*tile);
+    tile->seed = number;
+    // The side in a slot, or kNoSide.
+    const auto side_of = [&](std::size_t slot) {
+      const std::size_t patch = number * kPatches + slot % kPatches;
+      return patch < patches ? static_cast<std::uint32_t>(2 * patch + slot / kPatches) : kNoSide;
+    };
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      const std::uint32_t side = side_of(i);
+      put_nothing(*tile, i);
+      if (side == kNoSide) continue;
+      const Surface s = surface_of(side);
+      reflectance_[side] = reflectance_of(s);
+      if (!weighs(reflectance_[side])) continue;
+      Surface white;
+      white.position = s.position;
+      white.normal = white.coat_normal = s.normal;
+      white.geometric_normal = s.geometric_normal;
+      white.tangent = s.tangent;
+      white.albedo = {1, 1, 1};
+      white.material = &plain;
+      put_surface(*tile, i, white, s.geometric_normal);
+    }
+    if (tile->any_surface) add_direct(*tile);
+    for (std::size_t i = 0; i < kTilePixels; ++i)
+      if (const std::uint32_t side = side_of(i); side != kNoSide) direct_[side] = get(tile->radiance, i) * reflectance_[side];
+  });
+}
+
+void PatchLight::find_links(std::size_t rays) {
+  links_per_side_ = rays;
+  links_.resize(rays * patches_.side_count());
+  each(patches_.side_count(), [&](std::size_t side) {
+    const Surface surface = surface_of(static_cast<std::uint32_t>(side));
+    const Frame frame = Frame::from_normal(normalized(static_cast<Vec3d>(surface.geometric_normal)));
+    reference::Random random(side);
+    const double turn = random.uniform();
+    BounceRays bounce(rays_, patches_);
+    for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
+      for (std::size_t i = 0; i < BounceRays::kLanes; ++i)
+        bounce.set(i, surface, static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn))));
+      const auto met = bounce.trace();
+      std::copy(met.begin(), met.end(), links_.begin() + static_cast<std::ptrdiff_t>(side * rays + k));
+    }
+  });
+}
+
+// Adds bounces until the picture's last one, or until none changes much.
+void PatchLight::iterate(int bounces) {
+  const std::size_t sides = patches_.side_count();
+  std::vector<Vec3f> next(sides);
+  const int most = bounces == kAllBounces ? kMostIterations : bounces - 1;
+  for (iterations_ = 0; iterations_ < most;) {
+    each(sides, [&](std::size_t side) {
+      Vec3f sum{};
+      for (std::size_t k = 0; k < links_per_side_; ++k) {
+        const std::uint32_t met = links_[side * links_per_side_ + k];
+        if (met != kNoSide) sum += radiance_[met];
+      }
+      next[side] = direct_[side] + reflectance_[side] * sum * (1.0f / static_cast<float>(links_per_side_));
+    });
+    double change = 0, largest = 0;
+    for (std::size_t side = 0; side < sides; ++side) {
+      const Vec3f d = next[side] - radiance_[side];
+      change = std::max(change, static_cast<double>(std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)})));
+      largest = std::max(largest, static_cast<double>(std::max({next[side].x, next[side].y, next[side].z})));
+    }
+    radiance_.swap(next);
+    ++iterations_;
+    residual_ = largest > 0 ? change / largest : 0;
+    if (bounces == kAllBounces && residual_ <= kSmallChange) break;
+  }
+}
+
+}  // namespace steradian::radiosity

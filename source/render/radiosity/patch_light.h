@@ -1,0 +1,50 @@
+// PatchLight: the radiance that the sides of all patches reflect, after any number of bounces.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/mip_maps.h"
+#include "render/radiosity/bounce_rays.h"
+#include "render/radiosity/patches.h"
+#include "render/tile/tile.h"
+
+namespace steradian::radiosity {
+
+struct PatchOptions {
+  int bounces = kAllBounces;  // of the light in the picture: the last one is that of the gather
+  Quality quality = Quality::normal;
+};
+
+class PatchLight {
+ public:
+  // Adds the direct light of a tile's surfaces to their radiance.
+  using AddDirect = std::function<void(SurfaceTile& tile)>;
+
+  // Computes all radiances, on the threads of the caller's arena. The scene, its rays and its mip maps must outlive this object.
+  PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options, const AddDirect& add_direct);
+
+  const Patches& patches() const { return patches_; }
+  Vec3f radiance(std::uint32_t side) const { return side == kNoSide ? Vec3f{} : radiance_[side]; }
+  int iterations() const { return iterations_; }
+  // Largest change of the last iteration over the largest radiance.
+  double residual() const { return residual_; }
+
+ private:
+  Surface surface_of(std::uint32_t side) const;
+  void find_direct(const AddDirect& add_direct);
+  void find_links(std::size_t rays);
+  void iterate(int bounces);
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const MipMaps& maps_;
+  const Patches patches_;
+  std::vector<Vec3f> reflectance_, direct_, radiance_;  // by side
+  std::size_t links_per_side_ = 0;
+  std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
+  int iterations_ = 0;
+  double residual_ = 0;
+};
+
+}  // namespace steradian::radiosity

@@ -1,0 +1,41 @@
+// Patches: the triangles of a scene cut into small ones. Each side of a patch carries one reflected radiance.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "steradian/scene.h"
+
+namespace steradian::radiosity {
+
+inline constexpr std::uint32_t kNoSide = UINT32_MAX;
+
+class Patches {
+ public:
+  // Cuts triangles with long edges into a grid, so that there are about `wanted` patches, and at least one a triangle.
+  Patches(const Scene& scene, std::size_t wanted);
+
+  std::size_t side_count() const { return 2 * sites_.size(); }
+  // The side that a ray meets at a triangle's barycentric coordinates. front: on the side of the triangle's winding.
+  std::uint32_t side_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const;
+
+  // The middle of a side's patch, as barycentric coordinates of its triangle.
+  struct Site {
+    std::uint32_t mesh, triangle;
+    float u, v;
+    float step;  // side of the grid's cells in these coordinates
+  };
+  const Site& site(std::uint32_t side) const { return sites_[side / 2]; }
+  static bool is_front(std::uint32_t side) { return side % 2 == 0; }
+
+ private:
+  struct Grid {
+    std::uint32_t first;  // patch
+    std::uint32_t cells;  // along a side: cells * cells patches
+  };
+  std::vector<std::vector<Grid>> grids_;  // by mesh and triangle
+  std::vector<Site> sites_;
+};
+
+}  // namespace steradian::radiosity

@@ -1,0 +1,139 @@
+// All light: furnaces and leaks against closed forms, and rooms against paths.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "night.h"
+#include "paths.h"
+#include "render/radiosity/patches.h"
+#include "steradian/area_light.h"
+#include "steradian/load_scene.h"
+#include "steradian/render.h"
+#include "support/boxes.h"
+
+namespace steradian::radiosity_test {
+namespace {
+
+using namespace scene;
+
+RenderOptions options_for(int side, int bounces) {
+  RenderOptions options;
+  options.width = options.height = side;
+  options.shadows = Shadows::on;
+  options.quality = Quality::draft;
+  options.bounces = bounces;
+  return options;
+}
+
+double mean_luminance(const Picture& picture) {
+  double sum = 0;
+  for (const Vec3f& p : picture.pixels) sum += luminance(static_cast<Vec3d>(p));
+  return sum / static_cast<double>(picture.pixels.size());
+}
+
+}  // namespace
+
+// Every place of a triangle belongs to one patch, and the middle of a patch to that patch.
+TEST(Patches, MiddlesLieInTheirPatches) {
+  Scene scene;
+  scene.materials = {grey(0.5f)};
+  scene.meshes = {quad_mesh({0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}, 0), ball_mesh({0, 2, 0}, 0.3f, 0, 12, 6)};
+  const radiosity::Patches patches(scene, 500);
+  EXPECT_GT(patches.side_count(), 400u);
+  EXPECT_LE(patches.side_count(), 2u * 500u);
+  for (std::uint32_t side = 0; side < patches.side_count(); ++side) {
+    const auto& site = patches.site(side);
+    EXPECT_EQ(patches.side_at(site.mesh, site.triangle, site.u, site.v, radiosity::Patches::is_front(side)), side);
+  }
+  // Corners and edges, with the roundings of a ray.
+  for (const float u : {-1e-7f, 0.0f, 0.5f, 1.0f, 1.0000001f})
+    for (const float v : {-1e-7f, 0.0f, 0.5f, 1.0f, 1.0000001f})
+      EXPECT_LT(patches.side_at(0, 0, u, std::min(v, 1 - u), true), patches.side_count());
+}
+
+// In a closed box whose sides shine with 1 and reflect r, the reflected radiance is r + r^2 + ... : every mean is one of equal values, so
+// only roundings and the end of the iterations are left.
+TEST(Radiosity, TheFurnaceIsTheGeometricSeries) {
+  for (const float r : {0.3f, 0.8f})
+    for (const int bounces : {1, 2, 5, kAllBounces}) {
+      double truth = 0, power = 1;
+      for (int k = 0; k <= (bounces == kAllBounces ? 400 : bounces); ++k) truth += power *= static_cast<double>(r);
+      RenderOptions options = options_for(16, bounces);
+      options.shadows = Shadows::off;
+      double worst = 0;
+      for (const Vec3f& p : render(closed_box(r, true), options).pixels)
+        worst = std::max(worst, std::fabs(static_cast<double>(p.x) / truth - 1));
+      std::printf("albedo %.1f, %d bounces: %.6f, off by at most %.1e\n", static_cast<double>(r), bounces, truth, worst);
+      // The iterations end at a change of 1e-4, of which a geometric series leaves r / (1 - r) more.
+      EXPECT_LT(worst, bounces == kAllBounces ? 1e-4 * r / (1 - r) + 1e-5 : 1e-5);
+    }
+}
+
+// A closed box in the light of a lamp outside, whatever its walls reflect.
+TEST(Radiosity, NoLightEntersAClosedBox) {
+  Scene scene = closed_box(0.7f, false);
+  AreaLight lamp;
+  lamp.shape = Ellipsoid{{0, 3, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}};
+  lamp.radiance = {100, 100, 100};
+  scene.area_lights = {lamp};
+  for (const Vec3f& p : render(scene, options_for(16, kAllBounces)).pixels) EXPECT_EQ(p, (Vec3f{}));
+}
+
+// The same bytes at any number of threads.
+TEST(Radiosity, ThreadsDoNotMatter) {
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/room.glb").scene;
+  RenderOptions options = options_for(40, 2);
+  options.threads = 1;
+  const Picture one = render(scene, options);
+  options.threads = 3;
+  EXPECT_EQ(one.pixels, render(scene, options).pixels);
+}
+
+// Boxes in a lit room with one open side, against paths. The light between surfaces is what both add to the direct light.
+TEST(Radiosity, RoomsAgreeWithPaths) {
+  reference::Random random(5);
+  const int rooms = test::by_day_or_night(1, 20);
+  double worst = 0;
+  for (int k = 0; k < rooms; ++k) {
+    Scene scene = closed_box(static_cast<float>(random.uniform(0.4, 0.8)), false);
+    SurfaceMaterial coloured = grey(0.6f);
+    coloured.base_color = {0.8f, static_cast<float>(random.uniform(0.1, 0.8)), 0.2f, 1};
+    scene.materials.push_back(coloured);
+    scene.meshes[static_cast<std::size_t>(random.uniform() * 5)].material = 1;
+    const auto x = static_cast<float>(random.uniform(-0.6, 0.2)), z = static_cast<float>(random.uniform(-0.8, 0)),
+               h = static_cast<float>(random.uniform(-0.7, 0.3));
+    scene.meshes.push_back(quad_mesh({x, h, z + 0.4f}, {x + 0.4f, h, z + 0.4f}, {x + 0.4f, h, z}, {x, h, z}, 1));
+    scene.meshes.push_back(ball_mesh({0.3f, -0.7f, 0.1f}, 0.3f, 0, 32, 16));
+    AreaLight lamp;
+    Polygon square;
+    square.vertices = {{-0.2, 0.98, -0.2}, {0.3, 0.98, -0.2}, {0.3, 0.98, 0.3}, {-0.2, 0.98, 0.3}};
+    lamp.shape = square;
+    lamp.radiance = {10, 10, 10};
+    scene.area_lights = {lamp};
+    RenderOptions options = options_for(20, kAllBounces);
+    options.quality = Quality::normal;
+    RenderStats stats;
+    const Picture picture = render(scene, options, &stats);
+    options.method = "reference";
+    options.target_error = 0.008;
+    const Picture paths = render(scene, options);
+    double squares = 0, noise = 0;
+    for (std::size_t i = 0; i < paths.pixels.size(); ++i) {
+      const double d = luminance(static_cast<Vec3d>(picture.pixels[i]) - static_cast<Vec3d>(paths.pixels[i]));
+      squares += d * d;
+      noise += luminance(static_cast<Vec3d>(paths.layers.at("variance")[i])) / 2;  // at least half of what it is for one channel
+    }
+    const double mean = mean_luminance(paths), n = static_cast<double>(paths.pixels.size());
+    const double error = std::sqrt(std::max(squares - noise, 0.0) / n) / mean, ratio = mean_luminance(picture) / mean;
+    std::printf("room %d: error %.2f %%, estimated %.2f %%, mean ratio %.4f\n", k, 100 * error, 100 * stats.bounce_error, ratio);
+    worst = std::max(worst, error);
+    EXPECT_LT(error, 0.02) << k;
+    // 20 x 20 pixels of 0.8 % noise each, and patches of a 40,000th of the room.
+    EXPECT_NEAR(ratio, 1, 0.005) << k;
+  }
+  std::printf("%d rooms: worst %.2f %%\n", rooms, 100 * worst);
+}
+
+}  // namespace steradian::radiosity_test
