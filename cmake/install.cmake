@@ -2,7 +2,8 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/steradian)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/steradian DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/steradian DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        PATTERN kernels EXCLUDE)  # a link in the source tree, a folder in the installed one
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/kernels/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/steradian/kernels
         PATTERN *_cases.glsl EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

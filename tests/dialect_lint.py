@@ -397,7 +397,7 @@ def main():
                 bad += 1
                 print(f"{path}: {name} is also defined in {owner[name]}: all kernels share one scope")
             owner[name] = path
-    listed = re.findall(r'#include "(\w+/\w+\.glsl)"', (ROOT / "include" / "steradian" / "kernels.h").read_text())
+    listed = re.findall(r'#include "kernels/(\w+/\w+\.glsl)"', (ROOT / "include" / "steradian" / "kernels.h").read_text())
     for path in {str(p.relative_to(KERNELS)) for p in kernel_files()} ^ set(listed):
         bad += 1
         print(f"include/steradian/kernels.h: {path} is a kernel or is included, and not both")

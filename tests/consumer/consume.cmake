@@ -1,6 +1,7 @@
 # Builds a program against this project as somebody else would, and runs it.
 #   cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... [-DLAUNCHER=...] -P consume.cmake install | (everything|installed|subdirectory|lobe COMPILER)
-#     install       installs the build into SCRATCH: also the manual page and the completions of shells
+#     install       installs the build into SCRATCH: also the manual page, the completions of shells; the kernels compile with one
+#                   include path
 #     everything    from the installed tree, all layers
 #     installed     from the installed tree, the integrals alone: every package that other layers ask for is hidden
 #     lobe          from the installed tree, the layer that fits tables
@@ -32,6 +33,8 @@ if(how STREQUAL "install")
       message(FATAL_ERROR "share/${text} has ${size} bytes")
     endif()
   endforeach()
+  file(WRITE ${SCRATCH}/kernels.cpp "#include \"steradian/kernels.h\"\ntemplate struct steradian::Kernels<float>;\n")
+  run(c++ -std=c++20 -fsyntax-only -I${SCRATCH}/installed/include ${SCRATCH}/kernels.cpp)
   return()
 endif()
 
