@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """dist_compiles.py LANGUAGE [SCRATCH]: dist/ in one language (glsl, es, hlsl, wgsl) compiles: the whole alone, the example at its
-top as it stands there, and each topic after those that its head names.
+top as it stands there, each topic after those that its head names, and the shaders of docs/engines.md for engines of this language.
 
 WGSL is checked by naga (naga-wasm from npm, kept in the folder SCRATCH). Exit 77 (skipped) where that cannot be had.
 """
@@ -81,6 +81,28 @@ def example_command(language, whole, scratch):
     return whole.read_text() + example, ".wgsl", wgsl_command(scratch)
 
 
+ENGINES = {  # language: what an engine puts around a shader of docs/engines.md, by a word of it
+    "hlsl": {"QuadLight_float": ("", "float4 main() : SV_Target { return 0; }\n"),
+             "float Diffuse": ('#include "steradian.hlsl"\nfloat3 Custom(float3 Position, float3 Normal, float3 View, float3 A, float3 B, float3 C, '
+                               "float3 D, float3 Radiance, float3 Albedo, float Roughness, float3 F0) {\n",
+                               "}\nfloat4 main() : SV_Target { return 0; }\n")},
+    "es": {"shader_type spatial;": ("#version 300 es\nprecision highp float;\nuniform mat4 VIEW_MATRIX;\nin vec3 VERTEX, NORMAL, VIEW;\nout vec3 EMISSION;\n", "")},
+}
+
+
+def shaders_of_engines(language, whole):
+    """{word: shader} of docs/engines.md, with what the engine puts around it."""
+    pieces = re.findall(r"```(?:hlsl|glsl)\n(.*?)```", (ROOT / "docs" / "engines.md").read_text(), re.DOTALL)
+    found = {}
+    for word, (before, after) in ENGINES.get(language, {}).items():
+        (piece,) = [p for p in pieces if word in p]
+        if language == "es":  # Godot's language has other first lines and another name of main
+            piece = piece.replace("shader_type spatial;", "").replace("void fragment()", "void main()")
+            piece = piece.replace('#include "res://steradian.gdshaderinc"', whole.read_text())
+        found[word] = before + piece + after
+    return found
+
+
 def with_needs(path):
     """The text of a topic after those that its head names."""
     text = path.read_text()
@@ -101,6 +123,8 @@ def main():
         sys.exit(f"{language}: the example has {lines} lines, more than {LONGEST_EXAMPLE}, or lights no GGX surface by a quad")
     jobs = {"alone": (before + whole.read_text() + after, suffix, command), f"the example ({lines} lines)": (example, example_suffix, example_compiler)}
     jobs |= {path.name: (before + with_needs(path) + after, suffix, command) for path in topics}
+    jobs |= {f"'{word}' of docs/engines.md": (text, example_suffix, example_compiler)
+             for word, text in shaders_of_engines(language, whole).items()}
     for what, (text, ending, compiler) in jobs.items():
         with tempfile.TemporaryDirectory() as folder:
             source = Path(folder) / ("dist" + ending)
