@@ -1,7 +1,7 @@
 // run_shader SPIRV INPUTS OUTPUTS: runs a compute shader on the first Vulkan device, 64 threads a group, one thread a case.
 //
-// Standard input has INPUTS floats a case, in the shader's binding 0. Standard output gets OUTPUTS floats a case, from its binding 1. Exit 77 if
-// there is no device.
+// Standard input has INPUTS floats a case, in the shader's binding 0. Standard output gets OUTPUTS floats a case, from its binding 1. Exit
+// 77 if there is no device.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
