@@ -6,7 +6,8 @@
 
     make_dist.py                 writes them beside itself
     make_dist.py --check         exit 1 when what is checked in is not what would be written
-    make_dist.py --with-usage L  prints the whole for language L (glsl, es, hlsl, wgsl) with its usage example as code, not as a comment
+
+dist/source/ holds the functions that look up a table themselves, in the kernels' dialect, and the example at the top of each whole file.
 
 Tokens are replaced and nothing else: comments, line breaks and the order of every operation stay. What only double
 needs is left out. Every name at file scope begins with steradian_, a struct's with Steradian.
@@ -18,33 +19,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
+sys.path.insert(0, str(ROOT / "dist"))
 from kernel_text import functions, in_order, kernel_files, with_needs  # noqa: E402
+from tables import LOOK_UPS, tables_text  # noqa: E402
 
 VERSION = re.search(r"project\(steradian VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 LICENCE = (ROOT / "LICENSE").read_text()
-
-# The paste-ready example, in the dialect: printed in the file's language, and compiled with it in the tests.
-USAGE = """\
-// Radiance that a quad light sends to the eye from a Lambert surface.
-//   p, n         surface point and its unit normal
-//   v0 ... v3    the light's corners, counter-clockwise as seen from its lit side
-//   radiance     of the light; the result is for albedo 1
-real lit_by_quad(vec3 p, vec3 n, vec3 v0, vec3 v1, vec3 v2, vec3 v3, real radiance) {
-    mat3 frame = frame_from_normal(n);
-    vec3 a = polygon_direction(transform_transposed(frame, v3 - p));  // walk order: the corners backwards
-    vec3 b = polygon_direction(transform_transposed(frame, v2 - p));
-    vec3 c = polygon_direction(transform_transposed(frame, v1 - p));
-    vec3 d = polygon_direction(transform_transposed(frame, v0 - p));
-    PolygonWalk walk = polygon_begin();
-    walk = polygon_add_edge(walk, a, b);
-    walk = polygon_add_edge(walk, b, c);
-    walk = polygon_add_edge(walk, c, d);
-    walk = polygon_add_edge(walk, d, a);
-    mask lit = dot(cross(v1 - v0, v2 - v0), p - v0) > 0.0;
-    real irradiance = select(lit, polygon_irradiance(walk, !lit), 0.0);
-    return lambert_radiance(irradiance) * radiance;
-}
-"""
 
 PIECE = re.compile(r"(?P<comment>//[^\n]*)|(?P<number>\d[\w.]*(?:(?<=[eE])[+-]\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<space>\s+)"
                    r"|(?P<op>[<>=!+\-*/]=|&&|\|\||\+\+|--|.)", re.DOTALL)
@@ -131,9 +111,10 @@ def without_lanes(pieces):
     return pieces
 
 
-HELPERS = ("select", "transform", "transform_transposed", "xy")
+SOURCE = ROOT / "dist" / "source"
+HELPERS = ("select", "transform", "transform_transposed", "xy", *LOOK_UPS)
 PROGRAMS_OWN = ("texture_cell", "shadow")  # kernels that say nothing without our programs' lists
-TEXTS = {path: path.read_text() for path in kernel_files() if path.stem not in PROGRAMS_OWN}
+TEXTS = {path: path.read_text() for path in [*kernel_files(), SOURCE / "lit.glsl"] if path.stem not in PROGRAMS_OWN}
 FUNCTIONS = {name: "steradian_" + name
              for name in (*HELPERS, *(name for text in TEXTS.values() for name, _ in functions(text)))}
 STRUCTS = {name: "Steradian" + name
@@ -199,7 +180,7 @@ class Wgsl:
                 out.append(self.function(pieces[i:end + 1]))
                 i = end + 1
             else:
-                out.append(p.text)
+                out.append(text_of(rename([p], {})))
                 i += 1
         return "".join(out)
 
@@ -332,11 +313,14 @@ TOPICS = {  # name: (what it is, the beginnings of its kernels' names; a kernel 
     "phong": ("Phong's lobe over polygons, exactly and by a series", ["integral/moment"]),
     "ltc": ("linearly transformed cosines over polygons, textured ones too", ["integral/ltc"]),
     "ltc_tables": ("the tables of linearly transformed cosines, 4 KB each, and how they are read", []),
+    "lit": ("surfaces lit by a quad or a polygon in one call: GGX and Lambert", ["source/lit"]),
     "ggx": ("GGX in closed form, and half vector methods for Blinn-Phong and Beckmann", ["integral/"]),
     "comparison": ("methods of the literature that ours are compared with", ["comparison/"]),
     "plane": ("light in the plane", ["plane/"]),
     "indirect": ("one bounce from virtual lights", ["indirect/"]),
 }
+
+TABLES_OF = {"lit": ["ltc_tables"]}  # topics whose functions look up tables
 
 
 def topic_of(path):
@@ -350,7 +334,8 @@ def needs_of_topic(topic, _open=()):
         raise ValueError(f"topics need each other in a circle: {_open}")
     files = [p for path in TEXTS if topic_of(path) == topic for p in with_needs(path)]
     order = []
-    for needed in [t for t in TOPICS if t != topic and t in {"math"} | {topic_of(p) for p in files}] if topic != "math" else []:
+    direct = {"math", *TABLES_OF.get(topic, ())} | {topic_of(p) for p in files}
+    for needed in [t for t in TOPICS if t != topic and t in direct] if topic != "math" else []:
         order += [t for t in needs_of_topic(needed, _open + (topic,)) + [needed] if t not in order]
     return order
 
@@ -362,111 +347,18 @@ def all_topics():
     return order
 
 
-# ---- tables --------------------------------------------------------------------------------------------------------
-
-TABLES = {  # name: (the header that `steradian fit` wrote, what it says)
-    "ggx": ("ggx_compact.h", "GGX; the shape is what steradian_ltc_from_compact takes"),
-    "charlie": ("charlie_compact.h", "Charlie's sheen; the shape is M^-1 about the normal: xx, yy, xz, zx, and zz is 1"),
-}
-
-
-def table_words(name):
-    """The words of a compact table: 16 x 16 shapes of four half floats, 22 x 22 magnitudes of two."""
-    text = next(ROOT.glob(f"**/{TABLES[name][0]}")).read_text()
-    arrays = [re.findall(r"0x[0-9a-f]{8}", body) for body in re.findall(r"unsigned int \w+\[\d+\] = {(.*?)}", text, re.S)]
-    assert [len(a) for a in arrays] == [512, 484], TABLES[name][0]
-    return arrays
-
-
-LOOK_UP = {
-    "c": """\
-// The table NAME at a place that steradian_ltc_coordinates gives: WHAT.
-VEC4 steradian_ltc_NAME_shape_at(int k) {
-    return VEC4(HALVES(steradian_ltc_NAME_shape_words[2 * k]), HALVES(steradian_ltc_NAME_shape_words[2 * k + 1]));
-}
-VEC4 steradian_ltc_NAME_shape(VEC2 place) {
-    VEC2 x = clamp(place, 0.0, 1.0) * 15.0;
-    VEC2 node = min(floor(x), VEC2(14.0, 14.0));
-    VEC2 f = x - node;
-    int k = int(node.y) * 16 + int(node.x);
-    VEC4 low = MIX(steradian_ltc_NAME_shape_at(k), steradian_ltc_NAME_shape_at(k + 1), f.x);
-    VEC4 high = MIX(steradian_ltc_NAME_shape_at(k + 16), steradian_ltc_NAME_shape_at(k + 17), f.x);
-    return MIX(low, high, f.y);
-}
-
-// The magnitudes of the table NAME at such a place: what steradian_ltc_specular_scale takes.
-VEC2 steradian_ltc_NAME_magnitude_at(int k) { return HALVES(steradian_ltc_NAME_magnitude_words[k]); }
-VEC2 steradian_ltc_NAME_magnitude(VEC2 place) {
-    VEC2 x = clamp(place, 0.0, 1.0) * 21.0;
-    VEC2 node = min(floor(x), VEC2(20.0, 20.0));
-    VEC2 f = x - node;
-    int k = int(node.y) * 22 + int(node.x);
-    VEC2 low = MIX(steradian_ltc_NAME_magnitude_at(k), steradian_ltc_NAME_magnitude_at(k + 1), f.x);
-    VEC2 high = MIX(steradian_ltc_NAME_magnitude_at(k + 22), steradian_ltc_NAME_magnitude_at(k + 23), f.x);
-    return MIX(low, high, f.y);
-}
-""",
-    "wgsl": """\
-// The table NAME at a place that steradian_ltc_coordinates gives: WHAT.
-fn steradian_ltc_NAME_shape_at(k: i32) -> vec4f {
-    return vec4f(unpack2x16float(steradian_ltc_NAME_shape_words[2 * k]), unpack2x16float(steradian_ltc_NAME_shape_words[2 * k + 1]));
-}
-fn steradian_ltc_NAME_shape(place: vec2f) -> vec4f {
-    let x = clamp(place, vec2f(0.0, 0.0), vec2f(1.0, 1.0)) * 15.0;
-    let node = min(floor(x), vec2f(14.0, 14.0));
-    let f = x - node;
-    let k = i32(node.y) * 16 + i32(node.x);
-    let low = mix(steradian_ltc_NAME_shape_at(k), steradian_ltc_NAME_shape_at(k + 1), f.x);
-    let high = mix(steradian_ltc_NAME_shape_at(k + 16), steradian_ltc_NAME_shape_at(k + 17), f.x);
-    return mix(low, high, f.y);
-}
-
-// The magnitudes of the table NAME at such a place: what steradian_ltc_specular_scale takes.
-fn steradian_ltc_NAME_magnitude_at(k: i32) -> vec2f { return unpack2x16float(steradian_ltc_NAME_magnitude_words[k]); }
-fn steradian_ltc_NAME_magnitude(place: vec2f) -> vec2f {
-    let x = clamp(place, vec2f(0.0, 0.0), vec2f(1.0, 1.0)) * 21.0;
-    let node = min(floor(x), vec2f(20.0, 20.0));
-    let f = x - node;
-    let k = i32(node.y) * 22 + i32(node.x);
-    let low = mix(steradian_ltc_NAME_magnitude_at(k), steradian_ltc_NAME_magnitude_at(k + 1), f.x);
-    let high = mix(steradian_ltc_NAME_magnitude_at(k + 22), steradian_ltc_NAME_magnitude_at(k + 23), f.x);
-    return mix(low, high, f.y);
-}
-""",
-}
-
-ARRAY = {  # language: (before and after the words, an element's ending)
-    "glsl": ("const uint {name}[{count}] = uint[{count}](", ");", "u"),
-    "es": ("const highp uint {name}[{count}] = uint[{count}](", ");", "u"),
-    "hlsl": ("static const uint {name}[{count}] = {{", "}};", "u"),
-    "wgsl": ("var<private> {name}: array<u32, {count}> = array<u32, {count}>(", ");", "u"),
-}
-SPELLING = {"glsl": {"VEC4": "vec4", "VEC2": "vec2", "MIX": "mix", "HALVES": "unpackHalf2x16"},
-            "hlsl": {"VEC4": "float4", "VEC2": "float2", "MIX": "lerp", "HALVES": "steradian_halves"}, "wgsl": {}}
-SPELLING["es"] = SPELLING["glsl"]
-HALVES_HLSL = """\
-// Two half floats in a word, the first in the low bits.
-float2 steradian_halves(uint word) { return float2(f16tof32(word), f16tof32(word >> 16)); }
-
-"""
-
-
-def tables_text(language):
-    out = HALVES_HLSL if language == "hlsl" else ""
-    before, after, ending = ARRAY[language]
-    for name, (_, what) in TABLES.items():
-        for kind, words in zip(("shape", "magnitude"), table_words(name)):
-            rows = [", ".join(w + ending for w in words[i:i + 8]) for i in range(0, len(words), 8)]
-            array = f"steradian_ltc_{name}_{kind}_words"
-            out += (before.format(name=array, count=len(words)) + "\n    " + ",\n    ".join(rows) + after.format() + "\n\n")
-        look_up = LOOK_UP["wgsl" if language == "wgsl" else "c"].replace("NAME", name).replace("WHAT", what)
-        for word, spelt in SPELLING[language].items():
-            look_up = look_up.replace(word, spelt)
-        out += look_up + "\n"
-    return out.rstrip() + "\n"
-
-
 # ---- files ---------------------------------------------------------------------------------------------------------
+
+EXAMPLE_PLACE = {  # what is before the example in the heads of the whole files
+    "glsl": "A surface lit by a quad light, as a fragment shader beside this file:",
+    "es": "A surface lit by a quad light: a fragment shader is #version 300 es, precision highp float;, this file and then",
+    "hlsl": "A surface lit by a quad light, as a pixel shader beside this file:",
+    "wgsl": "A surface lit by a quad light: a module is this file and then",
+}
+MANUAL = """\
+The light shines to the side from which its corners run counter-clockwise, or clockwise in a left-handed frame. See the topic `lit`.
+Lights of other outlines and shapes, and other lobes, are walked edge by edge. Each function's comment gives frame, units,
+preconditions, degenerate case and source."""
 
 LANGUAGES = {  # key: (ending, name, what must stand before it, helpers, printer)
     "glsl": (".glsl", "GLSL 4.50", "Paste after #version and your own declarations.", GLSL_HELPERS, lambda: c_like(GLSL_NAMES)),
@@ -492,31 +384,29 @@ def topic_text(topic, language, printer):
 def printed(language):
     """{topic: its text}. One printer for all: WGSL's learns the structs as they come."""
     printer = LANGUAGES[language][4]()
-    return {topic: topic_text(topic, language, printer) for topic in all_topics()}, printer
+    return {topic: topic_text(topic, language, printer) for topic in all_topics()}
 
 
 def files(language):
     """{path under dist/: text} of one language."""
     ending, title, place, _, _ = LANGUAGES[language]
-    texts, printer = printed(language)
-    indented = "".join(f"    {line}\n" if line else "\n" for line in printer(USAGE).splitlines())
-    manual = "A light of any outline is walked edge by edge; each function's comment gives frame, units, preconditions,\ndegenerate case and source.\n\n"
-    made = "Made by dist/make_dist.py from kernels/: change those."
-    whole = (as_comment(f"Steradian {VERSION}: area light integrals in closed form, for {title}.\n\n{place}\n{made} For example:\n\n")
-             + as_comment(indented) + as_comment("\n" + manual + LICENCE))
+    texts = printed(language)
+    made = "Made by dist/make_dist.py from kernels/ and dist/source/: change those."
+    example = (SOURCE / f"example{ending}").read_text()
+    indented = "".join(f"    {line}\n" if line else "\n" for line in example.splitlines())
+    whole = (as_comment(f"Steradian {VERSION}: area light integrals in closed form, for {title}.\n\n{EXAMPLE_PLACE[language]}\n\n")
+             + as_comment(indented) + as_comment(f"\n{place}\n{MANUAL}\n{made}\n\n{LICENCE}"))
     found = {f"steradian{ending}": whole + "\n" + "\n".join(f"// ======== {t}: {TOPICS[t][0]} ========\n\n{text}" for t, text in texts.items())}
     for topic, text in texts.items():
         before = ", ".join(t + ending for t in needs_of_topic(topic))
-        head = f"Steradian {VERSION}, {topic}: {TOPICS[topic][0]}, for {title}.\n\n{place}" + (f"\nIt comes after {before}." if before else "")
+        head = f"Steradian {VERSION}, {topic}: {TOPICS[topic][0]}, for {title}.\n\n{place}\n" + (
+            f"It needs these files before it, in this order: {before}." if before else "It needs no other file.")
         found[f"{language}/{topic}{ending}"] = as_comment(f"{head}\n{made}\n\n" + LICENCE) + "\n" + text
     return found
 
 
 def main():
-    job, *rest = sys.argv[1:] or ["--write"]
-    if job == "--with-usage":
-        print(files(rest[0])["steradian" + LANGUAGES[rest[0]][0]] + "\n" + printed(rest[0])[1](USAGE))
-        return
+    job = (sys.argv[1:] or ["--write"])[0]
     stale, written = 0, {name: text for language in LANGUAGES for name, text in files(language).items()}
     for name, text in written.items():
         path = ROOT / "dist" / name

@@ -1,30 +1,36 @@
 // Steradian 0.1.0: area light integrals in closed form, for GLSL 4.50.
 //
-// Paste after #version and your own declarations.
-// Made by dist/make_dist.py from kernels/: change those. For example:
+// A surface lit by a quad light, as a fragment shader beside this file:
 //
-//     // Radiance that a quad light sends to the eye from a Lambert surface.
-//     //   p, n         surface point and its unit normal
-//     //   v0 ... v3    the light's corners, counter-clockwise as seen from its lit side
-//     //   radiance     of the light; the result is for albedo 1
-//     float lit_by_quad(vec3 p, vec3 n, vec3 v0, vec3 v1, vec3 v2, vec3 v3, float radiance) {
-//         mat3 frame = steradian_frame_from_normal(n);
-//         vec3 a = steradian_polygon_direction(steradian_transform_transposed(frame, v3 - p));  // walk order: the corners backwards
-//         vec3 b = steradian_polygon_direction(steradian_transform_transposed(frame, v2 - p));
-//         vec3 c = steradian_polygon_direction(steradian_transform_transposed(frame, v1 - p));
-//         vec3 d = steradian_polygon_direction(steradian_transform_transposed(frame, v0 - p));
-//         SteradianPolygonWalk walk = steradian_polygon_begin();
-//         walk = steradian_polygon_add_edge(walk, a, b);
-//         walk = steradian_polygon_add_edge(walk, b, c);
-//         walk = steradian_polygon_add_edge(walk, c, d);
-//         walk = steradian_polygon_add_edge(walk, d, a);
-//         bool lit = dot(cross(v1 - v0, v2 - v0), p - v0) > 0.0;
-//         float irradiance = steradian_select(lit, steradian_polygon_irradiance(walk, !lit), 0.0);
-//         return steradian_lambert_radiance(irradiance) * radiance;
+//     #version 450
+//     #extension GL_GOOGLE_include_directive : require  // without it: paste the file in place of the next line
+//     #include "steradian.glsl"
+//
+//     layout(location = 0) in vec3 position;  // of the surface
+//     layout(location = 1) in vec3 normal;
+//     layout(location = 0) out vec4 color;    // linear
+//     layout(binding = 0) uniform Scene {
+//         vec4 eye;
+//         vec4 corners[4];  // of the light
+//         vec4 radiance;    // of the light
+//         vec4 albedo;
+//         vec4 f0;          // w: roughness
+//     };
+//
+//     void main() {
+//         vec3 n = normalize(normal);
+//         vec3 v = normalize(eye.xyz - position);
+//         vec3 a = corners[0].xyz, b = corners[1].xyz, c = corners[2].xyz, d = corners[3].xyz;
+//         vec3 specular = steradian_ggx_quad(position, n, v, a, b, c, d, f0.w, f0.xyz);
+//         float diffuse = steradian_lambert_quad(position, n, a, b, c, d);
+//         color = vec4(radiance.rgb * (albedo.rgb * diffuse + specular), 1.0);
 //     }
 //
-// A light of any outline is walked edge by edge; each function's comment gives frame, units, preconditions,
-// degenerate case and source.
+// Paste after #version and your own declarations.
+// The light shines to the side from which its corners run counter-clockwise, or clockwise in a left-handed frame. See the topic `lit`.
+// Lights of other outlines and shapes, and other lobes, are walked edge by edge. Each function's comment gives frame, units,
+// preconditions, degenerate case and source.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -4055,6 +4061,225 @@ vec2 steradian_ltc_charlie_magnitude(vec2 place) {
     vec2 low = mix(steradian_ltc_charlie_magnitude_at(k), steradian_ltc_charlie_magnitude_at(k + 1), f.x);
     vec2 high = mix(steradian_ltc_charlie_magnitude_at(k + 22), steradian_ltc_charlie_magnitude_at(k + 23), f.x);
     return mix(low, high, f.y);
+}
+
+// ======== lit: surfaces lit by a quad or a polygon in one call: GGX and Lambert ========
+
+// ==== lit ====
+
+// A surface lit by a polygon light of radiance 1, in one call: Lambert's lobe exactly, GGX by transformed cosines and the compact table.
+//
+// Everything is in one frame, such as the engine's world, with any unit of length. It may be left-handed. The light's corners lie in one plane.
+// The light shines to the side to which cross(v1 - v0, v2 - v0) points: counter-clockwise corners as seen from there, or
+// clockwise ones in a left-handed frame. Multiply the results by the light's radiance, and by the visible fraction if something occludes it.
+
+// Twice the area of a triangle times its unit normal. Summed over the edges of a polygon and one corner: twice its area times its normal.
+//
+//   corner     any point of the light's plane near it
+//   start, end the ends of an edge
+vec3 steradian_lit_area_of_edge(vec3 corner, vec3 start, vec3 end) {
+    return cross(start - corner, end - corner);
+}
+
+// A diffuse surface and the edges of a light that were added.
+//   position   of the surface
+//   frame      x, y and the normal
+//   walk       sum over the edges
+//   corner     of the light
+//   area       twice the light's area times its normal, which points to its lit side
+struct SteradianLambertPolygon {
+    vec3 position;
+    mat3 frame;
+    SteradianPolygonWalk walk;
+    vec3 corner;
+    vec3 area;
+};
+
+// A diffuse surface before the first edge.
+//
+//   position   of the surface
+//   normal     unit
+//   corner     any corner of the light
+SteradianLambertPolygon steradian_lambert_polygon_begin(vec3 position, vec3 normal, vec3 corner) {
+    SteradianLambertPolygon light;
+    light.position = position;
+    light.frame = steradian_frame_from_normal(normal);
+    light.walk = steradian_polygon_begin();
+    light.corner = corner;
+    light.area = vec3(0.0, 0.0, 0.0);
+    return light;
+}
+
+// Adds one edge of the light. Edges may come in any order. The edges of a hole run the other way round.
+SteradianLambertPolygon steradian_lambert_polygon_add_edge(SteradianLambertPolygon light, vec3 start, vec3 end) {
+    vec3 a = steradian_polygon_direction(steradian_transform_transposed(light.frame, end - light.position));
+    vec3 b = steradian_polygon_direction(steradian_transform_transposed(light.frame, start - light.position));
+    SteradianLambertPolygon next = light;
+    next.walk = steradian_polygon_add_edge(light.walk, a, b);
+    next.area = light.area + steradian_lit_area_of_edge(light.corner, start, end);
+    return next;
+}
+
+// Radiance of a surface of albedo 1, in [0, 1]; 0 behind the light.
+//
+// Error: see docs/measured/accuracy.md, "polygon irradiance".
+float steradian_lambert_polygon_radiance(SteradianLambertPolygon light) {
+    bool lit = dot(light.area, light.position - light.corner) > 0.0;
+    return steradian_select(lit, steradian_lambert_radiance(steradian_polygon_irradiance(light.walk, !lit)), 0.0);
+}
+
+// Radiance of a surface of albedo 1 under a light with two lit sides, in [0, 1].
+float steradian_lambert_polygon_radiance_of_both_sides(SteradianLambertPolygon light) {
+    bool behind = dot(light.area, light.position - light.corner) < 0.0;
+    return steradian_lambert_radiance(steradian_polygon_irradiance(light.walk, behind));
+}
+
+// Radiance of a diffuse surface of albedo 1 under a light of four corners, in [0, 1]; 0 behind the light.
+//
+//   position   of the surface
+//   normal     unit
+//   v0 ... v3  corners of the light, in order
+float steradian_lambert_quad(vec3 position, vec3 normal, vec3 v0, vec3 v1, vec3 v2, vec3 v3) {
+    mat3 frame = steradian_frame_from_normal(normal);
+    vec3 a = steradian_polygon_direction(steradian_transform_transposed(frame, v3 - position));
+    vec3 b = steradian_polygon_direction(steradian_transform_transposed(frame, v2 - position));
+    vec3 c = steradian_polygon_direction(steradian_transform_transposed(frame, v1 - position));
+    vec3 d = steradian_polygon_direction(steradian_transform_transposed(frame, v0 - position));
+    SteradianPolygonWalk walk = steradian_polygon_begin();
+    walk = steradian_polygon_add_edge(walk, a, b);
+    walk = steradian_polygon_add_edge(walk, b, c);
+    walk = steradian_polygon_add_edge(walk, c, d);
+    walk = steradian_polygon_add_edge(walk, d, a);
+    bool lit = dot(cross(v1 - v0, v2 - v0), position - v0) > 0.0;
+    return steradian_select(lit, steradian_lambert_radiance(steradian_polygon_irradiance(walk, !lit)), 0.0);
+}
+
+// The GGX lobe of a surface towards a view, from the compact table.
+//   frame      x along the view's projection, z the normal
+//   shape      of the lobe
+//   magnitude  of the lobe without Fresnel, and of the lobe times (1 - v.h)^5
+//   above      true if the view is above the surface
+struct SteradianGgxLobe {
+    mat3 frame;
+    SteradianLtcMatrix shape;
+    vec2 magnitude;
+    bool above;
+};
+
+// The lobe of a surface towards a view. It serves any number of lights.
+//
+//   normal     unit
+//   view       unit, from the surface to the eye
+//   roughness  perceptual: the square root of alpha. It is clamped to [0.01, 1]
+SteradianGgxLobe steradian_ggx_lobe_from_table(vec3 normal, vec3 view, float roughness) {
+    float clamped = clamp(roughness, 1.0e-2, 1.0);
+    SteradianGgxLobe lobe;
+    lobe.frame = steradian_frame_from_normal_and_view(normal, view);
+    vec3 turned = steradian_transform_transposed(lobe.frame, view);
+    vec2 place = steradian_ltc_coordinates(clamped, turned.z);
+    lobe.shape = steradian_ltc_from_compact(steradian_ltc_ggx_shape(place), clamped * clamped, vec3(turned.x, 0.0, turned.z));
+    lobe.magnitude = steradian_ltc_ggx_magnitude(place);
+    lobe.above = turned.z > 0.0;
+    return lobe;
+}
+
+// Radiance of a lobe with Schlick's Fresnel; 0 for a view from below the surface.
+//
+//   f0         reflectance along the normal, a colour; at grazing angles it is 1
+//   integral   steradian_ltc_integral of the light
+vec3 steradian_ggx_lobe_radiance(SteradianGgxLobe lobe, vec3 f0, float integral) {
+    float straight = steradian_select(lobe.above, (lobe.magnitude.x - lobe.magnitude.y) * integral, 0.0);
+    float grazing = steradian_select(lobe.above, lobe.magnitude.y * integral, 0.0);
+    return f0 * straight + vec3(grazing, grazing, grazing);
+}
+
+// A glossy surface and the edges of a light that were added.
+//   position   of the surface
+//   lobe       of the surface
+//   walk       sum over the edges
+//   corner     of the light
+//   area       twice the light's area times its normal, which points to its lit side
+struct SteradianGgxPolygon {
+    vec3 position;
+    SteradianGgxLobe lobe;
+    SteradianLtcWalk walk;
+    vec3 corner;
+    vec3 area;
+};
+
+// A glossy surface before the first edge.
+//
+//   position   of the surface
+//   normal     unit
+//   view       unit, from the surface to the eye
+//   roughness  perceptual: the square root of alpha
+//   corner     any corner of the light
+SteradianGgxPolygon steradian_ggx_polygon_begin(vec3 position, vec3 normal, vec3 view, float roughness, vec3 corner) {
+    SteradianGgxPolygon light;
+    light.position = position;
+    light.lobe = steradian_ggx_lobe_from_table(normal, view, roughness);
+    light.walk = steradian_ltc_begin();
+    light.corner = corner;
+    light.area = vec3(0.0, 0.0, 0.0);
+    return light;
+}
+
+// Adds one edge of the light. Edges may come in any order. The edges of a hole run the other way round.
+SteradianGgxPolygon steradian_ggx_polygon_add_edge(SteradianGgxPolygon light, vec3 start, vec3 end) {
+    vec3 a = steradian_polygon_direction(steradian_transform_transposed(light.lobe.frame, end - light.position));
+    vec3 b = steradian_polygon_direction(steradian_transform_transposed(light.lobe.frame, start - light.position));
+    vec3 ta = steradian_ltc_direction(light.lobe.shape, a);
+    vec3 tb = steradian_ltc_direction(light.lobe.shape, b);
+    SteradianGgxPolygon next = light;
+    next.walk = steradian_ltc_add_edge(light.walk, light.lobe.shape, a, b, ta, tb);
+    next.area = light.area + steradian_lit_area_of_edge(light.corner, start, end);
+    return next;
+}
+
+// Radiance of the glossy surface towards the view; 0 behind the light and for a view from below the surface.
+//
+//   f0         reflectance along the normal, a colour; at grazing angles it is 1
+//
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel", ltc-compact.
+vec3 steradian_ggx_polygon_radiance(SteradianGgxPolygon light, vec3 f0) {
+    bool lit = dot(light.area, light.position - light.corner) > 0.0;
+    return steradian_ggx_lobe_radiance(light.lobe, f0, steradian_select(lit, steradian_ltc_integral(light.walk, !lit), 0.0));
+}
+
+// Radiance of the glossy surface towards the view under a light with two lit sides. See steradian_ggx_polygon_radiance.
+vec3 steradian_ggx_polygon_radiance_of_both_sides(SteradianGgxPolygon light, vec3 f0) {
+    bool behind = dot(light.area, light.position - light.corner) < 0.0;
+    return steradian_ggx_lobe_radiance(light.lobe, f0, steradian_ltc_integral(light.walk, behind));
+}
+
+// Radiance of a glossy surface towards the view under a light of four corners. Add the diffuse part by steradian_lambert_quad.
+//
+//   position   of the surface
+//   normal     unit
+//   view       unit, from the surface to the eye
+//   v0 ... v3  corners of the light, in order
+//   roughness  perceptual: the square root of alpha. It is clamped to [0.01, 1]
+//   f0         reflectance along the normal, a colour: 0.04 for plastic and glass, the base colour of a metal
+//
+// Degenerate: a point behind the light or in its plane gives 0, and so does a view from below the surface.
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel", ltc-compact.
+vec3 steradian_ggx_quad(vec3 position, vec3 normal, vec3 view, vec3 v0, vec3 v1, vec3 v2, vec3 v3, float roughness, vec3 f0) {
+    SteradianGgxLobe lobe = steradian_ggx_lobe_from_table(normal, view, roughness);
+    vec3 a = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v3 - position));
+    vec3 b = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v2 - position));
+    vec3 c = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v1 - position));
+    vec3 d = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v0 - position));
+    vec3 ta = steradian_ltc_direction(lobe.shape, a);
+    vec3 tb = steradian_ltc_direction(lobe.shape, b);
+    vec3 tc = steradian_ltc_direction(lobe.shape, c);
+    vec3 td = steradian_ltc_direction(lobe.shape, d);
+    SteradianLtcWalk walk = steradian_ltc_begin();
+    walk = steradian_ltc_add_edge(walk, lobe.shape, a, b, ta, tb);
+    walk = steradian_ltc_add_edge(walk, lobe.shape, b, c, tb, tc);
+    walk = steradian_ltc_add_edge(walk, lobe.shape, c, d, tc, td);
+    walk = steradian_ltc_add_edge(walk, lobe.shape, d, a, td, ta);
+    bool lit = dot(cross(v1 - v0, v2 - v0), position - v0) > 0.0;
+    return steradian_ggx_lobe_radiance(lobe, f0, steradian_select(lit, steradian_ltc_integral(walk, !lit), 0.0));
 }
 
 // ======== ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann ========

@@ -1,30 +1,34 @@
 // Steradian 0.1.0: area light integrals in closed form, for WGSL.
 //
-// Put it before your module's text; it has no bindings.
-// Made by dist/make_dist.py from kernels/: change those. For example:
+// A surface lit by a quad light: a module is this file and then
 //
-//     // Radiance that a quad light sends to the eye from a Lambert surface.
-//     //   p, n         surface point and its unit normal
-//     //   v0 ... v3    the light's corners, counter-clockwise as seen from its lit side
-//     //   radiance     of the light; the result is for albedo 1
-//     fn lit_by_quad(p: vec3f, n: vec3f, v0: vec3f, v1: vec3f, v2: vec3f, v3: vec3f, radiance: f32) -> f32 {
-//         let frame = steradian_frame_from_normal(n);
-//         let a = steradian_polygon_direction(steradian_transform_transposed(frame, v3 - p));  // walk order: the corners backwards
-//         let b = steradian_polygon_direction(steradian_transform_transposed(frame, v2 - p));
-//         let c = steradian_polygon_direction(steradian_transform_transposed(frame, v1 - p));
-//         let d = steradian_polygon_direction(steradian_transform_transposed(frame, v0 - p));
-//         var walk = steradian_polygon_begin();
-//         walk = steradian_polygon_add_edge(walk, a, b);
-//         walk = steradian_polygon_add_edge(walk, b, c);
-//         walk = steradian_polygon_add_edge(walk, c, d);
-//         walk = steradian_polygon_add_edge(walk, d, a);
-//         let lit = dot(cross(v1 - v0, v2 - v0), p - v0) > 0.0;
-//         let irradiance = select(0.0, steradian_polygon_irradiance(walk, !lit), lit);
-//         return steradian_lambert_radiance(irradiance) * radiance;
+//     struct Scene {
+//         eye: vec4f,
+//         corners: array<vec4f, 4>,  // of the light
+//         radiance: vec4f,           // of the light
+//         albedo: vec4f,
+//         f0: vec4f,                 // w: roughness
+//     }
+//     @group(0) @binding(0) var<uniform> scene: Scene;
+//
+//     @fragment
+//     fn main(@location(0) position: vec3f, @location(1) normal: vec3f) -> @location(0) vec4f {
+//         let n = normalize(normal);
+//         let v = normalize(scene.eye.xyz - position);
+//         let a = scene.corners[0].xyz;
+//         let b = scene.corners[1].xyz;
+//         let c = scene.corners[2].xyz;
+//         let d = scene.corners[3].xyz;
+//         let specular = steradian_ggx_quad(position, n, v, a, b, c, d, scene.f0.w, scene.f0.xyz);
+//         let diffuse = steradian_lambert_quad(position, n, a, b, c, d);
+//         return vec4f(scene.radiance.rgb * (scene.albedo.rgb * diffuse + specular), 1.0);
 //     }
 //
-// A light of any outline is walked edge by edge; each function's comment gives frame, units, preconditions,
-// degenerate case and source.
+// Put it before your module's text; it has no bindings.
+// The light shines to the side from which its corners run counter-clockwise, or clockwise in a left-handed frame. See the topic `lit`.
+// Lights of other outlines and shapes, and other lobes, are walked edge by edge. Each function's comment gives frame, units,
+// preconditions, degenerate case and source.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -84,7 +88,7 @@ fn steradian_mask_all() -> bool { return !steradian_mask_none(); }
 // GPUs and packs count every number as 0.
 fn steradian_smallest_square() -> f32 { return 1.0e-36; }
 
-// Lengths are kept above this before a division: the root of smallest_square.
+// Lengths are kept above this before a division: the root of steradian_smallest_square.
 fn steradian_smallest_length() -> f32 { return 1.0e-18; }
 
 // Divisors of numbers of the order of 1 are kept above this, so that the quotient may still be multiplied by 1.0e8 within float.
@@ -131,7 +135,7 @@ fn steradian_complex_unit(x: f32) -> vec2f {
 
 // ==== frame ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// Shading frames. A frame is a mat3 whose columns are x, y and z; steradian_transform_transposed(frame, w) takes a world
 // vector into it, transform(frame, l) back.
 
 // Orthonormal right-handed frame with z along n and x, y in any direction.
@@ -770,7 +774,7 @@ fn steradian_polygon_begin() -> SteradianPolygonWalk {
 
 // Adds one edge, clipped to the horizon z = 0.
 //
-//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
+//   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
 //
 // What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
 // these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
@@ -817,7 +821,7 @@ fn steradian_polygon_irradiance_vector(walk: SteradianPolygonWalk, reversed: boo
     return vec3f(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
 }
 
-// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
+// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See steradian_polygon_irradiance_vector.
 //
 // Error: see docs/measured/accuracy.md, "polygon irradiance".
 fn steradian_polygon_irradiance(walk: SteradianPolygonWalk, reversed: bool) -> f32 {
@@ -841,7 +845,7 @@ fn steradian_solid_angle_begin(first: vec3f) -> SteradianSolidAngleWalk {
     return walk;
 }
 
-// Adds the triangle of the first vertex and one edge. Directions as for polygon_add_edge; no horizon here.
+// Adds the triangle of the first vertex and one edge. Directions as for steradian_polygon_add_edge; no horizon here.
 //
 // Degenerate: a triangle without area has a real factor and adds nothing.
 // Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
@@ -872,22 +876,22 @@ fn steradian_solid_angle_finish(walk: SteradianSolidAngleWalk, reversed: bool) -
 // Clipping a walked outline to the horizon, for integrals along its edges.
 //
 // Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
-// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
+// (steradian_polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
 // edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
 // horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
 // The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
 // different contours, and one clip serves a whole light with its holes:
 //
-//   HorizonClip clip = horizon_clip_begin();
+//   SteradianHorizonClip clip = steradian_horizon_clip_begin();
 //   for each edge a, b of each contour:
-//       clip = horizon_clip_edge(clip, a, b);
+//       clip = steradian_horizon_clip_edge(clip, a, b);
 //       integrate clip.start, clip.end
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//   clip = horizon_clip_finish(clip);
+//   clip = steradian_horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-// each arc in two where it is wide (horizon_arc_wide, horizon_arc_middle)
+// each arc in two where it is wide (steradian_horizon_arc_wide, steradian_horizon_arc_middle)
 //
-// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
+// Frame: z the surface normal; unit directions (steradian_polygon_direction) in walk order.
 
 // The state of a clip and what it last handed out.
 //   start, end          the edge's part above the horizon; equal where there is none
@@ -996,7 +1000,7 @@ fn steradian_horizon_clip_finish(clip: SteradianHorizonClip) -> SteradianHorizon
 
 // Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
 //
-//   irradiance  polygon_irradiance, in [0, pi]
+//   irradiance  steradian_polygon_irradiance, in [0, pi]
 fn steradian_lambert_radiance(irradiance: f32) -> f32 {
     return irradiance * steradian_inverse_pi();
 }
@@ -1041,7 +1045,7 @@ fn steradian_lambert_grazing_of_light(e: vec3f, v: vec3f) -> f32 {
 // Irradiance that reaches a diffuse lobe below a dielectric's boundary, of what it would get at F = F0.
 //
 //   loss     (F90 - F0) / (1 - F0) of the boundary; 0: what the lobe gets does not depend on the light's direction
-//   e, v     as for lambert_grazing_of_light
+//   e, v     as for steradian_lambert_grazing_of_light
 //
 // Source: glTF 2.0, appendix B: diffuse light weighs 1 - F(v.h).
 fn steradian_lambert_irradiance_below(e: vec3f, v: vec3f, loss: f32) -> f32 {
@@ -1144,11 +1148,11 @@ fn steradian_charlie_lobe(lobe: SteradianCharlieLobe, l: vec3f) -> f32 {
 // there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
 // Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
 //
-//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
-//   for each lobe: p = lobe_product_add(p, r_i, n_i);
-//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
+//   SteradianLobeProduct p = steradian_lobe_product_begin(start);          // start: direction of the sum of n_i r_i
+//   for each lobe: p = steradian_lobe_product_add(p, r_i, n_i);
+//   start = steradian_lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
 //   ... the same again, then
-//   CosineLobe lobe = lobe_product_isotropic(p);
+//   SteradianCosineLobe lobe = steradian_lobe_product_isotropic(p);
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
 // Source: this project (docs/theory/moments.md).
@@ -1160,7 +1164,7 @@ struct SteradianCosineLobe {
     scale: f32,
 }
 
-// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of steradian_lobe_product_stretch(lobe, u): about the z axis of its own
 // frame.
 struct SteradianStretchedLobe {
     frame: mat3x3f,
@@ -1430,7 +1434,7 @@ fn steradian_blinn_phong_distribution(h: vec3f, n: f32) -> f32 {
 //
 // How far a lobe is from quadratic over a light, one number tells: t = deviation / distance * sharpness. The error, as a
 // share of what the light would send from where the lobe is highest, is at most t^3 / 8: measured, over Lambert, Phong, GGX,
-// Blinn-Phong and Beckmann lobes, parallelograms and triangles, at t up to 0.7 (test LightElements.ErrorIsBelowItsBound).
+// Blinn-Phong and Beckmann lobes, parallelograms and triangles, at t up to 0.7 (test SteradianLightElements.ErrorIsBelowItsBound).
 // Frame: any. Vectors are relative to the shading point.
 
 // A light as four elements.
@@ -1548,7 +1552,7 @@ fn steradian_light_elements_beckmann_bias() -> f32 { return 0.005; }
 //
 //   normal           the surface's, unit
 //   sharpness        of the lobe
-//   roundings, bias  LightElementsLimits
+//   roundings, bias  SteradianLightElementsLimits
 //
 // A light across the horizon is cut only by whole elements: there the outline serves as long as rounding leaves it a digit.
 fn steradian_light_elements_serve(e: SteradianLightElements, normal: vec3f, sharpness: f32, roundings: f32, bias: f32) -> bool {
@@ -1668,7 +1672,7 @@ fn steradian_conic_sweep(z: vec2f, begin: f32, end: f32) -> f32 {
     return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
 
-// An arc in its unit, whose poles are still to be found: all of conic_prepare that costs little.
+// An arc in its unit, whose poles are still to be found: all of steradian_conic_prepare that costs little.
 //
 //   u0..u2      the curve; the origin must not lie on it
 //   begin, end  ends in tau, begin <= end
@@ -1702,7 +1706,7 @@ fn steradian_conic_poles(arc: SteradianConicArc) -> SteradianQuarticPoles {
     return steradian_conic_polish_poles(arc, poles);
 }
 
-// A scaled arc and its poles, found now or kept from before: conic_prepare is conic_with_poles(arc, conic_poles(arc)).
+// A scaled arc and its poles, found now or kept from before: steradian_conic_prepare is steradian_conic_with_poles(arc, steradian_conic_poles(arc)).
 fn steradian_conic_with_poles(scaled: SteradianConicArc, poles: SteradianQuarticPoles) -> SteradianConicArc {
     var arc = scaled;
     arc.z1 = poles.z1;
@@ -1711,7 +1715,7 @@ fn steradian_conic_with_poles(scaled: SteradianConicArc, poles: SteradianQuartic
     return arc;
 }
 
-// Prepares an arc. Arguments and degenerate case: conic_scaled.
+// Prepares an arc. Arguments and degenerate case: steradian_conic_scaled.
 fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
     let arc = steradian_conic_scaled(u0, u1, u2, begin, end);
     return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
@@ -1776,7 +1780,7 @@ fn steradian_conic_residue(arc: SteradianConicArc, z: vec2f, o: vec2f, sweep: f3
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
+// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
 // cancel. 8 nodes, twice.
 //
 //   wanted   where the value counts; others may be left at 0
@@ -1820,7 +1824,7 @@ fn steradian_conic_vector(arc: SteradianConicArc) -> vec3f {
 // An ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point, is a conic in tan(t/2): its irradiance
 // is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
 // lobe is sharp.
-// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see ellipse_prepare.
+// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see steradian_ellipse_prepare.
 
 // An ellipse, seen from the shading point.
 struct SteradianEllipse {
@@ -1851,7 +1855,7 @@ fn steradian_ellipse_in_units(frame: mat3x3f, center: vec3f, axis_a: vec3f, axis
 
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
 //
-//   e        of ellipse_prepare
+//   e        of steradian_ellipse_prepare
 fn steradian_ellipse_elements(e: SteradianEllipse) -> SteradianLightElements {
     var elements: SteradianLightElements;
     elements.center = e.center;
@@ -1868,7 +1872,7 @@ fn steradian_ellipse_arc(e: SteradianEllipse, begin: f32, end: f32) -> Steradian
 
 // Irradiance vector of the part of the ellipse above the horizon [rad]; z is the irradiance for radiance 1, in [0, pi].
 //
-//   e        of ellipse_prepare; the shading point is not in its plane
+//   e        of steradian_ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
 // Error: docs/measured/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
@@ -1921,7 +1925,7 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
 
 // The same of an ellipse that is all above the horizon: without arcs, from the axes of the cone of directions to it.
 //
-//   e        of ellipse_prepare
+//   e        of steradian_ellipse_prepare
 //
 // The cone's axes are those of B = a a' + b b' - c c' (a, b: half axes, c: centre), whose eigenvalues are -nu < 0 <= mu1, mu2. Along the
 // axis of -nu the cone cuts the plane at distance 1 in an ellipse of half axes sqrt(mu / nu), and by symmetry the vector points along it:
@@ -2076,7 +2080,7 @@ fn steradian_ellipse_near_place(fan: SteradianEllipseFan, x: f32) -> vec2f {
 
 // The share of the corners up to a place of a rim that is near: the mean of the lobe's share and of the near place's.
 //
-//   x        as in ellipse_near_place
+//   x        as in steradian_ellipse_near_place
 //   lobe     (cos t/2, sin t/2) of the lobe's place, from the same origin
 //   reach    the x up to which, on either side, the near place has corners
 fn steradian_ellipse_near_share(fan: SteradianEllipseFan, x: f32, lobe: vec2f, reach: f32) -> f32 {
@@ -2144,7 +2148,7 @@ fn steradian_ellipse_gap(from_corner: vec2f, to_corner: vec2f) -> f32 {
 
 // A corner, as a vector from the shading point.
 //
-//   gaps     sum of ellipse_gap to the corner before it and to the one after it
+//   gaps     sum of steradian_ellipse_gap to the corner before it and to the one after it
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
 fn steradian_ellipse_corner_between(fan: SteradianEllipseFan, here: vec2f, gaps: f32) -> vec3f {
@@ -2155,7 +2159,7 @@ fn steradian_ellipse_corner_between(fan: SteradianEllipseFan, here: vec2f, gaps:
 
 // The corner between two others, as a vector from the shading point.
 //
-//   before, here, after  ellipse_corner of three neighbours
+//   before, here, after  steradian_ellipse_corner of three neighbours
 fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here: vec2f, after: vec2f) -> vec3f {
     return steradian_ellipse_corner_between(fan, here, steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after));
 }
@@ -2327,7 +2331,7 @@ fn steradian_capsule_whole_vector(c: SteradianCapsule) -> vec3f {
 //   half_angle  of the arc [rad], in [0, pi]
 //   start, finish  unit directions of its ends, in walk order
 //
-// Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
+// Where the arc crosses is decided by the ends' signs alone, as for straight edges (steradian_polygon_add_edge), so that both agree at
 // the joints; an arc between two ends on one side crosses twice or not at all.
 fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: f32, middle: vec3f, half_angle: f32, start: vec3f, finish: vec3f) -> SteradianPolygonWalk {
     let d2 = max(dot(center, center), steradian_smallest_square());
@@ -2374,7 +2378,7 @@ fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: 
 
 // Irradiance vector of the part of the capsule above the horizon [sr]; z is the irradiance for radiance 1, in [0, pi].
 //
-//   c        of capsule_prepare
+//   c        of steradian_capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
 // Error: docs/measured/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
@@ -2417,7 +2421,7 @@ fn steradian_capsule_irradiance_vector(c: SteradianCapsule) -> vec3f {
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
 // Error: docs/measured/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
-// Source: as for any linear light; here the limit of capsule_whole_vector.
+// Source: as for any linear light; here the limit of steradian_capsule_whole_vector.
 fn steradian_line_irradiance_vector(end_a: vec3f, end_b: vec3f) -> vec3f {
     let wa = abs(end_a.z);
     let wb = abs(end_b.z);
@@ -2465,11 +2469,11 @@ struct SteradianCapsuleFan {
     b: SteradianCapsuleEnd,
 }
 
-// Prepares the arc of one end as a single step; capsule_fan divides it.
+// Prepares the arc of one end as a single step; steradian_capsule_fan divides it.
 //
 //   center      of the ball
 //   middle      unit, across `center`, where the arc's middle lies
-//   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
+//   r, width    the lobe's unit axis and width [rad], as for steradian_ellipse_fan_concentrated
 fn steradian_capsule_end(center: vec3f, radius: f32, middle: vec3f, half_angle: f32, r: vec3f, width: f32) -> SteradianCapsuleEnd {
     let d2 = max(dot(center, center), steradian_smallest_square());
     let inverse = inverseSqrt(d2);
@@ -2807,7 +2811,7 @@ fn steradian_punctual_incident(light: SteradianPunctualSource, p: vec3f) -> Ster
 // y = c sin phi. The edge's share is
 //     sign(s) * ( |s| * integral of (1 - x^m)/(1 - x^2) dphi  over the part in front of the lobe's equator
 //                 + the azimuth that the part behind sweeps ).
-// moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
+// steradian_moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
 //
 // Frame: any; r is the unit axis. Edges in walk order (kernels/outline/polygon.glsl), clipped to the surface's horizon
 // (kernels/outline/horizon_clip.glsl) before, so that -r cannot be inside a light.
@@ -2951,7 +2955,7 @@ fn steradian_moment_phong_radiance(sum: f32, reversed: bool) -> f32 {
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); moment_quadrature_front
+// subdivides steradian_moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); steradian_moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/theory/moments.md); nodes: roots of the Legendre polynomial of degree 14.
@@ -3223,8 +3227,8 @@ fn steradian_moment_warp(edge: SteradianMomentEdge, m: f32) -> SteradianMomentWa
 
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
 //
-//   edge     by moment_edge
-//   series   by moment_series_prepare, n >= 1
+//   edge     by steradian_moment_edge
+//   series   by steradian_moment_series_prepare, n >= 1
 //
 // Error: see docs/measured/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
 fn steradian_moment_series_front(edge: SteradianMomentEdge, series: SteradianMomentSeries) -> f32 {
@@ -3241,7 +3245,7 @@ fn steradian_moment_series_front(edge: SteradianMomentEdge, series: SteradianMom
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// The result of moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// The result of steradian_moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 fn steradian_moment_series_high_front(edge: SteradianMomentEdge, series: SteradianMomentSeriesHigh) -> f32 {
     let warp = steradian_moment_warp(edge, series.m);
     let t = warp.kap2;
@@ -3321,15 +3325,15 @@ fn steradian_moment_series_low_front(edge: SteradianMomentEdge, raised: Steradia
     return max(steradian_moment_series_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// The result of moment_series_low_front, in high quality; the error is then that of the cosines.
+// The result of steradian_moment_series_low_front, in high quality; the error is then that of the cosines.
 fn steradian_moment_series_high_low_front(edge: SteradianMomentEdge, raised: SteradianMomentSeriesHigh, n: f32) -> f32 {
     return max(steradian_moment_series_high_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
 // One edge's share of (n + 2) times the double-axis moment, the integral of max(u.r, 0)^n (u.v) over a light.
 //
-//   a, b     as for moment_edge, r unit axis of the power, v the other axis, of any length
-//   share    moment_edge_share with exponent n - 1 (m = n), by any method, n >= 1
+//   a, b     as for steradian_moment_edge, r unit axis of the power, v the other axis, of any length
+//   share    steradian_moment_edge_share with exponent n - 1 (m = n), by any method, n >= 1
 //   cosines  the integral of x^n dphi over the part in front, by any method
 //
 // Exact as far as share and cosines are: foreshortening (v the normal) and the v.h of half-vector space need no
@@ -3372,7 +3376,7 @@ fn steradian_moment_foreshortened_share(edge: SteradianMomentEdge, a: vec3f, b: 
 //
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
-// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/theory/ltc.md.
+// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/theory/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
 // The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
@@ -3483,8 +3487,8 @@ fn steradian_ltc_direction(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
 
 // Adds one edge, clipped to the real horizon, then to the lobe's.
 //
-//   a, b     ends in the shading frame, in walk order: polygon_direction of the vertices
-//   ta, tb   ltc_direction(m, a) and ltc_direction(m, b): a vertex is transformed once for its two edges
+//   a, b     ends in the shading frame, in walk order: steradian_polygon_direction of the vertices
+//   ta, tb   steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): a vertex is transformed once for its two edges
 //
 // Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
 // line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
@@ -3539,7 +3543,7 @@ fn steradian_ltc_specular_scale(f0: f32, f90: f32, n_a: f32, f_a: f32) -> f32 {
 
 // The specular radiance where the lobe times (1 - v.h)^5 has a matrix of its own (table of fit --fresnel-lobe).
 //
-//   integral, grazing  ltc_integral with the lobe's and with the Fresnel lobe's matrix
+//   integral, grazing  steradian_ltc_integral with the lobe's and with the Fresnel lobe's matrix
 fn steradian_ltc_specular_with_fresnel_lobe(f0: f32, f90: f32, n_a: f32, integral: f32, f_a: f32, grazing: f32) -> f32 {
     return f0 * n_a * integral + (f90 - f0) * f_a * grazing;
 }
@@ -3547,7 +3551,7 @@ fn steradian_ltc_specular_with_fresnel_lobe(f0: f32, f90: f32, n_a: f32, integra
 // Factor on the specular radiance that returns what single scattering loses between the facets.
 //
 //   f0       reflectance along the normal
-//   albedo   of the lobe with F = 1: n_a times ltc_energy_above_horizon, in (0, 1]
+//   albedo   of the lobe with F = 1: n_a times steradian_ltc_energy_above_horizon, in (0, 1]
 //
 // Source: Turquin, "Practical multiple scattering compensation for microfacet models", 2019, eq. 16.
 fn steradian_ltc_multiple_scattering(f0: f32, albedo: f32) -> f32 {
@@ -3571,7 +3575,7 @@ fn steradian_ltc_clear_coat(base: f32, coat: f32, clearcoat: f32, n_dot_v: f32) 
 //   base      radiance of the surface below
 //   sheen     radiance of the sheen lobe, its colour included
 //   strongest largest component of the sheen's colour
-//   albedo    of the sheen lobe at this view: n_a times ltc_energy_above_horizon
+//   albedo    of the sheen lobe at this view: n_a times steradian_ltc_energy_above_horizon
 fn steradian_ltc_sheen(base: f32, sheen: f32, strongest: f32, albedo: f32) -> f32 {
     return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
 }
@@ -3585,12 +3589,12 @@ fn steradian_ltc_sheen(base: f32, sheen: f32, strongest: f32, albedo: f32) -> f3
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
 // cone, per radian; the caller multiplies them by the widths of docs/theory/ltc.md, "Textured lights":
 //
-//   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
-//   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
-//   LtcTextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
-//   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
+//   SteradianLtcTextureFootprint f = steradian_ltc_texture_footprint(m, phi, normal, height);            // once
+//   SteradianLtcTextureEllipse e = steradian_ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   SteradianLtcTextureEllipse g = steradian_ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   vec2 at = centroid + steradian_ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
 //
-// A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
+// A diffuse surface passes the identity for M^-1 (steradian_ltc_texture_diffuse).
 // Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
 // An ellipse on the light's plane, in the shading frame.
@@ -3604,7 +3608,7 @@ struct SteradianLtcTextureFootprint {
     valid: bool,
 }
 
-// The vector M w, up to a positive factor: the inverse of ltc_transform.
+// The vector M w, up to a positive factor: the inverse of steradian_ltc_transform.
 fn steradian_ltc_texture_transform_back(m: SteradianLtcMatrix, w: vec3f) -> vec3f {
     let determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3f(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
@@ -3631,7 +3635,7 @@ fn steradian_ltc_texture_irradiance_vector(walk: SteradianLtcWalk, reversed: boo
 // The footprint of a lobe on a light's plane.
 //
 //   m        M^-1
-//   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
+//   phi      irradiance vector of the light under M^-1 (steradian_ltc_texture_irradiance_vector)
 //   normal   unit normal of the light's plane, in the shading frame, either sign
 //   height   dot(normal, any point of the plane relative to the shading point)
 //
@@ -4054,6 +4058,225 @@ fn steradian_ltc_charlie_magnitude(place: vec2f) -> vec2f {
     return mix(low, high, f.y);
 }
 
+// ======== lit: surfaces lit by a quad or a polygon in one call: GGX and Lambert ========
+
+// ==== lit ====
+
+// A surface lit by a polygon light of radiance 1, in one call: Lambert's lobe exactly, GGX by transformed cosines and the compact table.
+//
+// Everything is in one frame, such as the engine's world, with any unit of length. It may be left-handed. The light's corners lie in one plane.
+// The light shines to the side to which cross(v1 - v0, v2 - v0) points: counter-clockwise corners as seen from there, or
+// clockwise ones in a left-handed frame. Multiply the results by the light's radiance, and by the visible fraction if something occludes it.
+
+// Twice the area of a triangle times its unit normal. Summed over the edges of a polygon and one corner: twice its area times its normal.
+//
+//   corner     any point of the light's plane near it
+//   start, end the ends of an edge
+fn steradian_lit_area_of_edge(corner: vec3f, start: vec3f, end: vec3f) -> vec3f {
+    return cross(start - corner, end - corner);
+}
+
+// A diffuse surface and the edges of a light that were added.
+//   position   of the surface
+//   frame      x, y and the normal
+//   walk       sum over the edges
+//   corner     of the light
+//   area       twice the light's area times its normal, which points to its lit side
+struct SteradianLambertPolygon {
+    position: vec3f,
+    frame: mat3x3f,
+    walk: SteradianPolygonWalk,
+    corner: vec3f,
+    area: vec3f,
+}
+
+// A diffuse surface before the first edge.
+//
+//   position   of the surface
+//   normal     unit
+//   corner     any corner of the light
+fn steradian_lambert_polygon_begin(position: vec3f, normal: vec3f, corner: vec3f) -> SteradianLambertPolygon {
+    var light: SteradianLambertPolygon;
+    light.position = position;
+    light.frame = steradian_frame_from_normal(normal);
+    light.walk = steradian_polygon_begin();
+    light.corner = corner;
+    light.area = vec3f(0.0, 0.0, 0.0);
+    return light;
+}
+
+// Adds one edge of the light. Edges may come in any order. The edges of a hole run the other way round.
+fn steradian_lambert_polygon_add_edge(light: SteradianLambertPolygon, start: vec3f, end: vec3f) -> SteradianLambertPolygon {
+    let a = steradian_polygon_direction(steradian_transform_transposed(light.frame, end - light.position));
+    let b = steradian_polygon_direction(steradian_transform_transposed(light.frame, start - light.position));
+    var next = light;
+    next.walk = steradian_polygon_add_edge(light.walk, a, b);
+    next.area = light.area + steradian_lit_area_of_edge(light.corner, start, end);
+    return next;
+}
+
+// Radiance of a surface of albedo 1, in [0, 1]; 0 behind the light.
+//
+// Error: see docs/measured/accuracy.md, "polygon irradiance".
+fn steradian_lambert_polygon_radiance(light: SteradianLambertPolygon) -> f32 {
+    let lit = dot(light.area, light.position - light.corner) > 0.0;
+    return select(0.0, steradian_lambert_radiance(steradian_polygon_irradiance(light.walk, !lit)), lit);
+}
+
+// Radiance of a surface of albedo 1 under a light with two lit sides, in [0, 1].
+fn steradian_lambert_polygon_radiance_of_both_sides(light: SteradianLambertPolygon) -> f32 {
+    let behind = dot(light.area, light.position - light.corner) < 0.0;
+    return steradian_lambert_radiance(steradian_polygon_irradiance(light.walk, behind));
+}
+
+// Radiance of a diffuse surface of albedo 1 under a light of four corners, in [0, 1]; 0 behind the light.
+//
+//   position   of the surface
+//   normal     unit
+//   v0 ... v3  corners of the light, in order
+fn steradian_lambert_quad(position: vec3f, normal: vec3f, v0: vec3f, v1: vec3f, v2: vec3f, v3: vec3f) -> f32 {
+    let frame = steradian_frame_from_normal(normal);
+    let a = steradian_polygon_direction(steradian_transform_transposed(frame, v3 - position));
+    let b = steradian_polygon_direction(steradian_transform_transposed(frame, v2 - position));
+    let c = steradian_polygon_direction(steradian_transform_transposed(frame, v1 - position));
+    let d = steradian_polygon_direction(steradian_transform_transposed(frame, v0 - position));
+    var walk = steradian_polygon_begin();
+    walk = steradian_polygon_add_edge(walk, a, b);
+    walk = steradian_polygon_add_edge(walk, b, c);
+    walk = steradian_polygon_add_edge(walk, c, d);
+    walk = steradian_polygon_add_edge(walk, d, a);
+    let lit = dot(cross(v1 - v0, v2 - v0), position - v0) > 0.0;
+    return select(0.0, steradian_lambert_radiance(steradian_polygon_irradiance(walk, !lit)), lit);
+}
+
+// The GGX lobe of a surface towards a view, from the compact table.
+//   frame      x along the view's projection, z the normal
+//   shape      of the lobe
+//   magnitude  of the lobe without Fresnel, and of the lobe times (1 - v.h)^5
+//   above      true if the view is above the surface
+struct SteradianGgxLobe {
+    frame: mat3x3f,
+    shape: SteradianLtcMatrix,
+    magnitude: vec2f,
+    above: bool,
+}
+
+// The lobe of a surface towards a view. It serves any number of lights.
+//
+//   normal     unit
+//   view       unit, from the surface to the eye
+//   roughness  perceptual: the square root of alpha. It is clamped to [0.01, 1]
+fn steradian_ggx_lobe_from_table(normal: vec3f, view: vec3f, roughness: f32) -> SteradianGgxLobe {
+    let clamped = clamp(roughness, 1.0e-2, 1.0);
+    var lobe: SteradianGgxLobe;
+    lobe.frame = steradian_frame_from_normal_and_view(normal, view);
+    let turned = steradian_transform_transposed(lobe.frame, view);
+    let place = steradian_ltc_coordinates(clamped, turned.z);
+    lobe.shape = steradian_ltc_from_compact(steradian_ltc_ggx_shape(place), clamped * clamped, vec3f(turned.x, 0.0, turned.z));
+    lobe.magnitude = steradian_ltc_ggx_magnitude(place);
+    lobe.above = turned.z > 0.0;
+    return lobe;
+}
+
+// Radiance of a lobe with Schlick's Fresnel; 0 for a view from below the surface.
+//
+//   f0         reflectance along the normal, a colour; at grazing angles it is 1
+//   integral   steradian_ltc_integral of the light
+fn steradian_ggx_lobe_radiance(lobe: SteradianGgxLobe, f0: vec3f, integral: f32) -> vec3f {
+    let straight = select(0.0, (lobe.magnitude.x - lobe.magnitude.y) * integral, lobe.above);
+    let grazing = select(0.0, lobe.magnitude.y * integral, lobe.above);
+    return f0 * straight + vec3f(grazing, grazing, grazing);
+}
+
+// A glossy surface and the edges of a light that were added.
+//   position   of the surface
+//   lobe       of the surface
+//   walk       sum over the edges
+//   corner     of the light
+//   area       twice the light's area times its normal, which points to its lit side
+struct SteradianGgxPolygon {
+    position: vec3f,
+    lobe: SteradianGgxLobe,
+    walk: SteradianLtcWalk,
+    corner: vec3f,
+    area: vec3f,
+}
+
+// A glossy surface before the first edge.
+//
+//   position   of the surface
+//   normal     unit
+//   view       unit, from the surface to the eye
+//   roughness  perceptual: the square root of alpha
+//   corner     any corner of the light
+fn steradian_ggx_polygon_begin(position: vec3f, normal: vec3f, view: vec3f, roughness: f32, corner: vec3f) -> SteradianGgxPolygon {
+    var light: SteradianGgxPolygon;
+    light.position = position;
+    light.lobe = steradian_ggx_lobe_from_table(normal, view, roughness);
+    light.walk = steradian_ltc_begin();
+    light.corner = corner;
+    light.area = vec3f(0.0, 0.0, 0.0);
+    return light;
+}
+
+// Adds one edge of the light. Edges may come in any order. The edges of a hole run the other way round.
+fn steradian_ggx_polygon_add_edge(light: SteradianGgxPolygon, start: vec3f, end: vec3f) -> SteradianGgxPolygon {
+    let a = steradian_polygon_direction(steradian_transform_transposed(light.lobe.frame, end - light.position));
+    let b = steradian_polygon_direction(steradian_transform_transposed(light.lobe.frame, start - light.position));
+    let ta = steradian_ltc_direction(light.lobe.shape, a);
+    let tb = steradian_ltc_direction(light.lobe.shape, b);
+    var next = light;
+    next.walk = steradian_ltc_add_edge(light.walk, light.lobe.shape, a, b, ta, tb);
+    next.area = light.area + steradian_lit_area_of_edge(light.corner, start, end);
+    return next;
+}
+
+// Radiance of the glossy surface towards the view; 0 behind the light and for a view from below the surface.
+//
+//   f0         reflectance along the normal, a colour; at grazing angles it is 1
+//
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel", ltc-compact.
+fn steradian_ggx_polygon_radiance(light: SteradianGgxPolygon, f0: vec3f) -> vec3f {
+    let lit = dot(light.area, light.position - light.corner) > 0.0;
+    return steradian_ggx_lobe_radiance(light.lobe, f0, select(0.0, steradian_ltc_integral(light.walk, !lit), lit));
+}
+
+// Radiance of the glossy surface towards the view under a light with two lit sides. See steradian_ggx_polygon_radiance.
+fn steradian_ggx_polygon_radiance_of_both_sides(light: SteradianGgxPolygon, f0: vec3f) -> vec3f {
+    let behind = dot(light.area, light.position - light.corner) < 0.0;
+    return steradian_ggx_lobe_radiance(light.lobe, f0, steradian_ltc_integral(light.walk, behind));
+}
+
+// Radiance of a glossy surface towards the view under a light of four corners. Add the diffuse part by steradian_lambert_quad.
+//
+//   position   of the surface
+//   normal     unit
+//   view       unit, from the surface to the eye
+//   v0 ... v3  corners of the light, in order
+//   roughness  perceptual: the square root of alpha. It is clamped to [0.01, 1]
+//   f0         reflectance along the normal, a colour: 0.04 for plastic and glass, the base colour of a metal
+//
+// Degenerate: a point behind the light or in its plane gives 0, and so does a view from below the surface.
+// Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel", ltc-compact.
+fn steradian_ggx_quad(position: vec3f, normal: vec3f, view: vec3f, v0: vec3f, v1: vec3f, v2: vec3f, v3: vec3f, roughness: f32, f0: vec3f) -> vec3f {
+    let lobe = steradian_ggx_lobe_from_table(normal, view, roughness);
+    let a = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v3 - position));
+    let b = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v2 - position));
+    let c = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v1 - position));
+    let d = steradian_polygon_direction(steradian_transform_transposed(lobe.frame, v0 - position));
+    let ta = steradian_ltc_direction(lobe.shape, a);
+    let tb = steradian_ltc_direction(lobe.shape, b);
+    let tc = steradian_ltc_direction(lobe.shape, c);
+    let td = steradian_ltc_direction(lobe.shape, d);
+    var walk = steradian_ltc_begin();
+    walk = steradian_ltc_add_edge(walk, lobe.shape, a, b, ta, tb);
+    walk = steradian_ltc_add_edge(walk, lobe.shape, b, c, tb, tc);
+    walk = steradian_ltc_add_edge(walk, lobe.shape, c, d, tc, td);
+    walk = steradian_ltc_add_edge(walk, lobe.shape, d, a, td, ta);
+    let lit = dot(cross(v1 - v0, v2 - v0), position - v0) > 0.0;
+    return steradian_ggx_lobe_radiance(lobe, f0, select(0.0, steradian_ltc_integral(walk, !lit), lit));
+}
+
 // ======== ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann ========
 
 // ==== charlie_cubature ====
@@ -4061,11 +4284,11 @@ fn steradian_ltc_charlie_magnitude(place: vec2f) -> vec2f {
 // Charlie's sheen under an area light: cubature over the light's outline, fanned about its mean direction.
 //
 // The lobe is smooth, with a hole where others have a peak; no transformed cosine is like it, but a few nodes are.
-// Two walks along the outline, clipped to the horizon (horizon_clip.glsl): the first sums e = polygon_edge(start, end),
+// Two walks along the outline, clipped to the horizon (horizon_clip.glsl): the first sums e = steradian_polygon_edge(start, end),
 // the second the nodes.
-//   CharlieCubature c = charlie_cubature_begin(charlie_prepare(v, alpha), e, facing);
-//   for each edge: c = charlie_cubature_edge(c, start, end);
-//   real radiance = charlie_cubature_finish(c);
+//   SteradianCharlieCubature c = steradian_charlie_cubature_begin(steradian_charlie_prepare(v, alpha), e, facing);
+//   for each edge: c = steradian_charlie_cubature_edge(c, start, end);
+//   real radiance = steradian_charlie_cubature_finish(c);
 
 // The state of the second walk.
 //   centre   where the light is on average: what its outline is fanned about
@@ -4157,8 +4380,8 @@ fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
 // light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
 //   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
 //
-//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
-//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//   E = sum of steradian_conic_vector(steradian_ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then steradian_ggx_unshadowed(view, E).
 //
 // docs/theory/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
@@ -4190,7 +4413,7 @@ fn steradian_ggx_view(v: vec3f, ax: f32, ay: f32) -> SteradianGgxView {
     return view;
 }
 
-// One edge of a light as a scaled arc in stretched half vector space, without its poles (conic_scaled).
+// One edge of a light as a scaled arc in stretched half vector space, without its poles (steradian_conic_scaled).
 //
 //   a, b     unit directions of the ends, in walk order, not below the horizon
 //
@@ -4224,7 +4447,7 @@ fn steradian_ggx_edge_scaled(view: SteradianGgxView, a: vec3f, b: vec3f) -> Ster
         select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
 }
 
-// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: ggx_edge_scaled.
+// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: steradian_ggx_edge_scaled.
 fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
     let arc = steradian_ggx_edge_scaled(view, a, b);
     return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
@@ -4232,13 +4455,13 @@ fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianCo
 
 // Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
 //
-//   e        sum over the edges of conic_vector, negated where the light is seen from behind
+//   e        sum over the edges of steradian_conic_vector, negated where the light is seen from behind
 //   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
 fn steradian_ggx_unshadowed(view: SteradianGgxView, e: vec3f) -> f32 {
     return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
 }
 
-// The lobe itself towards the view, with F = 1 and with F = (1 - v.h)^5: BRDF times cosine, for ggx_radiance.
+// The lobe itself towards the view, with F = 1 and with F = (1 - v.h)^5: BRDF times cosine, for steradian_ggx_radiance.
 //
 //   l        unit direction of the light; below the surface 0
 //   smith    1 with shadowing, 0 without
@@ -4254,10 +4477,10 @@ fn steradian_ggx_lobe_and_fresnel(view: SteradianGgxView, l: vec3f, smith: f32) 
 // Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
 //
 // Second walk over the edges, with the sum E of the first (ggx_closed_form.glsl):
-//   GgxCubature c = ggx_cubature_begin(view, e, smith, facing);
-//   for each edge: c = ggx_cubature_edge(c, edge, extra_nodes);
-//   vec2 r = ggx_cubature_finish(c);         // or, without the second walk: ggx_draft(view, e, smith, facing)
-//   radiance = ggx_radiance(r, f0, f90)      // per channel
+//   SteradianGgxCubature c = steradian_ggx_cubature_begin(view, e, smith, facing);
+//   for each edge: c = steradian_ggx_cubature_edge(c, edge, extra_nodes);
+//   vec2 r = steradian_ggx_cubature_finish(c);         // or, without the second walk: steradian_ggx_draft(view, e, smith, facing)
+//   radiance = steradian_ggx_radiance(r, f0, f90)      // per channel
 //
 // In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
 // equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
@@ -4265,7 +4488,7 @@ fn steradian_ggx_lobe_and_fresnel(view: SteradianGgxView, l: vec3f, smith: f32) 
 
 // The state of the second walk.
 //   centre          us
-//   amount          what the distribution alone sends (ggx_unshadowed)
+//   amount          what the distribution alone sends (steradian_ggx_unshadowed)
 //   extent          the length of E
 //   smith           1 with shadowing, 0 without
 //   facing          -1 where the light is seen from behind
@@ -4434,7 +4657,7 @@ fn steradian_ggx_limited(amount: f32, mean: vec2f, smith: f32) -> vec2f {
 
 // Ends the second walk.
 //
-//   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
+//   returns  radiance for radiance 1 as two numbers for steradian_ggx_radiance: with F = 1, and with F = (1 - v.h)^5
 //
 // Degenerate: weights that cancel leave the centre's value.
 // Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
@@ -4450,7 +4673,7 @@ fn steradian_ggx_cubature_finish(c: SteradianGgxCubature) -> vec2f {
     return steradian_ggx_limited(c.amount, mean, c.smith);
 }
 
-// Shadowing and Fresnel at the centre only: one walk. Arguments as ggx_cubature_begin, result as ggx_cubature_finish.
+// Shadowing and Fresnel at the centre only: one walk. Arguments as steradian_ggx_cubature_begin, result as steradian_ggx_cubature_finish.
 fn steradian_ggx_draft(view: SteradianGgxView, e: vec3f, smith: f32, facing: f32) -> vec2f {
     let c = steradian_ggx_cubature_begin(view, e, smith, facing);
     return steradian_ggx_limited(c.amount, c.at_centre, smith);
@@ -4458,7 +4681,7 @@ fn steradian_ggx_draft(view: SteradianGgxView, e: vec3f, smith: f32, facing: f32
 
 // Radiance of one channel, for radiance 1.
 //
-//   r        of ggx_cubature_finish or ggx_draft
+//   r        of steradian_ggx_cubature_finish or steradian_ggx_draft
 //   f0, f90  Schlick's reflectances
 fn steradian_ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
     return f0 * (r.x - r.y) + f90 * r.y;
@@ -4473,12 +4696,12 @@ fn steradian_ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
 // For lobes that have no closed form along the image itself (Blinn-Phong, Beckmann); GGX for comparison with
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
-//   ConicArc edge = ggx_edge(view, a, b);
-//   HalfVectorWalk walk = half_vector_begin(view, edge);
+//   SteradianConicArc edge = steradian_ggx_edge(view, a, b);
+//   SteradianHalfVectorWalk walk = steradian_half_vector_begin(view, edge);
 //   for j in 1 .. count:
-//       walk = half_vector_next(walk, view, edge, half_vector_split_pole_mapped(edge, j / count))
-//       sum of blinn_phong_arc or beckmann_arc from walk.a to walk.b, then half_vector_radiance; of ggx_arc, then ggx_draft
-//       and of the lobe at each half_vector_node times its solid angle
+//       walk = steradian_half_vector_next(walk, view, edge, steradian_half_vector_split_pole_mapped(edge, j / count))
+//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc from walk.a to walk.b, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
+//       and of the lobe at each steradian_half_vector_node times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 
@@ -4542,16 +4765,16 @@ fn steradian_half_vector_split_pole_mapped(edge: SteradianConicArc, share: f32) 
     return tau;
 }
 
-// Weight of the edge's own angle in half_vector_split_pole_mapped, per radian.
+// Weight of the edge's own angle in steradian_half_vector_split_pole_mapped, per radian.
 fn steradian_half_vector_split_weight(edge: SteradianConicArc) -> f32 {
     let first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
     let last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
     return 0.3 / max(last - first, 1.0e-12);
 }
 
-// A place of an edge with how dense half_vector_split_pole_mapped lays its places there.
+// A place of an edge with how dense steradian_half_vector_split_pole_mapped lays its places there.
 //
-//   weight   half_vector_split_weight
+//   weight   steradian_half_vector_split_weight
 fn steradian_half_vector_split_end(edge: SteradianConicArc, tau: f32, weight: f32) -> SteradianConicNode {
     let t = edge.scale * tau;
     let x1 = tau - edge.z1.x;
@@ -4573,9 +4796,9 @@ struct SteradianHalfVectorNode {
 
 // One node of the sliver between an arc's image and the great circle between its ends.
 //
-//   first, last half_vector_split_end of the arc's ends
-//   a, b     half_vector_at of the same
-//   rule     node and weight of a rule on [0, 1]: gauss_legendre_node
+//   first, last steradian_half_vector_split_end of the arc's ends
+//   a, b     steradian_half_vector_at of the same
+//   rule     node and weight of a rule on [0, 1]: steradian_gauss_legendre_node
 //
 // The image's point x and its foot on the great circle of normal n are n g apart, g = n.x; swept along the arc, what lies
 // between them has the solid angle -g n.(x dx) / |x|^3 at the middle. In tau the nodes lie by the map of ends to ends that is
@@ -4610,9 +4833,9 @@ fn steradian_half_vector_between(view: SteradianGgxView, edge: SteradianConicArc
 }
 
 // A walk over the arcs of an edge.
-//   weight       half_vector_split_weight
-//   first, last  half_vector_split_end of the last arc's ends
-//   a, b         half_vector_at of the same
+//   weight       steradian_half_vector_split_weight
+//   first, last  steradian_half_vector_split_end of the last arc's ends
+//   a, b         steradian_half_vector_at of the same
 struct SteradianHalfVectorWalk {
     weight: f32,
     first: SteradianConicNode,
@@ -4651,19 +4874,19 @@ fn steradian_half_vector_node(walk: SteradianHalfVectorWalk, view: SteradianGgxV
     return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 
-// Blinn-Phong's lobe at a half vector, in the unit of blinn_phong_arc for each steradian of half vectors.
+// Blinn-Phong's lobe at a half vector, in the unit of steradian_blinn_phong_arc for each steradian of half vectors.
 //
 //   h        unit
 fn steradian_blinn_phong_at_half_vector(h: vec3f, v: vec3f, n: f32) -> f32 {
     return 2.0 * steradian_pi() * steradian_blinn_phong_distribution(h, n) * max(dot(h, v), 0.0);
 }
 
-// Beckmann's lobe at a half vector, in the unit of beckmann_arc for each steradian of half vectors.
+// Beckmann's lobe at a half vector, in the unit of steradian_beckmann_arc for each steradian of half vectors.
 fn steradian_beckmann_at_half_vector(view: SteradianGgxView, h: vec3f) -> f32 {
     return 2.0 * steradian_pi() * steradian_beckmann_distribution(h, view.ax, view.ay) * max(dot(h, view.v), 0.0);
 }
 
-// The measure of GGX at a half vector, in the unit of ggx_arc for each steradian of half vectors.
+// The measure of GGX at a half vector, in the unit of steradian_ggx_arc for each steradian of half vectors.
 fn steradian_ggx_at_half_vector(view: SteradianGgxView, h: vec3f) -> vec3f {
     let u = vec3f(h.x / view.ax, h.y / view.ay, h.z);
     let inverse2 = 1.0 / dot(u, u);
@@ -4684,7 +4907,7 @@ fn steradian_blinn_phong_arc(a: vec3f, b: vec3f, v: vec3f, n: f32) -> f32 {
     return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front.moment), front.power);
 }
 
-// One arc's share of Blinn-Phong as in blinn_phong_arc, by the cosine series and the error function instead of quadrature.
+// One arc's share of Blinn-Phong as in steradian_blinn_phong_arc, by the cosine series and the error function instead of quadrature.
 //
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
@@ -4716,7 +4939,7 @@ fn steradian_beckmann_error_function_approximate(x: f32) -> f32 {
     return select(y, -y, x < 0.0);
 }
 
-// The series that beckmann_arc takes: that of an infinite exponent.
+// The series that steradian_beckmann_arc takes: that of an infinite exponent.
 fn steradian_beckmann_series() -> SteradianMomentSeriesHigh {
     var series = steradian_moment_series_high_prepare(1.0e30);
     series.m = 2.0;  // log_c below is the square of the distance
@@ -4726,7 +4949,7 @@ fn steradian_beckmann_series() -> SteradianMomentSeriesHigh {
 // One arc's share of Beckmann: 2 pi v_z times the radiance.
 //
 //   a, b     unit half vectors of the arc's ends, in walk order, above the surface
-//   series   beckmann_series()
+//   series   steradian_beckmann_series()
 //
 // In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
 // w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.
@@ -4809,14 +5032,14 @@ fn steradian_ltc_clipped_sphere(cosine: f32, f: f32) -> f32 {
 
 // Adds one edge to the irradiance vector under M^-1 [rad].
 //
-//   ta, tb   ltc_direction of the edge's ends, in walk order
+//   ta, tb   steradian_ltc_direction of the edge's ends, in walk order
 fn steradian_ltc_clipless_add_edge(sum: vec3f, ta: vec3f, tb: vec3f) -> vec3f {
     return sum + steradian_polygon_edge(ta, tb);
 }
 
 // Integral of the lobe over the light, approximately, in [0, 1].
 //
-//   sum      of ltc_clipless_add_edge, begun at zero
+//   sum      of steradian_ltc_clipless_add_edge, begun at zero
 //   reversed true where the light is seen from behind
 fn steradian_ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
     let e = sum * select(1.0, -1.0, reversed);
@@ -5189,7 +5412,7 @@ fn steradian_representative_radiance(walk: SteradianRepresentativeWalk, view: ve
     return steradian_ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
 }
 
-// The half vector's cosine for Fresnel. Arguments as for representative_radiance.
+// The half vector's cosine for Fresnel. Arguments as for steradian_representative_radiance.
 fn steradian_representative_v_dot_h(walk: SteradianRepresentativeWalk, view: vec3f, mirror: vec3f, reversed: bool) -> f32 {
     let h = steradian_microfacet_half_vector(steradian_representative_direction(walk, mirror, reversed), view);
     return dot(view, h);
@@ -5243,7 +5466,7 @@ fn steradian_plane_power_integral(n: i32, t: f32, f: f32) -> f32 {
     return 0.25 * t * sec * sec2 + 0.75 * cubed;
 }
 
-// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See plane_power_integral; j = 2 takes n >= -3.
+// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See steradian_plane_power_integral; j = 2 takes n >= -3.
 fn steradian_plane_term(j: i32, n: i32, t: f32, f: f32) -> f32 {
     if (j == 0) {
         return steradian_plane_power_integral(n, t, f);
@@ -5450,7 +5673,7 @@ fn steradian_plane_round_ends(to_light: vec2f, to_blocker: vec2f, from_light: ve
 
 // A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
 //
-// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
+// At a virtual light v comes in from the front's other side: there the rows are negated (steradian_indirect_turned).
 struct SteradianIndirectLobe {
     x: vec3f,
     y: vec3f,
@@ -5625,7 +5848,7 @@ struct SteradianIndirectQuad {
 fn steradian_indirect_sharp() -> f32 { return 0.1; }
 
 // True where the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: over a speck the lobe is nearly
-// constant. Also false where the quad is seen edge-on, to a thousandth: indirect_quad_half divides by that sine, and is off by 1.0e-7 of
+// constant. Also false where the quad is seen edge-on, to a thousandth: steradian_indirect_quad_half divides by that sine, and is off by 1.0e-7 of
 // the hemisphere.
 //
 //   kept, value  the light's half after culling and before
@@ -5721,7 +5944,7 @@ fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
     return inverseSqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
-// The spheroid that holds the egg of range 1 (indirect_spheroid): the distance of its centre in front of the light, and its half axes
+// The spheroid that holds the egg of range 1 (steradian_indirect_spheroid): the distance of its centre in front of the light, and its half axes
 // along that direction and across. A ball of the last holds it too.
 fn steradian_indirect_ball() -> vec3f { return vec3f(0.46, 0.54, 0.628); }
 
@@ -5729,7 +5952,7 @@ fn steradian_indirect_ball() -> vec3f { return vec3f(0.46, 0.54, 0.628); }
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's
-//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
+//   range    square root of bright scale stretch / threshold, stretch of steradian_indirect_largest_stretch
 //
 // Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
 // inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it

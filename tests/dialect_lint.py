@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds kernels and their parity cases to the dialect of docs/dialect.md.
+"""Holds kernels, their parity cases and dist/source/ to the dialect of docs/dialect.md.
 
 Works on tokens, without types: what only a type checker can see is left to the compilers, which read the same files.
 Exit 1 when a file breaks a rule; each finding names file, line and rule.
@@ -13,6 +13,8 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "tools"))
 from kernel_text import CASE, FOLDERS, KERNELS, ROOT, case_files, kernel_files, needs, tokenize, topics, with_needs  # noqa: E402
 from reserved_words import RESERVED  # noqa: E402
 
+DIST_SOURCE = ROOT / "dist" / "source"
+LOOK_UPS = {"ltc_ggx_shape": ("vec4", ["vec2"]), "ltc_ggx_magnitude": ("vec2", ["vec2"])}  # tables, which dist/ alone has
 VECTORS = {"vec2": 2, "vec3": 3, "vec4": 4, "mat3": 3}
 TYPES = {"real", "mask", "int"} | set(VECTORS)
 BUILT_IN = {"abs", "min", "max", "clamp", "floor", "sqrt", "inversesqrt", "exp", "log", "dot", "cross", "transform",
@@ -362,7 +364,7 @@ def lint_text(path, text, known=None):
 def lint_file(path, cache):
     """Findings of one file; what it defines is kept for the files that need it."""
     path = Path(path)
-    known = {"functions": {}, "structs": {}}
+    known = {"functions": dict(LOOK_UPS) if path.parent == DIST_SOURCE else {}, "structs": {}}
     for needed in with_needs(path)[:-1]:
         if needed not in cache:
             lint_file(needed, cache)
@@ -381,7 +383,7 @@ def upward_needs(path):
 
 def main():
     cache, bad = {}, 0
-    files = kernel_files() + [CASE] + case_files()
+    files = kernel_files() + [CASE] + case_files() + [DIST_SOURCE / "lit.glsl"]
     owner = {}
     for path in files:
         for needed in upward_needs(path):
@@ -395,7 +397,7 @@ def main():
                 bad += 1
                 print(f"{path}: {name} is also defined in {owner[name]}: all kernels share one scope")
             owner[name] = path
-    listed = re.findall(r'#include "(\w+/\w+\.glsl)"', (ROOT / "include" / "steradian" / "kernels.h").read_text())
+    listed = re.findall(r'#include "kernels/(\w+/\w+\.glsl)"', (ROOT / "include" / "steradian" / "kernels.h").read_text())
     for path in {str(p.relative_to(KERNELS)) for p in kernel_files()} ^ set(listed):
         bad += 1
         print(f"include/steradian/kernels.h: {path} is a kernel or is included, and not both")

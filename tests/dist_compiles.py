@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""dist_compiles.py LANGUAGE [SCRATCH]: dist/ in one language (glsl, es, hlsl, wgsl) compiles: the whole alone and with the example
-at its top, and each topic after those that its head names.
+"""dist_compiles.py LANGUAGE [SCRATCH]: dist/ in one language (glsl, es, hlsl, wgsl) compiles: the whole alone, the example at its
+top as it stands there, each topic after those that its head names, and the shaders of docs/engines.md for engines of this language.
 
 WGSL is checked by naga (naga-wasm from npm, kept in the folder SCRATCH). Exit 77 (skipped) where that cannot be had.
 """
@@ -14,6 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 NAGA = "naga-wasm@30.1.0"
+LONGEST_EXAMPLE = 25  # lines
 CHECK = """
 import { readFileSync } from "node:fs";
 import { parseWgsl, validate } from "naga-wasm";
@@ -62,32 +63,77 @@ def command_for(language, scratch):
     return "", "", ".wgsl", wgsl_command(scratch)
 
 
+def example_of(text):
+    """The first example at the top of a whole file, as a reader copies it."""
+    lines = re.search(r"^((?://     [^\n]*\n|//\n(?=//     ))+)", text, re.MULTILINE).group(1).splitlines()
+    return "".join(line[len("//     "):] + "\n" for line in lines)
+
+
+def example_command(language, whole, scratch):
+    """(the example's shader, suffix, compiler): what the file's head says that it is."""
+    example = example_of(whole.read_text())
+    if language == "glsl":
+        return example, ".frag", ["glslc", "-Werror", f"-I{whole.parent}", "-o", os.devnull]
+    if language == "hlsl":
+        return example, ".hlsl", ["glslangValidator", "-D", "-V", "-S", "frag", "-e", "main", f"-I{whole.parent}", "-o", os.devnull]
+    if language == "es":
+        return f"#version 300 es\nprecision highp float;\n{whole.read_text()}{example}", ".frag", ["glslangValidator"]
+    return whole.read_text() + example, ".wgsl", wgsl_command(scratch)
+
+
+ENGINES = {  # language: what an engine puts around a shader of docs/engines.md, by a word of it
+    "hlsl": {"QuadLight_float": ("", "float4 main() : SV_Target { return 0; }\n"),
+             "float Diffuse": ('#include "steradian.hlsl"\nfloat3 Custom(float3 Position, float3 Normal, float3 View, float3 A, float3 B, float3 C, '
+                               "float3 D, float3 Radiance, float3 Albedo, float Roughness, float3 F0) {\n",
+                               "}\nfloat4 main() : SV_Target { return 0; }\n")},
+    "es": {"shader_type spatial;": ("#version 300 es\nprecision highp float;\nuniform mat4 VIEW_MATRIX;\nin vec3 VERTEX, NORMAL, VIEW;\nout vec3 EMISSION;\n", "")},
+}
+
+
+def shaders_of_engines(language, whole):
+    """{word: shader} of docs/engines.md, with what the engine puts around it."""
+    pieces = re.findall(r"```(?:hlsl|glsl)\n(.*?)```", (ROOT / "docs" / "engines.md").read_text(), re.DOTALL)
+    found = {}
+    for word, (before, after) in ENGINES.get(language, {}).items():
+        (piece,) = [p for p in pieces if word in p]
+        if language == "es":  # Godot's language has other first lines and another name of main
+            piece = piece.replace("shader_type spatial;", "").replace("void fragment()", "void main()")
+            piece = piece.replace('#include "res://steradian.gdshaderinc"', whole.read_text())
+        found[word] = before + piece + after
+    return found
+
+
 def with_needs(path):
     """The text of a topic after those that its head names."""
     text = path.read_text()
-    before = re.search(r"^// It comes after (.*)\.$", text, re.MULTILINE)
+    before = re.search(r"^// It needs these files before it, in this order: (.*)\.$", text, re.MULTILINE)
+    assert before or "// It needs no other file." in text, path
     names = before.group(1).split(", ") if before else []
     return "\n".join([(path.parent / name).read_text() for name in names] + [text])
 
 
 def main():
-    language = sys.argv[1]
-    before, after, suffix, command = command_for(language, Path(sys.argv[2]) if len(sys.argv) > 2 else Path("npm"))
+    language, scratch = sys.argv[1], Path(sys.argv[2]) if len(sys.argv) > 2 else Path("npm")
+    before, after, suffix, command = command_for(language, scratch)
     topics = sorted((ROOT / "dist" / language).iterdir())
-    ending = topics[0].name[topics[0].name.index("."):]
-    with_usage = subprocess.run([sys.executable, str(ROOT / "dist" / "make_dist.py"), "--with-usage", language],
-                                capture_output=True, text=True, check=True).stdout
-    texts = {"alone": (ROOT / "dist" / f"steradian{ending}").read_text(), "with its example": with_usage}
-    texts |= {path.name: with_needs(path) for path in topics}
-    for what, text in texts.items():
+    whole = ROOT / "dist" / f"steradian{topics[0].name[topics[0].name.index('.'):]}"
+    example, example_suffix, example_compiler = example_command(language, whole, scratch)
+    lines = example_of(whole.read_text()).count("\n")
+    if lines > LONGEST_EXAMPLE or "steradian_ggx_quad(" not in example_of(whole.read_text()):
+        sys.exit(f"{language}: the example has {lines} lines, more than {LONGEST_EXAMPLE}, or lights no GGX surface by a quad")
+    jobs = {"alone": (before + whole.read_text() + after, suffix, command), f"the example ({lines} lines)": (example, example_suffix, example_compiler)}
+    jobs |= {path.name: (before + with_needs(path) + after, suffix, command) for path in topics}
+    jobs |= {f"'{word}' of docs/engines.md": (text, example_suffix, example_compiler)
+             for word, text in shaders_of_engines(language, whole).items()}
+    for what, (text, ending, compiler) in jobs.items():
         with tempfile.TemporaryDirectory() as folder:
-            source = Path(folder) / ("dist" + suffix)
-            source.write_text(before + text + after)
-            done = subprocess.run(command + [str(source)], capture_output=True, text=True)
+            source = Path(folder) / ("dist" + ending)
+            source.write_text(text)
+            done = subprocess.run(compiler + [str(source)], capture_output=True, text=True)
         if done.returncode != 0:
             print(f"{language}, {what}: {done.stdout}{done.stderr}")
             sys.exit(1)
-    print(f"{language}: {', '.join(texts)} compile")
+    print(f"{language}: {', '.join(jobs)} compile")
 
 
 if __name__ == "__main__":

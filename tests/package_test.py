@@ -36,6 +36,19 @@ def inside(root, *command, text=None):
                           timeout=120)
 
 
+def check_texts(root, package):
+    """The manual page and the completions are those that the program in the package prints; the shader files come without their makers."""
+    texts = {"man/man1/steradian.1": ("man", ".TH"), "bash-completion/completions/steradian": ("completion bash", "complete "),
+             "zsh/site-functions/_steradian": ("completion zsh", "#compdef steradian"),
+             "fish/vendor_completions.d/steradian.fish": ("completion fish", "complete -c steradian")}
+    for name, (verb, mark) in texts.items():
+        said = inside(root, "/opt/steradian/bin/steradian", *verb.split())
+        assert said.returncode == 0 and mark in said.stdout, f"{verb}: {said.stdout[:200]}{said.stderr}"
+        assert (package / "share" / name).read_text() == said.stdout, f"share/{name} is not what `steradian {verb}` prints"
+    shaders = package / "share" / "steradian" / "dist"
+    assert (shaders / "steradian.glsl").exists() and not list(shaders.rglob("*.py")) and not (shaders / "source").exists(), shaders
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
@@ -62,6 +75,7 @@ def main():
             made = inside(root, program, "render", f"{scenes}/{scene}", *size, "-o", "/tmp/picture.png")
             assert made.returncode == 0, made.stderr
             assert (root / "tmp" / "picture.png").stat().st_size > 500
+        check_texts(root, package)
         info = inside(root, program, "info")
         assert info.returncode == 0, info.stderr
 

@@ -5,6 +5,8 @@ usage: make_package.py PROGRAM VERSION OUT      (OUT/steradian-VERSION-linux-x86
 
     bin/steradian       the program, which finds its libraries by their place beside it
     lib/                those libraries, and the loader of Vulkan (a driver is the machine's own)
+    share/man/          the manual page
+    share/...           the completions of bash, zsh and fish, in the folders where these shells look
     share/steradian/    scenes, the shader files and tables of dist/, the licence and the manual's pages
 
 The libraries are the machine's on which the program was built (ldd); glibc stays out, since it belongs to the kernel's side of a machine:
@@ -21,6 +23,12 @@ ROOT = Path(__file__).resolve().parent.parent
 # Libraries of glibc and the kernel; every machine that runs a program has these.
 OF_THE_SYSTEM = re.compile(r"^(linux-vdso|ld-linux|libc\.so|libm\.so|libdl\.so|libpthread\.so|librt\.so)")
 LOADED_WHEN_ASKED_FOR = ["libvulkan.so.1"]
+TEXTS = {  # what the program prints of itself, and where `cmake --install` puts it, too (apps/steradian/CMakeLists.txt)
+    "share/man/man1/steradian.1": ["man"],
+    "share/bash-completion/completions/steradian": ["completion", "bash"],
+    "share/zsh/site-functions/_steradian": ["completion", "zsh"],
+    "share/fish/vendor_completions.d/steradian.fish": ["completion", "fish"],
+}
 
 
 def libraries(program):
@@ -55,13 +63,16 @@ def make(program, folder):
             found[name] = path
     for name, path in found.items():
         shutil.copy2(path.resolve(), folder / "lib" / name)
+    for name, verb in TEXTS.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(subprocess.run([program, *verb], capture_output=True, text=True, check=True).stdout)
     share = folder / "share" / "steradian"
     scenes = [s for pattern in ("*.glb", "plane/*.svg") for s in (ROOT / "scenes").glob(pattern)]
     for scene in scenes:
         to = share / "scenes" / scene.relative_to(ROOT / "scenes")
         to.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(scene, to)
-    shutil.copytree(ROOT / "dist", share / "dist", ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    shutil.copytree(ROOT / "dist", share / "dist", ignore=shutil.ignore_patterns("*.py", "__pycache__", "source"))
     shutil.copytree(ROOT / "docs", share / "docs", ignore=shutil.ignore_patterns("*.py", "__pycache__"))
     for name in ("LICENSE", "README.md", "CHANGELOG.md"):
         shutil.copy2(ROOT / name, share / name)

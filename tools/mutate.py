@@ -136,6 +136,11 @@ def write_tree(sites):
             order = (offset, -1, 0) if text == ")" else (offset, 0, -end)
             texts.setdefault(source.path, []).append((order, text.replace("#", str(number))))
     for name in files.splitlines():
+        if (ROOT / name).is_symlink():  # include/steradian/kernels
+            if not (tree / name).is_symlink():
+                (tree / name).parent.mkdir(parents=True, exist_ok=True)
+                (tree / name).symlink_to(os.readlink(ROOT / name))
+            continue
         if not (ROOT / name).is_file() or name.startswith(("docs/images", "scenes/")):
             continue
         target = tree / ("CMakeLists.txt" if name == "tools/mutation/CMakeLists.txt" else name)

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, ltc_tables: the tables of linearly transformed cosines, 4 KB each, and how they are read, for GLSL ES 3.00 (WebGL2).
 //
 // Paste after #version 300 es and `precision highp float;`.
-// It comes after math.es.glsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.es.glsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

@@ -1,7 +1,8 @@
 // Steradian 0.1.0, math: arithmetic that all topics share, for GLSL ES 3.00 (WebGL2).
 //
 // Paste after #version 300 es and `precision highp float;`.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs no other file.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, phong: Phong's lobe over polygons, exactly and by a series, for GLSL ES 3.00 (WebGL2).
 //
 // Paste after #version 300 es and `precision highp float;`.
-// It comes after math.es.glsl, lobe.es.glsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.es.glsl, lobe.es.glsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, plane: light in the plane, for GLSL 4.50.
 //
 // Paste after #version and your own declarations.
-// It comes after math.glsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.glsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

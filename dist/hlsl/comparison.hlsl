@@ -1,8 +1,8 @@
 // Steradian 0.1.0, comparison: methods of the literature that ours are compared with, for HLSL.
 //
 // #include or paste it; it has no macros and no resources.
-// It comes after math.hlsl, polygon.hlsl, lobe.hlsl, phong.hlsl, ltc.hlsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.hlsl, polygon.hlsl, lobe.hlsl, phong.hlsl, ltc.hlsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

@@ -1,7 +1,8 @@
 // Steradian 0.1.0, math: arithmetic that all topics share, for HLSL.
 //
 // #include or paste it; it has no macros and no resources.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs no other file.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, polygon: polygons: irradiance, solid angle, clipping to the horizon; Lambert's lobe, for HLSL.
 //
 // #include or paste it; it has no macros and no resources.
-// It comes after math.hlsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.hlsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

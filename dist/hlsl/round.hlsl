@@ -1,8 +1,8 @@
 // Steradian 0.1.0, round: disks, ellipses, spheres, ellipsoids, tubes and lines, point and spot lights, for HLSL.
 //
 // #include or paste it; it has no macros and no resources.
-// It comes after math.hlsl, polygon.hlsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.hlsl, polygon.hlsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, surface: surfaces of glTF: frames, lobes and texture look-up from factors and texels, for HLSL.
 //
 // #include or paste it; it has no macros and no resources.
-// It comes after math.hlsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.hlsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

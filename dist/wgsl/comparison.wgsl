@@ -1,8 +1,8 @@
 // Steradian 0.1.0, comparison: methods of the literature that ours are compared with, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl, polygon.wgsl, lobe.wgsl, phong.wgsl, ltc.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl, polygon.wgsl, lobe.wgsl, phong.wgsl, ltc.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -58,14 +58,14 @@ fn steradian_ltc_clipped_sphere(cosine: f32, f: f32) -> f32 {
 
 // Adds one edge to the irradiance vector under M^-1 [rad].
 //
-//   ta, tb   ltc_direction of the edge's ends, in walk order
+//   ta, tb   steradian_ltc_direction of the edge's ends, in walk order
 fn steradian_ltc_clipless_add_edge(sum: vec3f, ta: vec3f, tb: vec3f) -> vec3f {
     return sum + steradian_polygon_edge(ta, tb);
 }
 
 // Integral of the lobe over the light, approximately, in [0, 1].
 //
-//   sum      of ltc_clipless_add_edge, begun at zero
+//   sum      of steradian_ltc_clipless_add_edge, begun at zero
 //   reversed true where the light is seen from behind
 fn steradian_ltc_clipless_integral(sum: vec3f, reversed: bool) -> f32 {
     let e = sum * select(1.0, -1.0, reversed);
@@ -438,7 +438,7 @@ fn steradian_representative_radiance(walk: SteradianRepresentativeWalk, view: ve
     return steradian_ggx_lobe(l, view, alpha, alpha) * (fall * fall) * solid_angle;
 }
 
-// The half vector's cosine for Fresnel. Arguments as for representative_radiance.
+// The half vector's cosine for Fresnel. Arguments as for steradian_representative_radiance.
 fn steradian_representative_v_dot_h(walk: SteradianRepresentativeWalk, view: vec3f, mirror: vec3f, reversed: bool) -> f32 {
     let h = steradian_microfacet_half_vector(steradian_representative_direction(walk, mirror, reversed), view);
     return dot(view, h);

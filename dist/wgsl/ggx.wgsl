@@ -1,8 +1,8 @@
 // Steradian 0.1.0, ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl, polygon.wgsl, lobe.wgsl, round.wgsl, phong.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl, polygon.wgsl, lobe.wgsl, round.wgsl, phong.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -31,11 +31,11 @@
 // Charlie's sheen under an area light: cubature over the light's outline, fanned about its mean direction.
 //
 // The lobe is smooth, with a hole where others have a peak; no transformed cosine is like it, but a few nodes are.
-// Two walks along the outline, clipped to the horizon (horizon_clip.glsl): the first sums e = polygon_edge(start, end),
+// Two walks along the outline, clipped to the horizon (horizon_clip.glsl): the first sums e = steradian_polygon_edge(start, end),
 // the second the nodes.
-//   CharlieCubature c = charlie_cubature_begin(charlie_prepare(v, alpha), e, facing);
-//   for each edge: c = charlie_cubature_edge(c, start, end);
-//   real radiance = charlie_cubature_finish(c);
+//   SteradianCharlieCubature c = steradian_charlie_cubature_begin(steradian_charlie_prepare(v, alpha), e, facing);
+//   for each edge: c = steradian_charlie_cubature_edge(c, start, end);
+//   real radiance = steradian_charlie_cubature_finish(c);
 
 // The state of the second walk.
 //   centre   where the light is on average: what its outline is fanned about
@@ -127,8 +127,8 @@ fn steradian_charlie_cubature_finish(c: SteradianCharlieCubature) -> f32 {
 // light's image. A light edge is an arc l(angle); with tau = tan(angle/2) its image is the conic
 //   u(tau) = S (l + v) (1 + tau^2),  S = diag(1/ax, 1/ay, 1):
 //
-//   E = sum of conic_vector(ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
-//   negated where the light is seen from behind; then ggx_unshadowed(view, E).
+//   E = sum of steradian_conic_vector(steradian_ggx_edge(view, a, b)) over the edges clipped to the horizon (horizon_clip.glsl),
+//   negated where the light is seen from behind; then steradian_ggx_unshadowed(view, E).
 //
 // docs/theory/ggx.md has the derivation.
 // Frame: z the surface normal, x and y the directions of the widths. Walk order, as polygon.glsl has it.
@@ -160,7 +160,7 @@ fn steradian_ggx_view(v: vec3f, ax: f32, ay: f32) -> SteradianGgxView {
     return view;
 }
 
-// One edge of a light as a scaled arc in stretched half vector space, without its poles (conic_scaled).
+// One edge of a light as a scaled arc in stretched half vector space, without its poles (steradian_conic_scaled).
 //
 //   a, b     unit directions of the ends, in walk order, not below the horizon
 //
@@ -194,7 +194,7 @@ fn steradian_ggx_edge_scaled(view: SteradianGgxView, a: vec3f, b: vec3f) -> Ster
         select(-reach, 0.0, side < 0.0), select(reach, 0.0, side > 0.0));
 }
 
-// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: ggx_edge_scaled.
+// One edge of a light as an arc in stretched half vector space. Arguments and degenerate case: steradian_ggx_edge_scaled.
 fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianConicArc {
     let arc = steradian_ggx_edge_scaled(view, a, b);
     return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
@@ -202,13 +202,13 @@ fn steradian_ggx_edge(view: SteradianGgxView, a: vec3f, b: vec3f) -> SteradianCo
 
 // Radiance that the distribution of half vectors alone sends to the view, for radiance 1: INT D / (4 v_z) over the light.
 //
-//   e        sum over the edges of conic_vector, negated where the light is seen from behind
+//   e        sum over the edges of steradian_conic_vector, negated where the light is seen from behind
 //   returns  not negative; above 1 is possible, since nothing shadows: 5.4 at alpha 0.72 and 86 degrees
 fn steradian_ggx_unshadowed(view: SteradianGgxView, e: vec3f) -> f32 {
     return max(dot(view.w, e), 0.0) * steradian_inverse_pi() / view.v.z;
 }
 
-// The lobe itself towards the view, with F = 1 and with F = (1 - v.h)^5: BRDF times cosine, for ggx_radiance.
+// The lobe itself towards the view, with F = 1 and with F = (1 - v.h)^5: BRDF times cosine, for steradian_ggx_radiance.
 //
 //   l        unit direction of the light; below the surface 0
 //   smith    1 with shadowing, 0 without
@@ -224,10 +224,10 @@ fn steradian_ggx_lobe_and_fresnel(view: SteradianGgxView, l: vec3f, smith: f32) 
 // Shadowing and Fresnel over a light: the mean of G2 F under the closed form's measure, by a few nodes that the poles place.
 //
 // Second walk over the edges, with the sum E of the first (ggx_closed_form.glsl):
-//   GgxCubature c = ggx_cubature_begin(view, e, smith, facing);
-//   for each edge: c = ggx_cubature_edge(c, edge, extra_nodes);
-//   vec2 r = ggx_cubature_finish(c);         // or, without the second walk: ggx_draft(view, e, smith, facing)
-//   radiance = ggx_radiance(r, f0, f90)      // per channel
+//   SteradianGgxCubature c = steradian_ggx_cubature_begin(view, e, smith, facing);
+//   for each edge: c = steradian_ggx_cubature_edge(c, edge, extra_nodes);
+//   vec2 r = steradian_ggx_cubature_finish(c);         // or, without the second walk: steradian_ggx_draft(view, e, smith, facing)
+//   radiance = steradian_ggx_radiance(r, f0, f90)      // per channel
 //
 // In stretched half vector space the light's image is fanned about its centre us = E/|E|. Nodes go along each edge by
 // equal steps of the angle under which the poles see it, and inwards by the moments of a spherical triangle.
@@ -235,7 +235,7 @@ fn steradian_ggx_lobe_and_fresnel(view: SteradianGgxView, l: vec3f, smith: f32) 
 
 // The state of the second walk.
 //   centre          us
-//   amount          what the distribution alone sends (ggx_unshadowed)
+//   amount          what the distribution alone sends (steradian_ggx_unshadowed)
 //   extent          the length of E
 //   smith           1 with shadowing, 0 without
 //   facing          -1 where the light is seen from behind
@@ -404,7 +404,7 @@ fn steradian_ggx_limited(amount: f32, mean: vec2f, smith: f32) -> vec2f {
 
 // Ends the second walk.
 //
-//   returns  radiance for radiance 1 as two numbers for ggx_radiance: with F = 1, and with F = (1 - v.h)^5
+//   returns  radiance for radiance 1 as two numbers for steradian_ggx_radiance: with F = 1, and with F = (1 - v.h)^5
 //
 // Degenerate: weights that cancel leave the centre's value.
 // Error: see docs/measured/accuracy.md, "GGX with shadowing and Fresnel".
@@ -420,7 +420,7 @@ fn steradian_ggx_cubature_finish(c: SteradianGgxCubature) -> vec2f {
     return steradian_ggx_limited(c.amount, mean, c.smith);
 }
 
-// Shadowing and Fresnel at the centre only: one walk. Arguments as ggx_cubature_begin, result as ggx_cubature_finish.
+// Shadowing and Fresnel at the centre only: one walk. Arguments as steradian_ggx_cubature_begin, result as steradian_ggx_cubature_finish.
 fn steradian_ggx_draft(view: SteradianGgxView, e: vec3f, smith: f32, facing: f32) -> vec2f {
     let c = steradian_ggx_cubature_begin(view, e, smith, facing);
     return steradian_ggx_limited(c.amount, c.at_centre, smith);
@@ -428,7 +428,7 @@ fn steradian_ggx_draft(view: SteradianGgxView, e: vec3f, smith: f32, facing: f32
 
 // Radiance of one channel, for radiance 1.
 //
-//   r        of ggx_cubature_finish or ggx_draft
+//   r        of steradian_ggx_cubature_finish or steradian_ggx_draft
 //   f0, f90  Schlick's reflectances
 fn steradian_ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
     return f0 * (r.x - r.y) + f90 * r.y;
@@ -443,12 +443,12 @@ fn steradian_ggx_radiance(r: vec2f, f0: f32, f90: f32) -> f32 {
 // For lobes that have no closed form along the image itself (Blinn-Phong, Beckmann); GGX for comparison with
 // ggx_closed_form.glsl. The arcs go where the edge passes the lobe: the poles of the GGX lobe of the same width say where.
 //
-//   ConicArc edge = ggx_edge(view, a, b);
-//   HalfVectorWalk walk = half_vector_begin(view, edge);
+//   SteradianConicArc edge = steradian_ggx_edge(view, a, b);
+//   SteradianHalfVectorWalk walk = steradian_half_vector_begin(view, edge);
 //   for j in 1 .. count:
-//       walk = half_vector_next(walk, view, edge, half_vector_split_pole_mapped(edge, j / count))
-//       sum of blinn_phong_arc or beckmann_arc from walk.a to walk.b, then half_vector_radiance; of ggx_arc, then ggx_draft
-//       and of the lobe at each half_vector_node times its solid angle
+//       walk = steradian_half_vector_next(walk, view, edge, steradian_half_vector_split_pole_mapped(edge, j / count))
+//       sum of steradian_blinn_phong_arc or steradian_beckmann_arc from walk.a to walk.b, then steradian_half_vector_radiance; of steradian_ggx_arc, then steradian_ggx_draft
+//       and of the lobe at each steradian_half_vector_node times its solid angle
 //
 // Frame and order: as ggx_closed_form.glsl.
 
@@ -512,16 +512,16 @@ fn steradian_half_vector_split_pole_mapped(edge: SteradianConicArc, share: f32) 
     return tau;
 }
 
-// Weight of the edge's own angle in half_vector_split_pole_mapped, per radian.
+// Weight of the edge's own angle in steradian_half_vector_split_pole_mapped, per radian.
 fn steradian_half_vector_split_weight(edge: SteradianConicArc) -> f32 {
     let first = steradian_trig_atan2(edge.scale * edge.begin, 1.0);
     let last = steradian_trig_atan2(edge.scale * edge.end, 1.0);
     return 0.3 / max(last - first, 1.0e-12);
 }
 
-// A place of an edge with how dense half_vector_split_pole_mapped lays its places there.
+// A place of an edge with how dense steradian_half_vector_split_pole_mapped lays its places there.
 //
-//   weight   half_vector_split_weight
+//   weight   steradian_half_vector_split_weight
 fn steradian_half_vector_split_end(edge: SteradianConicArc, tau: f32, weight: f32) -> SteradianConicNode {
     let t = edge.scale * tau;
     let x1 = tau - edge.z1.x;
@@ -543,9 +543,9 @@ struct SteradianHalfVectorNode {
 
 // One node of the sliver between an arc's image and the great circle between its ends.
 //
-//   first, last half_vector_split_end of the arc's ends
-//   a, b     half_vector_at of the same
-//   rule     node and weight of a rule on [0, 1]: gauss_legendre_node
+//   first, last steradian_half_vector_split_end of the arc's ends
+//   a, b     steradian_half_vector_at of the same
+//   rule     node and weight of a rule on [0, 1]: steradian_gauss_legendre_node
 //
 // The image's point x and its foot on the great circle of normal n are n g apart, g = n.x; swept along the arc, what lies
 // between them has the solid angle -g n.(x dx) / |x|^3 at the middle. In tau the nodes lie by the map of ends to ends that is
@@ -580,9 +580,9 @@ fn steradian_half_vector_between(view: SteradianGgxView, edge: SteradianConicArc
 }
 
 // A walk over the arcs of an edge.
-//   weight       half_vector_split_weight
-//   first, last  half_vector_split_end of the last arc's ends
-//   a, b         half_vector_at of the same
+//   weight       steradian_half_vector_split_weight
+//   first, last  steradian_half_vector_split_end of the last arc's ends
+//   a, b         steradian_half_vector_at of the same
 struct SteradianHalfVectorWalk {
     weight: f32,
     first: SteradianConicNode,
@@ -621,19 +621,19 @@ fn steradian_half_vector_node(walk: SteradianHalfVectorWalk, view: SteradianGgxV
     return steradian_half_vector_between(view, edge, walk.first, walk.last, walk.a, walk.b, rule);
 }
 
-// Blinn-Phong's lobe at a half vector, in the unit of blinn_phong_arc for each steradian of half vectors.
+// Blinn-Phong's lobe at a half vector, in the unit of steradian_blinn_phong_arc for each steradian of half vectors.
 //
 //   h        unit
 fn steradian_blinn_phong_at_half_vector(h: vec3f, v: vec3f, n: f32) -> f32 {
     return 2.0 * steradian_pi() * steradian_blinn_phong_distribution(h, n) * max(dot(h, v), 0.0);
 }
 
-// Beckmann's lobe at a half vector, in the unit of beckmann_arc for each steradian of half vectors.
+// Beckmann's lobe at a half vector, in the unit of steradian_beckmann_arc for each steradian of half vectors.
 fn steradian_beckmann_at_half_vector(view: SteradianGgxView, h: vec3f) -> f32 {
     return 2.0 * steradian_pi() * steradian_beckmann_distribution(h, view.ax, view.ay) * max(dot(h, view.v), 0.0);
 }
 
-// The measure of GGX at a half vector, in the unit of ggx_arc for each steradian of half vectors.
+// The measure of GGX at a half vector, in the unit of steradian_ggx_arc for each steradian of half vectors.
 fn steradian_ggx_at_half_vector(view: SteradianGgxView, h: vec3f) -> vec3f {
     let u = vec3f(h.x / view.ax, h.y / view.ay, h.z);
     let inverse2 = 1.0 / dot(u, u);
@@ -654,7 +654,7 @@ fn steradian_blinn_phong_arc(a: vec3f, b: vec3f, v: vec3f, n: f32) -> f32 {
     return steradian_moment_double_axis_share(a, b, z, v, steradian_moment_edge_share(edge, front.moment), front.power);
 }
 
-// One arc's share of Blinn-Phong as in blinn_phong_arc, by the cosine series and the error function instead of quadrature.
+// One arc's share of Blinn-Phong as in steradian_blinn_phong_arc, by the cosine series and the error function instead of quadrature.
 //
 //   series   of exponent n - 1, or of n + 1 where n < 2
 //   range    0 for n >= 8, 1 for 2 <= n < 8, 2 for n < 2; the same for every lane
@@ -686,7 +686,7 @@ fn steradian_beckmann_error_function_approximate(x: f32) -> f32 {
     return select(y, -y, x < 0.0);
 }
 
-// The series that beckmann_arc takes: that of an infinite exponent.
+// The series that steradian_beckmann_arc takes: that of an infinite exponent.
 fn steradian_beckmann_series() -> SteradianMomentSeriesHigh {
     var series = steradian_moment_series_high_prepare(1.0e30);
     series.m = 2.0;  // log_c below is the square of the distance
@@ -696,7 +696,7 @@ fn steradian_beckmann_series() -> SteradianMomentSeriesHigh {
 // One arc's share of Beckmann: 2 pi v_z times the radiance.
 //
 //   a, b     unit half vectors of the arc's ends, in walk order, above the surface
-//   series   beckmann_series()
+//   series   steradian_beckmann_series()
 //
 // In the plane of slopes, divided by the widths, a great circle is a straight line and the lobe exp(-p^2) / pi times
 // w.(p, 1): the constant part is Phong's boundary integral at infinite exponent, the linear one an error function.

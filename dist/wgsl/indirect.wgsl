@@ -1,8 +1,8 @@
 // Steradian 0.1.0, indirect: one bounce from virtual lights, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl, polygon.wgsl, lobe.wgsl, ltc.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl, polygon.wgsl, lobe.wgsl, ltc.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -42,7 +42,7 @@
 
 // A lobe in world space: rows of M^-1 times the shading frame, and |M^-1| / pi.
 //
-// At a virtual light v comes in from the front's other side: there the rows are negated (indirect_turned).
+// At a virtual light v comes in from the front's other side: there the rows are negated (steradian_indirect_turned).
 struct SteradianIndirectLobe {
     x: vec3f,
     y: vec3f,
@@ -217,7 +217,7 @@ struct SteradianIndirectQuad {
 fn steradian_indirect_sharp() -> f32 { return 0.1; }
 
 // True where the quad is larger than a speck in the lobe's own space, |edge|^2 > 0.02 |w|^2: over a speck the lobe is nearly
-// constant. Also false where the quad is seen edge-on, to a thousandth: indirect_quad_half divides by that sine, and is off by 1.0e-7 of
+// constant. Also false where the quad is seen edge-on, to a thousandth: steradian_indirect_quad_half divides by that sine, and is off by 1.0e-7 of
 // the hemisphere.
 //
 //   kept, value  the light's half after culling and before
@@ -313,7 +313,7 @@ fn steradian_indirect_largest_stretch(m: SteradianLtcMatrix) -> f32 {
     return inverseSqrt(max(min(least2, m.yy * m.yy), steradian_smallest_square()));
 }
 
-// The spheroid that holds the egg of range 1 (indirect_spheroid): the distance of its centre in front of the light, and its half axes
+// The spheroid that holds the egg of range 1 (steradian_indirect_spheroid): the distance of its centre in front of the light, and its half axes
 // along that direction and across. A ball of the last holds it too.
 fn steradian_indirect_ball() -> vec3f { return vec3f(0.46, 0.54, 0.628); }
 
@@ -321,7 +321,7 @@ fn steradian_indirect_ball() -> vec3f { return vec3f(0.46, 0.54, 0.628); }
 //
 //   lobe     turned; a diffuse light's: its frame
 //   v        virtual light's position minus the point's
-//   range    square root of bright scale stretch / threshold, stretch of indirect_largest_stretch
+//   range    square root of bright scale stretch / threshold, stretch of steradian_indirect_largest_stretch
 //
 // Irradiance is bright scale (w_z |v|) / |w|^4 <= bright scale stretch cos / |w|^2 with cos = w_z / |w|, so that the region lies
 // inside |w|^2 <= range^2 cos: an egg, which the spheroid about 0.46 range on the axis, half axes 0.54 range along it

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, lobe: lobes of surfaces, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -120,11 +120,11 @@ fn steradian_charlie_lobe(lobe: SteradianCharlieLobe, l: vec3f) -> f32 {
 // there. Spherical Gaussians, the usual way, miss height and width from 30 degrees between the axes on.
 // Any number of lobes is walked several times: twice for Newton steps towards the maximum, once for the result.
 //
-//   LobeProduct p = lobe_product_begin(start);          // start: direction of the sum of n_i r_i
-//   for each lobe: p = lobe_product_add(p, r_i, n_i);
-//   start = lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
+//   SteradianLobeProduct p = steradian_lobe_product_begin(start);          // start: direction of the sum of n_i r_i
+//   for each lobe: p = steradian_lobe_product_add(p, r_i, n_i);
+//   start = steradian_lobe_product_newton(p);                     // three lobes within 50 degrees: .003 degrees off after one
 //   ... the same again, then
-//   CosineLobe lobe = lobe_product_isotropic(p);
+//   SteradianCosineLobe lobe = steradian_lobe_product_isotropic(p);
 //
 // Frame: any. Axes are unit vectors; the peak must lie in front of all of them, else the product is 0.
 // Source: this project (docs/theory/moments.md).
@@ -136,7 +136,7 @@ struct SteradianCosineLobe {
     scale: f32,
 }
 
-// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of lobe_product_stretch(lobe, u): about the z axis of its own
+// A stretched cosine lobe: scale (w.z)^exponent with w the unit direction of steradian_lobe_product_stretch(lobe, u): about the z axis of its own
 // frame.
 struct SteradianStretchedLobe {
     frame: mat3x3f,

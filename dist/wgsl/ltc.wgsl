@@ -1,8 +1,8 @@
 // Steradian 0.1.0, ltc: linearly transformed cosines over polygons, textured ones too, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl, polygon.wgsl, lobe.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl, polygon.wgsl, lobe.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -32,7 +32,7 @@
 //
 // A lobe is a clamped cosine under a linear map M. The integral of the lobe over a light is the cosine's integral over
 // the light under M^-1. Shading frame: z the surface normal, x along the view's projection, so that the unit view
-// is (s, 0, c). The caller fetches table values at ltc_coordinates and passes them in. See docs/theory/ltc.md.
+// is (s, 0, c). The caller fetches table values at steradian_ltc_coordinates and passes them in. See docs/theory/ltc.md.
 // Source: Heitz, Dupuy, Hill, Neubelt, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
 // The inverse matrix M^-1 of a linearly transformed cosine, up to a positive factor: rows (xx, 0, xz), (0, yy, 0), (zx, 0, zz); its
@@ -143,8 +143,8 @@ fn steradian_ltc_direction(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
 
 // Adds one edge, clipped to the real horizon, then to the lobe's.
 //
-//   a, b     ends in the shading frame, in walk order: polygon_direction of the vertices
-//   ta, tb   ltc_direction(m, a) and ltc_direction(m, b): a vertex is transformed once for its two edges
+//   a, b     ends in the shading frame, in walk order: steradian_polygon_direction of the vertices
+//   ta, tb   steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): a vertex is transformed once for its two edges
 //
 // Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
 // line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
@@ -199,7 +199,7 @@ fn steradian_ltc_specular_scale(f0: f32, f90: f32, n_a: f32, f_a: f32) -> f32 {
 
 // The specular radiance where the lobe times (1 - v.h)^5 has a matrix of its own (table of fit --fresnel-lobe).
 //
-//   integral, grazing  ltc_integral with the lobe's and with the Fresnel lobe's matrix
+//   integral, grazing  steradian_ltc_integral with the lobe's and with the Fresnel lobe's matrix
 fn steradian_ltc_specular_with_fresnel_lobe(f0: f32, f90: f32, n_a: f32, integral: f32, f_a: f32, grazing: f32) -> f32 {
     return f0 * n_a * integral + (f90 - f0) * f_a * grazing;
 }
@@ -207,7 +207,7 @@ fn steradian_ltc_specular_with_fresnel_lobe(f0: f32, f90: f32, n_a: f32, integra
 // Factor on the specular radiance that returns what single scattering loses between the facets.
 //
 //   f0       reflectance along the normal
-//   albedo   of the lobe with F = 1: n_a times ltc_energy_above_horizon, in (0, 1]
+//   albedo   of the lobe with F = 1: n_a times steradian_ltc_energy_above_horizon, in (0, 1]
 //
 // Source: Turquin, "Practical multiple scattering compensation for microfacet models", 2019, eq. 16.
 fn steradian_ltc_multiple_scattering(f0: f32, albedo: f32) -> f32 {
@@ -231,7 +231,7 @@ fn steradian_ltc_clear_coat(base: f32, coat: f32, clearcoat: f32, n_dot_v: f32) 
 //   base      radiance of the surface below
 //   sheen     radiance of the sheen lobe, its colour included
 //   strongest largest component of the sheen's colour
-//   albedo    of the sheen lobe at this view: n_a times ltc_energy_above_horizon
+//   albedo    of the sheen lobe at this view: n_a times steradian_ltc_energy_above_horizon
 fn steradian_ltc_sheen(base: f32, sheen: f32, strongest: f32, albedo: f32) -> f32 {
     return base * clamp(1.0 - strongest * albedo, 0.0, 1.0) + sheen;
 }
@@ -245,12 +245,12 @@ fn steradian_ltc_sheen(base: f32, sheen: f32, strongest: f32, albedo: f32) -> f3
 // cone of directions about that vector in the cosine's space, cut by the plane: an ellipse. Its radii are those of a thin
 // cone, per radian; the caller multiplies them by the widths of docs/theory/ltc.md, "Textured lights":
 //
-//   LtcTextureFootprint f = ltc_texture_footprint(m, phi, normal, height);            // once
-//   LtcTextureEllipse e = ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
-//   LtcTextureEllipse g = ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
-//   vec2 at = centroid + ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
+//   SteradianLtcTextureFootprint f = steradian_ltc_texture_footprint(m, phi, normal, height);            // once
+//   SteradianLtcTextureEllipse e = steradian_ltc_texture_axes(...f.axis_a..., ...f.axis_b...);       // in the plane's coordinates
+//   SteradianLtcTextureEllipse g = steradian_ltc_texture_gaussian(e, width, widest);                 // for each Gaussian of the lobe's mixture
+//   vec2 at = centroid + steradian_ltc_texture_place(g, hit - centroid, slope, light);   // where to read the copy blurred by g
 //
-// A diffuse surface passes the identity for M^-1 (ltc_texture_diffuse).
+// A diffuse surface passes the identity for M^-1 (steradian_ltc_texture_diffuse).
 // Source of the idea: Heitz, Hill, "Real-time polygonal-light shading with linearly transformed cosines", 2016.
 
 // An ellipse on the light's plane, in the shading frame.
@@ -264,7 +264,7 @@ struct SteradianLtcTextureFootprint {
     valid: bool,
 }
 
-// The vector M w, up to a positive factor: the inverse of ltc_transform.
+// The vector M w, up to a positive factor: the inverse of steradian_ltc_transform.
 fn steradian_ltc_texture_transform_back(m: SteradianLtcMatrix, w: vec3f) -> vec3f {
     let determinant = m.xx * m.zz - m.xz * m.zx;
     return vec3f(m.zz * w.x - m.xz * w.z, w.y * (determinant / m.yy), m.xx * w.z - m.zx * w.x);
@@ -291,7 +291,7 @@ fn steradian_ltc_texture_irradiance_vector(walk: SteradianLtcWalk, reversed: boo
 // The footprint of a lobe on a light's plane.
 //
 //   m        M^-1
-//   phi      irradiance vector of the light under M^-1 (ltc_texture_irradiance_vector)
+//   phi      irradiance vector of the light under M^-1 (steradian_ltc_texture_irradiance_vector)
 //   normal   unit normal of the light's plane, in the shading frame, either sign
 //   height   dot(normal, any point of the plane relative to the shading point)
 //

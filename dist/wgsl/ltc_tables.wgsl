@@ -1,8 +1,8 @@
 // Steradian 0.1.0, ltc_tables: the tables of linearly transformed cosines, 4 KB each, and how they are read, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

@@ -1,7 +1,8 @@
 // Steradian 0.1.0, math: arithmetic that all topics share, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs no other file.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -59,7 +60,7 @@ fn steradian_mask_all() -> bool { return !steradian_mask_none(); }
 // GPUs and packs count every number as 0.
 fn steradian_smallest_square() -> f32 { return 1.0e-36; }
 
-// Lengths are kept above this before a division: the root of smallest_square.
+// Lengths are kept above this before a division: the root of steradian_smallest_square.
 fn steradian_smallest_length() -> f32 { return 1.0e-18; }
 
 // Divisors of numbers of the order of 1 are kept above this, so that the quotient may still be multiplied by 1.0e8 within float.
@@ -106,7 +107,7 @@ fn steradian_complex_unit(x: f32) -> vec2f {
 
 // ==== frame ====
 
-// Shading frames. A frame is a mat3 whose columns are x, y and z; transform_transposed(frame, w) takes a world
+// Shading frames. A frame is a mat3 whose columns are x, y and z; steradian_transform_transposed(frame, w) takes a world
 // vector into it, transform(frame, l) back.
 
 // Orthonormal right-handed frame with z along n and x, y in any direction.

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, phong: Phong's lobe over polygons, exactly and by a series, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl, lobe.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl, lobe.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -38,7 +38,7 @@
 // y = c sin phi. The edge's share is
 //     sign(s) * ( |s| * integral of (1 - x^m)/(1 - x^2) dphi  over the part in front of the lobe's equator
 //                 + the azimuth that the part behind sweeps ).
-// moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
+// steradian_moment_edge finds what every method shares; the methods, a file each, integrate the part in front.
 //
 // Frame: any; r is the unit axis. Edges in walk order (kernels/outline/polygon.glsl), clipped to the surface's horizon
 // (kernels/outline/horizon_clip.glsl) before, so that -r cannot be inside a light.
@@ -182,7 +182,7 @@ fn steradian_moment_phong_radiance(sum: f32, reversed: bool) -> f32 {
 // The Phong lobe's boundary integral by Gauss-Legendre quadrature in the ellipsoid's angle u (moment_series.glsl).
 //
 // The reference for the methods in constant time: exact up to quadrature, any real n > -1. The library's exact form
-// subdivides moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); moment_quadrature_front
+// subdivides steradian_moment_quadrature_piece until it converges (source/integrals/phong/exact_moment.cpp); steradian_moment_quadrature_front
 // is the fixed rule, 14 nodes for each side of the foot.
 // The variable of integration is t = tan(u/2), in [-1, 1] in front: no trigonometry.
 // Source: this project (docs/theory/moments.md); nodes: roots of the Legendre polynomial of degree 14.
@@ -454,8 +454,8 @@ fn steradian_moment_warp(edge: SteradianMomentEdge, m: f32) -> SteradianMomentWa
 
 // |s| times the integral of (1 - x^m)/(1 - x^2) over the part in front of one edge.
 //
-//   edge     by moment_edge
-//   series   by moment_series_prepare, n >= 1
+//   edge     by steradian_moment_edge
+//   series   by steradian_moment_series_prepare, n >= 1
 //
 // Error: see docs/measured/accuracy.md, "phong series": 3e-4 of the full lobe's 2 pi for each side of the foot.
 fn steradian_moment_series_front(edge: SteradianMomentEdge, series: SteradianMomentSeries) -> f32 {
@@ -472,7 +472,7 @@ fn steradian_moment_series_front(edge: SteradianMomentEdge, series: SteradianMom
     return max(warp.kap * (warp.du + (1.0 - t) * bump), 0.0);
 }
 
-// The result of moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
+// The result of steradian_moment_series_front, in high quality. Error: about 5e-5 of the full lobe for each side of the foot.
 fn steradian_moment_series_high_front(edge: SteradianMomentEdge, series: SteradianMomentSeriesHigh) -> f32 {
     let warp = steradian_moment_warp(edge, series.m);
     let t = warp.kap2;
@@ -552,15 +552,15 @@ fn steradian_moment_series_low_front(edge: SteradianMomentEdge, raised: Steradia
     return max(steradian_moment_series_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
-// The result of moment_series_low_front, in high quality; the error is then that of the cosines.
+// The result of steradian_moment_series_low_front, in high quality; the error is then that of the cosines.
 fn steradian_moment_series_high_low_front(edge: SteradianMomentEdge, raised: SteradianMomentSeriesHigh, n: f32) -> f32 {
     return max(steradian_moment_series_high_front(edge, raised) - edge.s * steradian_moment_cosine_front(edge, n + 1.0, 1), 0.0);
 }
 
 // One edge's share of (n + 2) times the double-axis moment, the integral of max(u.r, 0)^n (u.v) over a light.
 //
-//   a, b     as for moment_edge, r unit axis of the power, v the other axis, of any length
-//   share    moment_edge_share with exponent n - 1 (m = n), by any method, n >= 1
+//   a, b     as for steradian_moment_edge, r unit axis of the power, v the other axis, of any length
+//   share    steradian_moment_edge_share with exponent n - 1 (m = n), by any method, n >= 1
 //   cosines  the integral of x^n dphi over the part in front, by any method
 //
 // Exact as far as share and cosines are: foreshortening (v the normal) and the v.h of half-vector space need no

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, plane: light in the plane, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -72,7 +72,7 @@ fn steradian_plane_power_integral(n: i32, t: f32, f: f32) -> f32 {
     return 0.25 * t * sec * sec2 + 0.75 * cubed;
 }
 
-// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See plane_power_integral; j = 2 takes n >= -3.
+// Antiderivative of tan(f)^j cos(f)^n, j = 0, 1 or 2. See steradian_plane_power_integral; j = 2 takes n >= -3.
 fn steradian_plane_term(j: i32, n: i32, t: f32, f: f32) -> f32 {
     if (j == 0) {
         return steradian_plane_power_integral(n, t, f);

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, polygon: polygons: irradiance, solid angle, clipping to the horizon; Lambert's lobe, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -80,7 +80,7 @@ fn steradian_polygon_begin() -> SteradianPolygonWalk {
 
 // Adds one edge, clipped to the horizon z = 0.
 //
-//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
+//   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
 //
 // What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
 // these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
@@ -127,7 +127,7 @@ fn steradian_polygon_irradiance_vector(walk: SteradianPolygonWalk, reversed: boo
     return vec3f(e.x, e.y, clamp(e.z + 0.5 * arc, 0.0, steradian_pi()));
 }
 
-// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See polygon_irradiance_vector.
+// Irradiance of radiance 1 from the part of the light above the horizon, in [0, pi]. See steradian_polygon_irradiance_vector.
 //
 // Error: see docs/measured/accuracy.md, "polygon irradiance".
 fn steradian_polygon_irradiance(walk: SteradianPolygonWalk, reversed: bool) -> f32 {
@@ -151,7 +151,7 @@ fn steradian_solid_angle_begin(first: vec3f) -> SteradianSolidAngleWalk {
     return walk;
 }
 
-// Adds the triangle of the first vertex and one edge. Directions as for polygon_add_edge; no horizon here.
+// Adds the triangle of the first vertex and one edge. Directions as for steradian_polygon_add_edge; no horizon here.
 //
 // Degenerate: a triangle without area has a real factor and adds nothing.
 // Source: Van Oosterom, Strackee, "The solid angle of a plane triangle", 1983, eq. 8.
@@ -182,22 +182,22 @@ fn steradian_solid_angle_finish(walk: SteradianSolidAngleWalk, reversed: bool) -
 // Clipping a walked outline to the horizon, for integrals along its edges.
 //
 // Lambert's integral needs only the length of the arcs of the horizon that close a clipped outline
-// (polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
+// (steradian_polygon_add_edge); every other boundary integral has to be taken along them. The clip hands them out as ordinary
 // edges: where the outline comes back up, the arc from where it last went down. An outline that begins below the
 // horizon comes up before it was seen to go down: this first entry is kept, and the last arc ends there.
 // The arcs of a plane light lie on one half circle, and what counts is the signed sum over them; so arcs may join
 // different contours, and one clip serves a whole light with its holes:
 //
-//   HorizonClip clip = horizon_clip_begin();
+//   SteradianHorizonClip clip = steradian_horizon_clip_begin();
 //   for each edge a, b of each contour:
-//       clip = horizon_clip_edge(clip, a, b);
+//       clip = steradian_horizon_clip_edge(clip, a, b);
 //       integrate clip.start, clip.end
 //       if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-//   clip = horizon_clip_finish(clip);
+//   clip = steradian_horizon_clip_finish(clip);
 //   if (any_lane(clip.closes)) integrate clip.arc_start, clip.arc_end
-// each arc in two where it is wide (horizon_arc_wide, horizon_arc_middle)
+// each arc in two where it is wide (steradian_horizon_arc_wide, steradian_horizon_arc_middle)
 //
-// Frame: z the surface normal; unit directions (polygon_direction) in walk order.
+// Frame: z the surface normal; unit directions (steradian_polygon_direction) in walk order.
 
 // The state of a clip and what it last handed out.
 //   start, end          the edge's part above the horizon; equal where there is none
@@ -306,7 +306,7 @@ fn steradian_horizon_clip_finish(clip: SteradianHorizonClip) -> SteradianHorizon
 
 // Radiance that a Lambert surface of albedo 1 sends out, per radiance of the light.
 //
-//   irradiance  polygon_irradiance, in [0, pi]
+//   irradiance  steradian_polygon_irradiance, in [0, pi]
 fn steradian_lambert_radiance(irradiance: f32) -> f32 {
     return irradiance * steradian_inverse_pi();
 }
@@ -351,7 +351,7 @@ fn steradian_lambert_grazing_of_light(e: vec3f, v: vec3f) -> f32 {
 // Irradiance that reaches a diffuse lobe below a dielectric's boundary, of what it would get at F = F0.
 //
 //   loss     (F90 - F0) / (1 - F0) of the boundary; 0: what the lobe gets does not depend on the light's direction
-//   e, v     as for lambert_grazing_of_light
+//   e, v     as for steradian_lambert_grazing_of_light
 //
 // Source: glTF 2.0, appendix B: diffuse light weighs 1 - F(v.h).
 fn steradian_lambert_irradiance_below(e: vec3f, v: vec3f, loss: f32) -> f32 {

@@ -1,8 +1,8 @@
 // Steradian 0.1.0, round: disks, ellipses, spheres, ellipsoids, tubes and lines, point and spot lights, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl, polygon.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl, polygon.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //
@@ -38,7 +38,7 @@
 //
 // How far a lobe is from quadratic over a light, one number tells: t = deviation / distance * sharpness. The error, as a
 // share of what the light would send from where the lobe is highest, is at most t^3 / 8: measured, over Lambert, Phong, GGX,
-// Blinn-Phong and Beckmann lobes, parallelograms and triangles, at t up to 0.7 (test LightElements.ErrorIsBelowItsBound).
+// Blinn-Phong and Beckmann lobes, parallelograms and triangles, at t up to 0.7 (test SteradianLightElements.ErrorIsBelowItsBound).
 // Frame: any. Vectors are relative to the shading point.
 
 // A light as four elements.
@@ -156,7 +156,7 @@ fn steradian_light_elements_beckmann_bias() -> f32 { return 0.005; }
 //
 //   normal           the surface's, unit
 //   sharpness        of the lobe
-//   roundings, bias  LightElementsLimits
+//   roundings, bias  SteradianLightElementsLimits
 //
 // A light across the horizon is cut only by whole elements: there the outline serves as long as rounding leaves it a digit.
 fn steradian_light_elements_serve(e: SteradianLightElements, normal: vec3f, sharpness: f32, roundings: f32, bias: f32) -> bool {
@@ -276,7 +276,7 @@ fn steradian_conic_sweep(z: vec2f, begin: f32, end: f32) -> f32 {
     return steradian_trig_atan2_unwrapped(z.y * (end - begin), z.y * z.y + (begin - z.x) * (end - z.x));
 }
 
-// An arc in its unit, whose poles are still to be found: all of conic_prepare that costs little.
+// An arc in its unit, whose poles are still to be found: all of steradian_conic_prepare that costs little.
 //
 //   u0..u2      the curve; the origin must not lie on it
 //   begin, end  ends in tau, begin <= end
@@ -310,7 +310,7 @@ fn steradian_conic_poles(arc: SteradianConicArc) -> SteradianQuarticPoles {
     return steradian_conic_polish_poles(arc, poles);
 }
 
-// A scaled arc and its poles, found now or kept from before: conic_prepare is conic_with_poles(arc, conic_poles(arc)).
+// A scaled arc and its poles, found now or kept from before: steradian_conic_prepare is steradian_conic_with_poles(arc, steradian_conic_poles(arc)).
 fn steradian_conic_with_poles(scaled: SteradianConicArc, poles: SteradianQuarticPoles) -> SteradianConicArc {
     var arc = scaled;
     arc.z1 = poles.z1;
@@ -319,7 +319,7 @@ fn steradian_conic_with_poles(scaled: SteradianConicArc, poles: SteradianQuartic
     return arc;
 }
 
-// Prepares an arc. Arguments and degenerate case: conic_scaled.
+// Prepares an arc. Arguments and degenerate case: steradian_conic_scaled.
 fn steradian_conic_prepare(u0: vec3f, u1: vec3f, u2: vec3f, begin: f32, end: f32) -> SteradianConicArc {
     let arc = steradian_conic_scaled(u0, u1, u2, begin, end);
     return steradian_conic_with_poles(arc, steradian_conic_poles(arc));
@@ -384,7 +384,7 @@ fn steradian_conic_residue(arc: SteradianConicArc, z: vec2f, o: vec2f, sweep: f3
     return re * factor.x - im * factor.y;
 }
 
-// The same integral as conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
+// The same integral as steradian_conic_residue sums, by Gauss and Legendre in the angle C, for poles that nearly coincide, where residues
 // cancel. 8 nodes, twice.
 //
 //   wanted   where the value counts; others may be left at 0
@@ -428,7 +428,7 @@ fn steradian_conic_vector(arc: SteradianConicArc) -> vec3f {
 // An ellipse center + axis_a cos t + axis_b sin t, vectors from the shading point, is a conic in tan(t/2): its irradiance
 // is closed (conic.glsl), above the horizon too. For other lobes it becomes a polygon whose corners gather where the
 // lobe is sharp.
-// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see ellipse_prepare.
+// Frame: z the surface normal. Walk order: det(center, axis_a, axis_b) > 0, see steradian_ellipse_prepare.
 
 // An ellipse, seen from the shading point.
 struct SteradianEllipse {
@@ -459,7 +459,7 @@ fn steradian_ellipse_in_units(frame: mat3x3f, center: vec3f, axis_a: vec3f, axis
 
 // The ellipse's area as four elements, for where it is small (light_elements.glsl).
 //
-//   e        of ellipse_prepare
+//   e        of steradian_ellipse_prepare
 fn steradian_ellipse_elements(e: SteradianEllipse) -> SteradianLightElements {
     var elements: SteradianLightElements;
     elements.center = e.center;
@@ -476,7 +476,7 @@ fn steradian_ellipse_arc(e: SteradianEllipse, begin: f32, end: f32) -> Steradian
 
 // Irradiance vector of the part of the ellipse above the horizon [rad]; z is the irradiance for radiance 1, in [0, pi].
 //
-//   e        of ellipse_prepare; the shading point is not in its plane
+//   e        of steradian_ellipse_prepare; the shading point is not in its plane
 //
 // Degenerate: an ellipse below the horizon, without area, or seen from its plane gives 0 up to rounding.
 // Error: docs/measured/accuracy.md, "Float against double", ellipse. Exact: 3 arcs of the ellipse and one of the horizon.
@@ -529,7 +529,7 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
 
 // The same of an ellipse that is all above the horizon: without arcs, from the axes of the cone of directions to it.
 //
-//   e        of ellipse_prepare
+//   e        of steradian_ellipse_prepare
 //
 // The cone's axes are those of B = a a' + b b' - c c' (a, b: half axes, c: centre), whose eigenvalues are -nu < 0 <= mu1, mu2. Along the
 // axis of -nu the cone cuts the plane at distance 1 in an ellipse of half axes sqrt(mu / nu), and by symmetry the vector points along it:
@@ -684,7 +684,7 @@ fn steradian_ellipse_near_place(fan: SteradianEllipseFan, x: f32) -> vec2f {
 
 // The share of the corners up to a place of a rim that is near: the mean of the lobe's share and of the near place's.
 //
-//   x        as in ellipse_near_place
+//   x        as in steradian_ellipse_near_place
 //   lobe     (cos t/2, sin t/2) of the lobe's place, from the same origin
 //   reach    the x up to which, on either side, the near place has corners
 fn steradian_ellipse_near_share(fan: SteradianEllipseFan, x: f32, lobe: vec2f, reach: f32) -> f32 {
@@ -752,7 +752,7 @@ fn steradian_ellipse_gap(from_corner: vec2f, to_corner: vec2f) -> f32 {
 
 // A corner, as a vector from the shading point.
 //
-//   gaps     sum of ellipse_gap to the corner before it and to the one after it
+//   gaps     sum of steradian_ellipse_gap to the corner before it and to the one after it
 //
 // Pushed out so that the polygon has about the ellipse's area: inscribed, 8 corners lose several percent.
 fn steradian_ellipse_corner_between(fan: SteradianEllipseFan, here: vec2f, gaps: f32) -> vec3f {
@@ -763,7 +763,7 @@ fn steradian_ellipse_corner_between(fan: SteradianEllipseFan, here: vec2f, gaps:
 
 // The corner between two others, as a vector from the shading point.
 //
-//   before, here, after  ellipse_corner of three neighbours
+//   before, here, after  steradian_ellipse_corner of three neighbours
 fn steradian_ellipse_pushed_corner(fan: SteradianEllipseFan, before: vec2f, here: vec2f, after: vec2f) -> vec3f {
     return steradian_ellipse_corner_between(fan, here, steradian_ellipse_gap(before, here) + steradian_ellipse_gap(here, after));
 }
@@ -935,7 +935,7 @@ fn steradian_capsule_whole_vector(c: SteradianCapsule) -> vec3f {
 //   half_angle  of the arc [rad], in [0, pi]
 //   start, finish  unit directions of its ends, in walk order
 //
-// Where the arc crosses is decided by the ends' signs alone, as for straight edges (polygon_add_edge), so that both agree at
+// Where the arc crosses is decided by the ends' signs alone, as for straight edges (steradian_polygon_add_edge), so that both agree at
 // the joints; an arc between two ends on one side crosses twice or not at all.
 fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: f32, middle: vec3f, half_angle: f32, start: vec3f, finish: vec3f) -> SteradianPolygonWalk {
     let d2 = max(dot(center, center), steradian_smallest_square());
@@ -982,7 +982,7 @@ fn steradian_capsule_add_arc(walk: SteradianPolygonWalk, center: vec3f, radius: 
 
 // Irradiance vector of the part of the capsule above the horizon [sr]; z is the irradiance for radiance 1, in [0, pi].
 //
-//   c        of capsule_prepare
+//   c        of steradian_capsule_prepare
 //
 // Degenerate: a capsule below the horizon and a point inside give 0.
 // Error: docs/measured/accuracy.md, "Float against double", capsule. Exact: two arcs, two edges and an arc of the horizon.
@@ -1025,7 +1025,7 @@ fn steradian_capsule_irradiance_vector(c: SteradianCapsule) -> vec3f {
 //
 // Degenerate: a line towards the point, or of no length, gives 0; one that passes through the point a finite value.
 // Error: docs/measured/accuracy.md, "Float against double", line. A capsule differs by at most docs/eval.md's bound.
-// Source: as for any linear light; here the limit of capsule_whole_vector.
+// Source: as for any linear light; here the limit of steradian_capsule_whole_vector.
 fn steradian_line_irradiance_vector(end_a: vec3f, end_b: vec3f) -> vec3f {
     let wa = abs(end_a.z);
     let wb = abs(end_b.z);
@@ -1073,11 +1073,11 @@ struct SteradianCapsuleFan {
     b: SteradianCapsuleEnd,
 }
 
-// Prepares the arc of one end as a single step; capsule_fan divides it.
+// Prepares the arc of one end as a single step; steradian_capsule_fan divides it.
 //
 //   center      of the ball
 //   middle      unit, across `center`, where the arc's middle lies
-//   r, width    the lobe's unit axis and width [rad], as for ellipse_fan_concentrated
+//   r, width    the lobe's unit axis and width [rad], as for steradian_ellipse_fan_concentrated
 fn steradian_capsule_end(center: vec3f, radius: f32, middle: vec3f, half_angle: f32, r: vec3f, width: f32) -> SteradianCapsuleEnd {
     let d2 = max(dot(center, center), steradian_smallest_square());
     let inverse = inverseSqrt(d2);

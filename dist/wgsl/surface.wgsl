@@ -1,8 +1,8 @@
 // Steradian 0.1.0, surface: surfaces of glTF: frames, lobes and texture look-up from factors and texels, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It comes after math.wgsl.
-// Made by dist/make_dist.py from kernels/: change those.
+// It needs these files before it, in this order: math.wgsl.
+// Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
 //

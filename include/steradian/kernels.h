@@ -6,7 +6,7 @@
 //   double irradiance = k.polygon_irradiance(w).v;
 //
 // The kernels are the manual: each function's comment gives frame, units, preconditions, degenerate case, error and source. The object has
-// no state; constructing one costs nothing.
+// no state; constructing one costs nothing. The kernels are in the folder `kernels` beside this file: one include path is enough.
 #pragma once
 
 #include "steradian/real.h"
@@ -28,54 +28,54 @@ struct Kernels {
 
 // The order is that of dependency (tests/dialect_lint.py compares the list with the folders).
 // clang-format off
-#include "math/constants.glsl"
-#include "math/complex.glsl"
-#include "math/frame.glsl"
-#include "math/gauss_legendre.glsl"
-#include "math/inverse_trig.glsl"
-#include "math/quartic.glsl"
+#include "kernels/math/constants.glsl"
+#include "kernels/math/complex.glsl"
+#include "kernels/math/frame.glsl"
+#include "kernels/math/gauss_legendre.glsl"
+#include "kernels/math/inverse_trig.glsl"
+#include "kernels/math/quartic.glsl"
 
-#include "surface/surface.glsl"
-#include "surface/texture.glsl"
+#include "kernels/surface/surface.glsl"
+#include "kernels/surface/texture.glsl"
 
-#include "outline/polygon.glsl"
-#include "outline/light_elements.glsl"
-#include "outline/far_light.glsl"
-#include "outline/conic.glsl"
-#include "outline/ellipse.glsl"
-#include "outline/capsule.glsl"
-#include "outline/ellipsoid.glsl"
-#include "outline/horizon_clip.glsl"
-#include "outline/punctual.glsl"
+#include "kernels/outline/polygon.glsl"
+#include "kernels/outline/light_elements.glsl"
+#include "kernels/outline/far_light.glsl"
+#include "kernels/outline/conic.glsl"
+#include "kernels/outline/ellipse.glsl"
+#include "kernels/outline/capsule.glsl"
+#include "kernels/outline/ellipsoid.glsl"
+#include "kernels/outline/horizon_clip.glsl"
+#include "kernels/outline/punctual.glsl"
 
-#include "lobe/charlie.glsl"
-#include "lobe/lambert.glsl"
-#include "lobe/lobe_product.glsl"
-#include "lobe/microfacet.glsl"
-#include "lobe/phong.glsl"
+#include "kernels/lobe/charlie.glsl"
+#include "kernels/lobe/lambert.glsl"
+#include "kernels/lobe/lobe_product.glsl"
+#include "kernels/lobe/microfacet.glsl"
+#include "kernels/lobe/phong.glsl"
 
-#include "integral/charlie_cubature.glsl"
-#include "integral/ggx_closed_form.glsl"
-#include "integral/ggx_cubature.glsl"
-#include "integral/moment.glsl"
-#include "integral/moment_quadrature.glsl"
-#include "integral/moment_series.glsl"
-#include "integral/moment_cosine.glsl"
-#include "integral/half_vector.glsl"
-#include "integral/ltc.glsl"
-#include "integral/ltc_texture.glsl"
-#include "integral/texture_cell.glsl"
+#include "kernels/integral/charlie_cubature.glsl"
+#include "kernels/integral/ggx_closed_form.glsl"
+#include "kernels/integral/ggx_cubature.glsl"
+#include "kernels/integral/moment.glsl"
+#include "kernels/integral/moment_quadrature.glsl"
+#include "kernels/integral/moment_series.glsl"
+#include "kernels/integral/moment_cosine.glsl"
+#include "kernels/integral/half_vector.glsl"
+#include "kernels/integral/ltc.glsl"
+#include "kernels/integral/ltc_texture.glsl"
+#include "kernels/integral/texture_cell.glsl"
 
-#include "comparison/ltc_clipless.glsl"
-#include "comparison/moment_arvo.glsl"
-#include "comparison/moment_peak_fits.glsl"
-#include "comparison/representative_point.glsl"
+#include "kernels/comparison/ltc_clipless.glsl"
+#include "kernels/comparison/moment_arvo.glsl"
+#include "kernels/comparison/moment_peak_fits.glsl"
+#include "kernels/comparison/representative_point.glsl"
 
-#include "plane/plane.glsl"
+#include "kernels/plane/plane.glsl"
 
-#include "indirect/indirect.glsl"
+#include "kernels/indirect/indirect.glsl"
 
-#include "shadow/shadow.glsl"
+#include "kernels/shadow/shadow.glsl"
 // clang-format on
 
 // Custom kernels in the same dialect: define this as the file's name, and STERADIAN_ISA as a namespace of your own.

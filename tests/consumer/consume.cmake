@@ -1,6 +1,7 @@
 # Builds a program against this project as somebody else would, and runs it.
 #   cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... [-DLAUNCHER=...] -P consume.cmake install | (everything|installed|subdirectory|lobe COMPILER)
-#     install       installs the build into SCRATCH: also the manual page and the completions of shells
+#     install       installs the build into SCRATCH: also the manual page, the completions of shells and the shader files; the kernels
+#                   compile with one include path
 #     everything    from the installed tree, all layers
 #     installed     from the installed tree, the integrals alone: every package that other layers ask for is hidden
 #     lobe          from the installed tree, the layer that fits tables
@@ -26,12 +27,19 @@ if(how STREQUAL "install")
   file(REMOVE_RECURSE ${SCRATCH}/installed)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/installed)
   foreach(text man/man1/steradian.1 bash-completion/completions/steradian zsh/site-functions/_steradian
-          fish/vendor_completions.d/steradian.fish)
+          fish/vendor_completions.d/steradian.fish steradian/dist/steradian.glsl steradian/dist/es/lit.es.glsl
+          steradian/dist/hlsl/lit.hlsl steradian/dist/steradian.wgsl)
     file(SIZE ${SCRATCH}/installed/share/${text} size)
     if(size LESS 1000)
       message(FATAL_ERROR "share/${text} has ${size} bytes")
     endif()
   endforeach()
+  file(GLOB_RECURSE scripts ${SCRATCH}/installed/share/steradian/*.py)
+  if(scripts OR EXISTS ${SCRATCH}/installed/share/steradian/dist/source)
+    message(FATAL_ERROR "the shader files come with what makes them: ${scripts}")
+  endif()
+  file(WRITE ${SCRATCH}/kernels.cpp "#include \"steradian/kernels.h\"\ntemplate struct steradian::Kernels<float>;\n")
+  run(c++ -std=c++20 -fsyntax-only -I${SCRATCH}/installed/include ${SCRATCH}/kernels.cpp)
   return()
 endif()
 

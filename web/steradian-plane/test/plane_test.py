@@ -16,6 +16,7 @@ ROOT = PACKAGE.parent.parent
 sys.path.insert(0, str(PACKAGE.parent))
 sys.dont_write_bytecode = True
 import browser  # noqa: E402
+import npm_project  # noqa: E402
 
 PROGRAM, SCRATCH = sys.argv[1], Path(sys.argv[2]).resolve()
 SCENES = ["room", "lamps", "city", "bounce"]
@@ -88,6 +89,27 @@ def check_package(package):
     assert found["afterwards"] == [found["behind"][3]] * 3, found["afterwards"]
     assert found["refused"][0].startswith("a.svg:2: <rect>"), found["refused"][0]
     assert found["refused"][1].startswith("b.svg:2: "), found["refused"][1]
+
+
+PACKED = """
+import {{ readFileSync }} from "node:fs";
+import {{ Plane }} from "steradian-plane";
+const plane = await Plane.load(readFileSync({scene}, "utf8"), "scene.svg");
+console.log(JSON.stringify({points}.map((p) => plane.query(p[0], p[1]).radiance)));
+"""
+
+
+def check_tarball(package):
+    """The package as `npm pack` makes it, installed into an empty project, against the program."""
+    tarball, files = npm_project.pack(package, SCRATCH / "packed")
+    project = SCRATCH / "project"
+    npm_project.install(project, tarball)
+    npm_project.check_exports(project / "node_modules" / "steradian-plane", files)
+    scene, points = ROOT / "scenes" / "plane" / "room.svg", [[100, 100], [200, 150], [320, 240]]
+    found = json.loads(npm_project.module(project, PACKED.format(scene=json.dumps(str(scene)), points=points)))
+    off = max(distance(a, b) / max(1, *b) for a, b in zip(found, eval_plane(scene, points)))
+    print(f"{tarball.name}: {len(files)} files, {tarball.stat().st_size / 1000:.0f} KB; its answers are off by at most {off:.1e} from the program")
+    assert off < 1e-12 and any(sum(f) > 0 for f in found), found
 
 
 def check_manual(package, chromium):
@@ -251,6 +273,8 @@ def main():
     zipped = len(subprocess.run(["gzip", "-9", "-c", package / "room.html"], capture_output=True, check=True).stdout)
     print(f"room.html: {zipped / 1000:.0f} KB zipped")
     check_package(package)
+    if shutil.which("npm"):
+        check_tarball(package)
     chromium = browser.find()
     check_manual(package, chromium)
     frame_times(package)

@@ -61,7 +61,7 @@ def three_from_npm(scratch, version=THREE):
 def snippets():
     """The JavaScript of README.md, each piece as a module, with what its page would have; it ends by drawing a frame."""
     pieces = re.findall(r"```js\n(.*?)```", (PACKAGE / "README.md").read_text(), re.DOTALL)
-    assert len(pieces) >= 2, "README.md has lost its JavaScript"
+    assert len(pieces) >= 2 and "panel.lookAt" in pieces[0], "README.md has lost its JavaScript"
     before = """
 const outline = [ [ 0, 1 ], [ - 1, - 1 ], [ 1, - 1 ] ].map( ( p ) => new THREE.Vector2( ...p ) );
 const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera( 50, 1, 0.1, 100 );
@@ -74,7 +74,19 @@ if ( typeof renderer === 'undefined' ) {
 	const gl = new THREE.WebGLRenderer();
 	gl.debug.onShaderError = ( c, program, vertex, fragment ) => { throw new Error( c.getShaderInfoLog( fragment ) ); };
 	const used = typeof material === 'undefined' ? otherMaterial : material;
-	for ( const m of [ used, otherMaterial ] ) scene.add( new THREE.Mesh( new THREE.SphereGeometry( 1 ), m ) );
+	const balls = [ used, otherMaterial ].map( ( m ) => new THREE.Mesh( new THREE.SphereGeometry( 1 ), m ) );
+	const pixel = new Uint8Array( 4 * 300 * 150 ), context = gl.getContext();
+	for ( const ball of typeof panel === 'undefined' ? [] : balls ) { // the first example lights the origin, where a ball is
+
+		scene.add( ball );
+		gl.render( scene, camera );
+		context.readPixels( 0, 0, 300, 150, context.RGBA, context.UNSIGNED_BYTE, pixel );
+		if ( pixel.reduce( ( most, c, i ) => i % 4 < 3 ? Math.max( most, c ) : most, 0 ) < 30 ) throw new Error( 'the example lights nothing' );
+		scene.remove( ball );
+
+	}
+
+	scene.add( ...balls );
 	gl.render( scene, camera );
 
 }
