@@ -154,6 +154,7 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--force", !options.frames.empty(), "--frames"},
        {"--stats", options.frames.empty(), "one picture, not --frames"},
        {"--bounces", r.indirect.mode == IndirectMode::off, "no --indirect"},
+       {"--reflections", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--time-limit", r.method != "sampled" && r.method != "reference", "a method without samples"},
        {"--time-limit", r.shadows != Shadows::off, "--shadows on or exact"},
        {"--time-limit", r.indirect.mode == IndirectMode::off, "direct light, not --indirect"}});
@@ -169,7 +170,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
                "--indirect-quads", "--indirect-clamp", "--max-lights",       "--light",
                "--lights",         "--light-error",    "--environment",      "--environment-rotation",
                "--background",     "--light-units",    "--camera",           "--target-error",
-               "--resume",         "--animation",      "--time-limit"},
+               "--resume",         "--animation",      "--time-limit",       "--reflections"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -341,6 +342,7 @@ void add_render(CommandLine& line) {
         return number || text == "all" ? std::string() : "give a number of bounces, or all";
       })
       .group("Light");
+  verb.add("--reflections", r.reflections, "of --bounces: mirrors in a row").range(0, 16).group("Light");
   verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");
   verb.add("--light", options->lights, "extra light; may be repeated").words(words::names<AddedLight>()).group("Light");

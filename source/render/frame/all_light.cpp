@@ -1,47 +1,77 @@
 #include "render/frame/all_light.h"
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian {
 
-AllLight::AllLight(const Scene& scene, const SceneParts& parts, const RenderOptions& options,
-                   const radiosity::PatchLight::AddDirect& add_direct)
+namespace {
+
+void add(TileVector& to, std::size_t i, Vec3f r) {
+  to.x[i] += r.x;
+  to.y[i] += r.y;
+  to.z[i] += r.z;
+}
+
+}  // namespace
+
+AllLight::AllLight(const Scene& scene, const SceneParts& parts, const CameraRays& camera, const RenderOptions& options,
+                   const AddDirect& add_to_patches, AddDirect add_direct)
     : width_(options.width),
+      reflections_(options.reflections),
+      eye_(camera.origin()),
       patches_([&] {
         const auto start = Clock::now();
-        radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_direct);
+        radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_to_patches);
         solve_ms_ = ms_since(start);
         return light;
       }()),
-      gather_(patches_, *parts.rays, options.quality, options.aa) {}
+      gather_(patches_, *parts.rays, options.quality, options.aa),
+      mirrors_(scene, *parts.rays, *parts.maps, camera.steps(options.aa)),
+      add_direct_(std::move(add_direct)) {}
 
 void AllLight::begin(Picture& picture) {
   for (const char* layer : {"indirect", "bounce_error"}) picture.layers[layer].resize(picture.pixels.size());
 }
 
+// Adds the light that a tile's surfaces gather to `light`.
+void AllLight::gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const {
+  SixteenSurfaces some;
+  for (std::size_t first = 0; first < kTilePixels; first += SixteenSurfaces::kLanes) {
+    some.take(tile, first);
+    if (some.lit == 0) continue;
+    const radiosity::Gather::Result result = gather_.reflected(some, sample);
+    for (std::size_t i = 0; i < SixteenSurfaces::kLanes; ++i) {
+      steradian::add(light, first + i, result.radiance[i]);
+      steradian::add(error, first + i, result.error[i]);
+    }
+  }
+}
+
+// Adds the light of the surfaces that mirrors show, which are lit like those that the camera sees.
+void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const {
+  if (depth == 0) return;
+  const auto image = std::make_unique<radiosity::Mirrors::Image>();
+  if (!mirrors_.find(tile, distance, *image)) return;
+  add_direct_(image->tile);
+  TileVector error{};
+  gather(image->tile, sample, image->tile.radiance, error);
+  add_mirrored(image->tile, image->distance, sample, depth - 1, image->tile.radiance);
+  for (std::size_t i = 0; i < kTilePixels; ++i)
+    if (image->tile.material[i] != nullptr) steradian::add(light, i, get(image->tile.radiance, i) * get(image->weight, i));
+}
+
 void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture) {
   TileVector light{}, error{};
   clock_.run([&] {
-    SixteenSurfaces some;
-    for (std::size_t first = 0; first < kTilePixels; first += SixteenSurfaces::kLanes) {
-      some.take(tile, first);
-      if (some.lit == 0) continue;
-      const radiosity::Gather::Result result = gather_.reflected(some, sample);
-      for (std::size_t i = 0; i < SixteenSurfaces::kLanes; ++i) {
-        const Vec3f r = result.radiance[i], e = result.error[i];
-        light.x[first + i] = r.x;
-        light.y[first + i] = r.y;
-        light.z[first + i] = r.z;
-        error.x[first + i] = e.x;
-        error.y[first + i] = e.y;
-        error.z[first + i] = e.z;
-        tile.radiance.x[first + i] += r.x;
-        tile.radiance.y[first + i] += r.y;
-        tile.radiance.z[first + i] += r.z;
-      }
-    }
+    gather(tile, sample, light, error);
+    TilePlane distance;
+    for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
+    add_mirrored(tile, distance, sample, reflections_, light);
+    for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));
   });
   add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);
   add_to_picture(error, area, shares, weight, picture.layers.at("bounce_error"), width_);

@@ -6,6 +6,7 @@
 
 #include "render/frame/frame_surfaces.h"
 #include "render/radiosity/gather.h"
+#include "render/radiosity/mirrors.h"
 #include "render/radiosity/patch_light.h"
 #include "render/tile/pass_clock.h"
 
@@ -13,8 +14,12 @@ namespace steradian {
 
 class AllLight {
  public:
-  // Solves the light of all patches. All arguments but add_direct must outlive this object.
-  AllLight(const Scene& scene, const SceneParts& parts, const RenderOptions& options, const radiosity::PatchLight::AddDirect& add_direct);
+  using AddDirect = radiosity::PatchLight::AddDirect;
+
+  // Solves the light of all patches. add_to_patches and add_direct add the direct light of a tile's surfaces, the second also where other
+  // surfaces of the tile's pixels are being lit. Scene, parts and camera must outlive this object.
+  AllLight(const Scene& scene, const SceneParts& parts, const CameraRays& camera, const RenderOptions& options,
+           const AddDirect& add_to_patches, AddDirect add_direct);
 
   // Makes the layers "indirect" and "bounce_error".
   static void begin(Picture& picture);
@@ -24,11 +29,17 @@ class AllLight {
   void report(int threads, RenderStats& stats, const Picture& picture) const;
 
  private:
-  const int width_;
+  void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
+  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const;
+
+  const int width_, reflections_;
+  const Vec3f eye_;
   double solve_ms_ = 0;
   PassClock clock_{"bounces"};
   const radiosity::PatchLight patches_;
   const radiosity::Gather gather_;
+  const radiosity::Mirrors mirrors_;
+  const AddDirect add_direct_;
 };
 
 }  // namespace steradian

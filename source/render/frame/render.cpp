@@ -13,6 +13,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "core/float_mode.h"
 #include "render/bounce/pipeline.h"
@@ -287,21 +288,30 @@ class Renderer {
     return true;
   }
 
-  // Solves the light between surfaces from the direct light of their patches.
+  // Adds the direct light of surfaces that are not those of the picture's tiles. Shadows of patches are estimates but for the best quality.
+  void light_directly(SurfaceTile& tile, bool patches) {
+    TileVector bound;
+    if (many_lights_) bound = std::exchange(many_lights_->bound(), {});
+    const auto reaching = lights_reaching(light_pointers_, tile);
+    if (!lighting_.has_shadows()) {
+      lighting_.add(tile, reaching.lights);
+    } else if (patches && options_.quality != Quality::high) {
+      estimates_.local()->clear();
+      lighting_.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, *estimates_.local());
+    } else {
+      lighting_.add_shadowed(tile, reaching.lights);
+    }
+    if (many_lights_) many_lights_->bound() = bound;
+    environment::HalvesOfRays halves;
+    surfaces_.add_environment(0, tile, halves);
+  }
+
+  // Solves the light between surfaces.
   void solve_bounces() {
     arena_.execute([&] {
-      all_light_ = std::make_unique<AllLight>(scene_, parts_, options_, [&](SurfaceTile& tile) {
-        if (many_lights_) many_lights_->bound() = {};
-        const auto reaching = lights_reaching(light_pointers_, tile);
-        if (lighting_.has_shadows() && options_.quality != Quality::high) {
-          estimates_.local()->clear();
-          lighting_.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, *estimates_.local());
-        } else {
-          lighting_.has_shadows() ? lighting_.add_shadowed(tile, reaching.lights) : lighting_.add(tile, reaching.lights);
-        }
-        environment::HalvesOfRays halves;
-        surfaces_.add_environment(0, tile, halves);
-      });
+      all_light_ = std::make_unique<AllLight>(
+          scene_, parts_, surfaces_.camera(), options_, [this](SurfaceTile& tile) { light_directly(tile, true); },
+          [this](SurfaceTile& tile) { light_directly(tile, false); });
     });
   }
 

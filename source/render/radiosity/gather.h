@@ -2,7 +2,7 @@
 //
 // A diffuse lobe takes the mean over a grid of directions, weighted by the cosine. Each of 4 x 4 pixels shifts the grid by its own fraction
 // of a cell, and a linear fit over the pixels of one surface joins their means: together they see sixteen times as many directions. A
-// glossy lobe takes directions of its own. Lobes narrower than kLeastWidth show single patches, so they take nothing.
+// glossy lobe takes directions of its own. Lobes narrower than kLeastWidth would show single patches: Mirrors serves them.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace steradian::radiosity {
 class Gather {
  public:
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
-  static constexpr float kLeastWidth = 0.05f;  // alpha
+  static constexpr float kLeastWidth = 0.03f;  // alpha
 
   // All must outlive this object. samples: primary samples of a pixel, which shift the grid.
   Gather(const PatchLight& light, const RayScene& rays, Quality quality, int samples);
