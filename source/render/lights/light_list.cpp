@@ -77,7 +77,7 @@ std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLi
     PackLight light = from_area_light(a);
     if (a.texture && a.texture->use.present() && !light.polygon.vertices.empty())
       light.textured = std::make_shared<TexturedLight>(a, light.polygon, scene.images);
-    if (a.emission) light.profiled = std::make_shared<ProfiledLight>(a);
+    if (a.emission) light.profiled = std::make_shared<ProfiledLight>(a, ProfiledLight::Table::prepared);
     add(std::move(light));
   }
   for (const AreaLight& a : beside) add(from_area_light(a));
