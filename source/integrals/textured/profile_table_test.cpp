@@ -103,7 +103,7 @@ TEST(ProfileTable, AnEvenLightIsEvenInEveryPlace) {
     else
       light.shape = Polygon{{{-0.2, 2, -0.1}, {0.2, 2, -0.1}, {0.2, 2, 0.1}, {-0.2, 2, 0.1}}, {}};
     set_emission(light, spot, {1, 0, 0}, {1, 1, 1});
-    const ProfiledLight lamp(light, ProfiledLight::Table::prepared);
+    const ProfiledLight lamp(light, std::make_shared<const ProfileTable>(*spot));
     const auto outline = lamp.outline();
     int bright = 0, dark = 0, other = 0;
     for (int i = 0; i < 2000; ++i) {

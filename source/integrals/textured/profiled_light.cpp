@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "integrals/curved_light.h"
@@ -51,7 +52,7 @@ double steepest_part(const LightProfile& profile) {
 
 }  // namespace
 
-ProfiledLight::ProfiledLight(const AreaLight& light, Table table)
+ProfiledLight::ProfiledLight(const AreaLight& light, std::shared_ptr<const ProfileTable> table)
     : emission_(*light.emission), mean_(light.radiance), round_(std::holds_alternative<Ellipse>(light.shape)) {
   if (round_) {
     const auto& disk = std::get<Ellipse>(light.shape);
@@ -63,7 +64,7 @@ ProfiledLight::ProfiledLight(const AreaLight& light, Table table)
   widest_ = std::min(kWidestKernel, kProfileShare * steepest_part(*emission_.profile));
   reach_ = round_ ? std::sqrt(dot(x_, x_) + dot(y_, y_)) : std::max(length(x_ + y_), length(x_ - y_));
   if (round_ && std::fabs(dot(x_, y_)) < 1e-9 * dot(x_, x_)) reach_ = std::max(length(x_), length(y_));
-  if (table == Table::prepared) table_ = std::make_shared<const ProfileTable>(*emission_.profile);
+  table_ = std::move(table);
 }
 
 Vec2d ProfiledLight::coordinates_of(Vec3d place) const {

@@ -18,11 +18,8 @@ namespace steradian {
 
 class ProfiledLight {
  public:
-  // table: for many points, at the cost of 1 to 72 thousand look-ups of the profile.
-  enum class Table { none, prepared };
-
-  // The light must have an emission.
-  explicit ProfiledLight(const AreaLight& light, Table table = Table::none);
+  // The light must have an emission. table: its profile's, for many points; null: every point by cells.
+  explicit ProfiledLight(const AreaLight& light, std::shared_ptr<const ProfileTable> table = nullptr);
 
   // The mean over the light, weighted with the lobe, or the mean of all directions if the lobe covers nothing of the light.
   //

@@ -55,7 +55,7 @@ TEST(ProfiledMeans, PacksFollowTheReference) {
     for (const bool spot : {false, true})
       for (const double alpha : {0.0, 0.6, 0.25, 0.06}) {
         const AreaLight light = lamp(round, spot);
-        const ProfiledLight profiled(light, ProfiledLight::Table::prepared), alone(light);
+        const ProfiledLight profiled(light, std::make_shared<const ProfileTable>(*light.emission->profile)), alone(light);
         reference::Random random(31);
         auto tile = std::make_unique<SurfaceTile>();
         alignas(64) TilePlane f0, f90, wanted, candela, found;
