@@ -86,7 +86,7 @@ TEST(ProfileTable, TypeBAndUnequalPlanesHaveNone) {
   EXPECT_FALSE(ProfileTable(p).serves());
 }
 
-// Where one value serves for the whole light, the radiance of every place is within kEven of it, and some points have one.
+// If one value serves for the whole light, the radiance of every place is within kEven of it. Some points have one.
 TEST(ProfileTable, AnEvenLightIsEvenInEveryPlace) {
   // A spot: cosine to 20 degrees, nothing from 22 on.
   const auto spot = std::make_shared<LightProfile>();
