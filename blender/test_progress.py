@@ -53,6 +53,29 @@ def test_telling():
     assert told == ["rendering, 0 s", "rendering, 1 s", "rendering, 2 s, 40 %", "rendering, 3 s, 60 %"], told
 
 
+def test_settings(steradian, scene):
+    """The program takes every terminator and environment of the panel, with and without shadows; the terminator needs them."""
+    film = types.SimpleNamespace(film_transparent=False)
+    program.bpy.context = types.SimpleNamespace(scene=types.SimpleNamespace(render=film))
+    program.path = lambda: steradian
+    commands = []
+    with tempfile.TemporaryDirectory() as folder:
+        for shadows in ("on", "off"):
+            for terminator in ("smooth", "strict"):
+                for environment in ("world", "sky", "white", "none"):
+                    settings = types.SimpleNamespace(method="auto", shadows=shadows, terminator=terminator, environment=environment, indirect="off")
+                    command = program.render_command(scene, folder + "/x.exr", 16, 9, settings, 1, None)
+                    assert ("--terminator" in command) == (shadows == "on"), command
+                    assert ("--environment" in command) == (environment in ("sky", "white")), command
+                    run, _ = ended(command)
+                    assert run.process.returncode == 0, (command, run.lines())
+                    commands.append(command)
+        settings.environment = "world"
+        assert "map.exr" in program.render_command(scene, folder + "/x.exr", 16, 9, settings, 1, "map.exr")
+    print(f"{len(commands)} commands")
+
+
 test_render(*sys.argv[1:])
+test_settings(*sys.argv[1:])
 test_other_lines()
 test_telling()

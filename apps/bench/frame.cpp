@@ -2,6 +2,7 @@
 //
 // frame/direct/METHOD/1080p   a floor that fills the picture under one quad light; diffuse for `exact`, with a GGX lobe
 //                            on top for the others. The lighting is the passes `direct` and `specular`.
+// frame/disk/EMISSION/720p    a spot of 0.2 m over a glossy floor with a board in its light: `even`, or `profiled` by a cone of 45 degrees
 // frame/gallery/METHOD/720p   the gallery's direct light without shadows
 // frame/moved/METHOD/SIZE     the same after its polygons have moved, with the contents of RenderCache, including all preparation
 // frame/rays/arcade/1080p     primary rays of the colonnade alone
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +42,35 @@ Bench direct(const Where& where, const std::string& name, const std::string& met
   frame->options.width = kFrameWidth;
   frame->options.height = kFrameHeight;
   frame->options.method = method;
+  return bench_of(name, frame);
+}
+
+// A cone of 45 degrees with a soft rim, as Blender's spots have, by 512 angles.
+std::shared_ptr<const LightProfile> cone() {
+  LightProfile profile;
+  profile.horizontal = {0};
+  constexpr int kAngles = 512;
+  constexpr double kWidest = 22.5, kRim = 0.15;
+  const auto cosine = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
+  for (int i = 0; i <= kAngles; ++i) {
+    const double angle = kWidest * i / kAngles,
+                 t = std::clamp((cosine(angle) - cosine(kWidest)) / ((1 - cosine(kWidest)) * kRim), 0.0, 1.0);
+    profile.vertical.push_back(angle);
+    profile.candela.push_back(cosine(angle) * t * t * (3 - 2 * t));
+  }
+  return std::make_shared<const LightProfile>(std::move(profile));
+}
+
+Bench disk(const Where& where, const std::string& name, bool profiled, int threads) {
+  auto frame = frame_on(where, threads);
+  frame->scene = floor_scene();
+  frame->scene.materials[0] = glossy();
+  frame->scene.meshes.push_back(scene::quad_mesh({0.1f, 1, -0.3f}, {0.7f, 1, -0.3f}, {0.7f, 1, 0.3f}, {0.1f, 1, 0.3f}, 0));
+  AreaLight light;
+  light.shape = Ellipse{{0, 3, 0}, {0.1, 0, 0}, {0, 0, 0.1}};
+  if (profiled) set_emission(light, cone(), {1, 0, 0});
+  frame->options.shadows = Shadows::on;
+  frame->scene.area_lights = {light};
   return bench_of(name, frame);
 }
 
@@ -130,6 +161,9 @@ void add_frame(BenchList& list, const Where& where) {
   };
   for (const std::string method : {"exact", "ltc-compact", "ltc", "closed-form"})
     add_by("direct/" + method + "/1080p", [=](const std::string& name, int threads) { return direct(where, name, method, threads); });
+  for (const bool profiled : {false, true})
+    add_by(std::string("disk/") + (profiled ? "profiled" : "even") + "/720p",
+           [=](const std::string& name, int threads) { return disk(where, name, profiled, threads); });
   if (std::filesystem::exists(gallery_file()))
     for (const std::string method : {"ltc-compact", "ltc", "closed-form"})
       add_by("gallery/" + method + "/720p", [=](const std::string& name, int threads) { return gallery(where, name, method, threads); });

@@ -43,6 +43,13 @@ class Settings(bpy.types.PropertyGroup):
     shadows: bpy.props.EnumProperty(
         name="Shadows", default="on",
         items=[("on", "On", "Exact, by rays where there are very many edges"), ("exact", "Exact", "Never by rays"), ("off", "Off", "None")])
+    terminator: bpy.props.EnumProperty(
+        name="Terminator", description="The edge of a curved mesh's shadow on itself", default="smooth",
+        items=[("smooth", "Smooth", "As the curved surface of the normals"), ("strict", "Strict", "As the triangles stand")])
+    environment: bpy.props.EnumProperty(
+        name="Environment", description="Light from all around", default="world",
+        items=[("world", "World", "Blender's world"), ("sky", "Sky", "The program's clear sky"), ("white", "White", "Radiance 1 from everywhere"),
+               ("none", "None", "Black")])
     indirect: bpy.props.EnumProperty(
         name="Bounce", default="off",
         items=[("off", "Off", "Direct light alone"), ("ltc", "Virtual lights", "One bounce"), ("path", "Paths", "One bounce, by sampling")])
@@ -82,9 +89,9 @@ class SteradianEngine(bpy.types.RenderEngine):
             glb, picture, around = (os.path.join(folder, name) for name in ("scene.glb", "picture.exr", "world.exr"))
             self.update_stats("", "exporting")
             in_main_thread(lambda: export(glb))
-            if not world.write(scene.world, around):
-                around = None
             settings = scene.steradian
+            if settings.environment != "world" or not world.write(scene.world, around):
+                around = None
             if not self.run(program.render_command(glb, picture, width, height, settings, settings.aa, around)):
                 return
             result = self.begin_result(0, 0, width, height)
@@ -153,10 +160,12 @@ class SettingsPanel(bpy.types.Panel):
         return context.scene.render.engine == "STERADIAN"
 
     def draw(self, context):
-        """A row a setting."""
+        """A row a setting. The tone curve and the exposure are Blender's, since the picture comes back linear."""
         self.layout.use_property_split = True
-        for name in ("method", "shadows", "indirect", "aa", "viewport_pixel"):
+        for name in ("method", "shadows", "terminator", "environment", "indirect", "aa", "viewport_pixel"):
             self.layout.prop(context.scene.steradian, name)
+        for name in ("view_transform", "exposure"):
+            self.layout.prop(context.scene.view_settings, name)
 
 
 CLASSES = (Settings, Preferences, SteradianEngine, SettingsPanel)

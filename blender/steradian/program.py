@@ -19,9 +19,12 @@ def path():
 def render_command(glb, picture, width, height, settings, aa, world):
     """What renders a file of the add-on's export. Its lights are in watts, whatever the exporter's name is in it. world: a map, or None."""
     background = "off" if bpy.context.scene.render.film_transparent else "on"
-    around = ["--environment", world, "--background", background] if world else []
+    environment = {"world": world, "none": None}.get(settings.environment, settings.environment)
+    around = ["--environment", environment, "--background", background] if environment else []
+    # The program refuses an option that changes nothing.
+    terminator = ["--terminator", settings.terminator] if settings.shadows != "off" else []
     return [path(), "render", glb, "-o", picture, "--size", f"{width}x{height}", "--method", settings.method, "--shadows", settings.shadows,
-            "--indirect", settings.indirect, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
+            *terminator, "--indirect", settings.indirect, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
 
 
 PROGRESS = re.compile(r"^render +(\d+\.\d) %  .* left$")  # a line of the program's, one a second

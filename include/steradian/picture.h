@@ -34,7 +34,8 @@ struct Picture {
 Vec3f tone_map(Vec3f radiance, float exposure_stops);
 
 // The exposure in stops that brings the geometric mean of a picture's luminance to 0.18, middle grey. Values below a millionth of the
-// largest luminance, above all a black background, are ignored. 0 for a black picture; within +-30.
+// largest luminance, above all a black background, are ignored. If they are more than half of the picture, at most a twentieth of the
+// others becomes brighter than 1. 0 for a black picture; within +-30.
 // Source: Reinhard et al., "Photographic tone reproduction for digital images", 2002, equations 1 and 2.
 float auto_exposure(const Picture& picture);
 

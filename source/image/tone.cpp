@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 #include <xsimd/xsimd.hpp>
 
 #include "core/words.h"
@@ -74,14 +75,23 @@ float auto_exposure(const Picture& picture) {
   };
   double largest = 0;
   for (const Vec3f& c : picture.pixels) largest = std::max(largest, luminance_of(c));
-  double sum = 0, count = 0;
+  double sum = 0;
+  std::vector<double> lit;
   for (const Vec3f& c : picture.pixels) {
     const double y = luminance_of(c);
     if (!(y > 1e-6 * largest)) continue;
     sum += std::log2(y);
-    ++count;
+    lit.push_back(y);
   }
-  return count > 0 ? static_cast<float>(std::clamp(std::log2(0.18) - sum / count, -30.0, 30.0)) : 0.0f;
+  if (lit.empty()) return 0.0f;
+  double stops = std::log2(0.18) - sum / static_cast<double>(lit.size());
+  if (2 * lit.size() < picture.pixels.size()) {
+    constexpr double kDarker = 0.95;  // of the pixels that are lit
+    const auto bright = lit.begin() + static_cast<std::ptrdiff_t>(kDarker * static_cast<double>(lit.size() - 1));
+    std::nth_element(lit.begin(), bright, lit.end());
+    stops = std::min(stops, -std::log2(*bright));
+  }
+  return static_cast<float>(std::clamp(stops, -30.0, 30.0));
 }
 
 Vec3f tone_map(Vec3f radiance, float exposure_stops) { return tone_map(radiance, exposure_stops, ToneCurve::neutral); }

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "steradian/error.h"
@@ -32,6 +33,31 @@ TEST(Tone, BytesByTableAreThoseOfTheTransferFunction) {
     EXPECT_EQ(srgb_byte(std::bit_cast<float>(high)), code);
   }
   for (const float outside : {-0.0f, -1.0f, 1.0f, 1.5f, 1e30f}) EXPECT_EQ(srgb_byte(outside), outside >= 1 ? 255 : 0) << outside;
+}
+
+// Labels of radiance 1 on `black` of 1000 pixels of black, beside dim surfaces.
+Picture labelled(int black, int labels) {
+  Picture picture(1000, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const float value = i < black ? 0.0f : i < black + labels ? 1.0f : 0.004f;
+    picture.pixels[static_cast<std::size_t>(i)] = {value, value, value};
+  }
+  return picture;
+}
+
+TEST(AutoExposure, LabelsOfABlackPictureStayBelowWhite) {
+  // The labels are a tenth of 400 lit pixels. Their geometric mean, 0.004^0.9, would take 4.7 stops.
+  EXPECT_NEAR(auto_exposure(labelled(600, 40)), 0, 1e-6f);
+  // The mean decides where less than half is black, and where labels are less than a twentieth of the rest.
+  for (const auto& [black, labels] : {std::pair{400, 60}, std::pair{600, 10}}) {
+    const double lit = 1000 - black, mean = (lit - labels) / lit * std::log2(0.004);
+    EXPECT_NEAR(auto_exposure(labelled(black, labels)), std::log2(0.18) - mean, 1e-5) << black;
+  }
+  EXPECT_EQ(auto_exposure(labelled(1000, 0)), 0);
+  // The scale of the unit has no part in it.
+  Picture bright = labelled(600, 40);
+  for (Vec3f& c : bright.pixels) c = c * 1024.0f;
+  EXPECT_NEAR(auto_exposure(bright), -10, 1e-5f);
 }
 
 TEST(Tone, HalvesMakeTheWhole) {

@@ -48,8 +48,8 @@ Camera framing_camera(const Scene& scene, double aspect) {
   constexpr double kMargin = 1.05;
   Camera camera;
   camera.name = "default";
-  camera.z = normalized(Vec3d{0, 0.4, 1});
-  camera.x = {1, 0, 0};
+  camera.z = normalized(Vec3d{0.6, 0.45, 1});
+  camera.x = normalized(cross(Vec3d{0, 1, 0}, camera.z));
   camera.y = cross(camera.z, camera.x);
   const double up = std::tan(camera.yfov / 2) / kMargin, across = up * aspect;
 
@@ -105,6 +105,21 @@ AreaLight square_light(const Scene& scene, const char* name, Vec3d towards, doub
 }  // namespace
 
 AreaLight default_light(const Scene& scene) { return square_light(scene, "default", kTowardsKey, std::numbers::pi); }
+
+namespace {
+
+PunctualLight directional_light(const char* name, Vec3d direction, double irradiance) {
+  PunctualLight light;
+  light.name = name;
+  light.kind = PunctualKind::directional;
+  light.direction = direction;
+  light.intensity = {irradiance, irradiance, irradiance};
+  return light;
+}
+
+}  // namespace
+
+PunctualLight default_fill(const Camera& camera) { return directional_light("default fill", -camera.z, std::numbers::pi / 4); }
 
 namespace {
 
@@ -201,16 +216,11 @@ bool wants_light(const Scene& scene, const Camera& camera) {
 void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {
   for (const AddedLight light : lights) switch (light) {
       case AddedLight::none: break;
-      case AddedLight::standard: scene.area_lights.push_back(default_light(scene)); break;
-      case AddedLight::sun: {
-        PunctualLight sun;
-        sun.name = "sun";
-        sun.kind = PunctualKind::directional;
-        sun.direction = -normalized(kTowardsKey);
-        sun.intensity = {std::numbers::pi, std::numbers::pi, std::numbers::pi};
-        scene.punctual_lights.push_back(sun);
+      case AddedLight::standard:
+        scene.area_lights.push_back(default_light(scene));
+        if (!scene.cameras.empty()) scene.punctual_lights.push_back(default_fill(scene.cameras.front()));
         break;
-      }
+      case AddedLight::sun: scene.punctual_lights.push_back(directional_light("sun", -normalized(kTowardsKey), std::numbers::pi)); break;
       case AddedLight::studio:
         scene.area_lights.push_back(square_light(scene, "key", {-0.8, 0.7, 0.8}, std::numbers::pi));
         scene.area_lights.push_back(square_light(scene, "fill", {1, 0.3, 0.7}, std::numbers::pi / 4));

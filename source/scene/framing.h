@@ -17,12 +17,16 @@ Box3d box_around(const std::vector<Mesh>& meshes);
 // The middle of a box that lies so far from the origin that floats are off by 1e-6 of its size; zero for other boxes.
 Vec3d far_middle(const Box3d& box);
 
-// A camera in front of the scene and above it, as near as possible with all vertices in a picture of that aspect (width over height). The
-// shapes of lights need not be in the picture.
+// A camera in front of the scene, to the right and above, as near as possible with all vertices in a picture of that aspect (width over
+// height). The shapes of lights need not be in the picture.
 Camera framing_camera(const Scene& scene, double aspect);
 
 // A square light above, in front and to the left, that faces the scene's centre. It is not visible itself.
 AreaLight default_light(const Scene& scene);
+
+// Light of a quarter of that irradiance along the camera's view, so that shade is not black. It is directional: its shadows are cheapest,
+// and behind what the camera sees.
+PunctualLight default_fill(const Camera& camera);
 
 // True if the scene's own lights leave its picture black. That is so if it has no light, or only emissive textures, each of which is one of
 //   - a detail that glows on an object, such as a helmet's visor. Its radiance times area is below a thirtieth of the default light's.
@@ -32,7 +36,7 @@ AreaLight default_light(const Scene& scene);
 // Other lights are intended, however weak, and so are textures that light visible surfaces.
 bool wants_light(const Scene& scene, const Camera& camera);
 
-// Adds the lights that a user asks for. None of them is visible itself.
+// Adds the lights that a user asks for. None of them is visible itself. The scene has its cameras: the first one has the default fill.
 void add_lights(Scene& scene, const std::vector<AddedLight>& lights);
 
 }  // namespace steradian::scene

@@ -147,7 +147,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   }
   if (scene.cameras.empty()) {
     scene.cameras.push_back(framing_camera(scene, options.aspect));
-    warnings.say("the scene has no camera: a default one frames it from the front");
+    warnings.say("the scene has no camera: a default one frames it from the front and the right");
   }
   if (lacks_blenders_lamps(scene, facts.generator))
     warnings.say(
@@ -156,9 +156,11 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   if (!options.lights.empty()) {
     add_lights(scene, options.lights);
   } else if (!scene.environment && wants_light(scene, scene.cameras.front())) {
-    warnings.say(scene.area_lights.empty() ? "the scene has no lights: a default area light shines from above"
-                                           : "the scene's emissive textures do not light it: a default area light shines from above");
-    scene.area_lights.push_back(default_light(scene));
+    warnings.say(
+        scene.area_lights.empty()
+            ? "the scene has no lights: a default area light shines from above, and a weak one from the camera"
+            : "the scene's emissive textures do not light it: a default area light shines from above, and a weak one from the camera");
+    add_lights(scene, {AddedLight::standard});
   }
   facts.not_supported = warnings.features();
   return {std::move(scene),

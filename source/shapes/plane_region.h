@@ -15,6 +15,17 @@ class PlaneRegion {
   void add(Vec2d a, Vec2d b) { edges_.push_back({a, b}); }
   // Area of the region's part in a rectangle. Negative if the edges run the other way round.
   double area_in(const Box2d& box) const;
+  // The same area with its centroid; the centroid is the rectangle's middle where the area is 0.
+  struct Part {
+    double area;
+    Vec2d centroid;
+  };
+  Part part_in(const Box2d& box) const;
+  // The edges within a row, for all of its rectangles. It keeps the memory of `row`.
+  void cut_row(double low, double high, PlaneRegion& row) const;
+  // The region in coordinates whose x axis is the unit vector `x`.
+  PlaneRegion turned(Vec2d x) const;
+  Box2d bounds() const;
 
  private:
   struct BoundaryEdge {

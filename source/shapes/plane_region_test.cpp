@@ -9,8 +9,8 @@
 namespace steradian::plane_region_test {
 namespace {
 
-// The area of a polygon's part in a box, by clipping with each side in turn (Sutherland and Hodgman).
-double clipped_area(std::vector<Vec2d> p, const Box2d& box) {
+// A polygon's part in a box, by clipping with each side in turn (Sutherland and Hodgman).
+std::vector<Vec2d> clipped(std::vector<Vec2d> p, const Box2d& box) {
   const auto clip = [&](auto inside) {
     std::vector<Vec2d> out;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -25,9 +25,23 @@ double clipped_area(std::vector<Vec2d> p, const Box2d& box) {
   clip([&](Vec2d q) { return box.high.x - q.x; });
   clip([&](Vec2d q) { return q.y - box.low.y; });
   clip([&](Vec2d q) { return box.high.y - q.y; });
+  return p;
+}
+
+// Area and first moments, as a sum of triangles about the origin.
+struct Moments {
   double area = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) area += 0.5 * cross(p[i], p[(i + 1) % p.size()]);
-  return area;
+  Vec2d sum{0, 0};
+};
+Moments moments_of(const std::vector<Vec2d>& p) {
+  Moments m;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec2d a = p[i], b = p[(i + 1) % p.size()];
+    const double area = 0.5 * cross(a, b);
+    m.area += area;
+    m.sum = m.sum + (a + b) * (area / 3);
+  }
+  return m;
 }
 
 TEST(PlaneRegion, AgreesWithClippedPolygons) {
@@ -44,7 +58,24 @@ TEST(PlaneRegion, AgreesWithClippedPolygons) {
     for (std::size_t k = 0; k < corners.size(); ++k) region.add(corners[k], corners[(k + 1) % corners.size()]);
     Box2d box;
     for (int k = 0; k < 2; ++k) box.add(Vec2d{2 * random.uniform() - 1, 2 * random.uniform() - 1});
-    EXPECT_NEAR(region.area_in(box), clipped_area(corners, box), 1e-12) << i;
+    const Moments want = moments_of(clipped(corners, box));
+    EXPECT_NEAR(region.area_in(box), want.area, 1e-12) << i;
+    // One row of the region serves all of the row's boxes.
+    PlaneRegion row;
+    region.cut_row(box.low.y, box.high.y, row);
+    const PlaneRegion::Part part = row.part_in(box);
+    EXPECT_NEAR(part.area, want.area, 1e-12) << i;
+    EXPECT_NEAR(part.area * part.centroid.x, want.sum.x, 1e-12) << i;
+    EXPECT_NEAR(part.area * part.centroid.y, want.sum.y, 1e-12) << i;
+    // A turn moves the whole region, and the part within its bounds is all of it.
+    const double angle = 2 * M_PI * random.uniform();
+    const Vec2d x = {std::cos(angle), std::sin(angle)};
+    const PlaneRegion turned = region.turned(x);
+    const PlaneRegion::Part all = turned.part_in(turned.bounds());
+    const Moments whole = moments_of(corners);
+    EXPECT_NEAR(all.area, whole.area, 1e-12) << i;
+    EXPECT_NEAR(all.area * (all.centroid.x * x.x - all.centroid.y * x.y), whole.sum.x, 1e-12) << i;
+    EXPECT_NEAR(all.area * (all.centroid.x * x.y + all.centroid.y * x.x), whole.sum.y, 1e-12) << i;
   }
 }
 

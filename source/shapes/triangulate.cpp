@@ -25,13 +25,13 @@ bool meet(Vec2d a, Vec2d b, Vec2d c, Vec2d d) {
          (cdb == 0 && on_segment(c, d, b));
 }
 
-struct Polygon {
+struct JoinedContours {
   std::vector<Vec2d> points;  // points of all contours
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
 };
 
-Polygon joined(const Contours& contours) {
-  Polygon all;
+JoinedContours joined(const Contours& contours) {
+  JoinedContours all;
   for (const auto& contour : contours) {
     const auto first = static_cast<std::uint32_t>(all.points.size()), n = static_cast<std::uint32_t>(contour.size());
     all.points.insert(all.points.end(), contour.begin(), contour.end());
@@ -41,7 +41,7 @@ Polygon joined(const Contours& contours) {
 }
 
 // True if edges meet anywhere except neighbours in their common corner.
-bool crosses_itself(const Polygon& p) {
+bool crosses_itself(const JoinedContours& p) {
   for (std::size_t i = 0; i < p.edges.size(); ++i)
     for (std::size_t j = i + 1; j < p.edges.size(); ++j) {
       auto [a, b] = p.edges[i];
@@ -65,7 +65,7 @@ double area_of(const std::vector<Vec2d>& contour) {
 }
 
 // Cuts the hole into the outline along the shortest line that meets no edge.
-bool bridge(const Polygon& p, std::vector<std::uint32_t>& outline, std::uint32_t first, std::uint32_t count) {
+bool bridge(const JoinedContours& p, std::vector<std::uint32_t>& outline, std::uint32_t first, std::uint32_t count) {
   constexpr double kFar = 1e300;
   double best = kFar;
   std::size_t from = 0;
@@ -117,7 +117,7 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> triangles_of(const Cont
   if (contours.empty()) return {};
   for (std::size_t i = 0; i < contours.size(); ++i)
     if (contours[i].size() < 3 || !(i == 0 ? area_of(contours[i]) > 0 : area_of(contours[i]) < 0)) return {};
-  const Polygon all = joined(contours);
+  const JoinedContours all = joined(contours);
   if (crosses_itself(all)) return {};
 
   std::vector<std::uint32_t> outline(contours[0].size());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "integrals/curved_light.h"
@@ -51,7 +52,7 @@ double steepest_part(const LightProfile& profile) {
 
 }  // namespace
 
-ProfiledLight::ProfiledLight(const AreaLight& light)
+ProfiledLight::ProfiledLight(const AreaLight& light, std::shared_ptr<const ProfileTable> table)
     : emission_(*light.emission), mean_(light.radiance), round_(std::holds_alternative<Ellipse>(light.shape)) {
   if (round_) {
     const auto& disk = std::get<Ellipse>(light.shape);
@@ -61,6 +62,9 @@ ProfiledLight::ProfiledLight(const AreaLight& light)
     center_ = (v[0] + v[2]) * 0.5, x_ = (v[1] - v[0]) * 0.5, y_ = (v[3] - v[0]) * 0.5;
   }
   widest_ = std::min(kWidestKernel, kProfileShare * steepest_part(*emission_.profile));
+  reach_ = round_ ? std::sqrt(dot(x_, x_) + dot(y_, y_)) : std::max(length(x_ + y_), length(x_ - y_));
+  if (round_ && std::fabs(dot(x_, y_)) < 1e-9 * dot(x_, x_)) reach_ = std::max(length(x_), length(y_));
+  table_ = std::move(table);
 }
 
 Vec2d ProfiledLight::coordinates_of(Vec3d place) const {
@@ -139,13 +143,22 @@ class ProfiledLight::Cells {
     const double span = std::max(across_u, across_v);
     // The lobe varies over its width, and over its distance from the peak beyond.
     const double from_peak = length(middle - peak_.axis) - span / 2;
-    double excess = span / std::min(light_.widest_, kLobeShare * std::max(peak_.width, from_peak));
+    double excess = span / std::min(is_even(middle, span) ? kWidestKernel : light_.widest_, kLobeShare * std::max(peak_.width, from_peak));
     if (visible_ != nullptr) {
       const double share = visible_share(*visible_, cell);
       if (share == 0) excess = 0;
       if (share > 0 && share < 1) excess *= kFinerInPart;
     }
     return {cell, excess, across_u > across_v};
+  }
+
+  // True if the radiance is even over a cell. t changes by half of the angle, and the cell's corners are at most 0.71 of its span away.
+  bool is_even(Vec3d towards, double span) const {
+    const ProfileTable* table = light_.table();
+    if (table == nullptr) return false;
+    const double t = std::sqrt(std::max(0.5 + 0.5 * dot(towards, light_.emission_.axes.aim), 0.0));
+    const auto [least, most] = table->range(static_cast<float>(t - 0.36 * span), static_cast<float>(t + 0.36 * span));
+    return most - least <= 2 * kEven * most;
   }
 
   const ProfiledLight& light_;
@@ -178,6 +191,7 @@ double ProfiledLight::radiance_of_peak(const LobeAxis& peak, Vec3d position) con
 // is narrowest, so a lobe between the points costs no more than the others.
 Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, double integral, int most_cells,
                              const PlaneRegion* visible) const {
+  if (const std::optional<Vec3d> even = even_radiance(at.position)) return *even;
   const Grid cells = visible != nullptr ? Grid::along_axes : grid();
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
@@ -205,7 +219,7 @@ Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, d
   double mean = seen / weight;
   const double peak = visible == nullptr || sees_peak(axis, at.position, *visible) ? radiance_of_peak(axis, at.position) : 0;
   if (peak > 0 && integral > 0) mean = std::clamp(peak + (seen - peak * weight) / integral, std::min(least, peak), std::max(most, peak));
-  return emission_.intensity * (mean / emission_.area);
+  return radiance_of(mean);
 }
 
 // Starts with the cells of seen_by. While Gauss's rule of 7 points a side is far from Kronrod's of 15, it halves the cell with the largest

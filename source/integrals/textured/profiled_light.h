@@ -3,7 +3,12 @@
 // "Profiles on area lights".
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <utility>
+
 #include "integrals/methods.h"
+#include "integrals/textured/profile_table.h"
 #include "lobes/lobe.h"
 #include "shapes/plane_region.h"
 #include "steradian/area_light.h"
@@ -13,8 +18,8 @@ namespace steradian {
 
 class ProfiledLight {
  public:
-  // The light must have an emission.
-  explicit ProfiledLight(const AreaLight& light);
+  // The light must have an emission. table: its profile's, for many points; null: every point by cells.
+  explicit ProfiledLight(const AreaLight& light, std::shared_ptr<const ProfileTable> table = nullptr);
 
   // The mean over the light, weighted with the lobe, or the mean of all directions if the lobe covers nothing of the light.
   //
@@ -27,6 +32,23 @@ class ProfiledLight {
   //   visible  the part of the light that counts, in coordinates of outline()'s x and y; null: all of it. A cell counts by its visible area
   Vec3d seen_by(const Material& lobe, const ShadingPoint& at, double integral, int most_cells = 256,
                 const PlaneRegion* visible = nullptr) const;
+
+  // The same mean over the visible part, by strips across the direction in which the profile changes. Each strip has the profile's mean
+  // over its width. Takes seen_by with 1024 cells where the lobe is too narrow for strips, or without a table that serves.
+  Vec3d seen_in_part(const Material& lobe, const ShadingPoint& at, double integral, const PlaneRegion& visible) const;
+
+  // The radiance of the whole light as the point sees it, if the table shows that it is even: within kEven of this, both ways.
+  std::optional<Vec3d> even_radiance(Vec3d position) const;
+  static constexpr float kEven = 5e-4f;
+
+  // The table; null if there is none that serves.
+  const ProfileTable* table() const { return table_ && table_->serves() ? table_.get() : nullptr; }
+
+  // The radius about the centre that holds the light.
+  double reach() const { return reach_; }
+
+  // Radiance of the light for intensity over the cosine, in candela.
+  Vec3d radiance_of(double candela) const { return emission_.intensity * (candela / emission_.area); }
 
   // The coordinates of a point of the light's plane for `visible`.
   Vec2d coordinates_of(Vec3d place) const;
@@ -58,6 +80,7 @@ class ProfiledLight {
   enum class Grid { polar, along_axes };
   Grid grid() const { return round_ ? Grid::polar : Grid::along_axes; }
   Vec3d place(Grid grid, double u, double v) const;
+  std::pair<float, float> extent(Vec3d position) const;
   static double visible_share(const PlaneRegion& visible, const Cell& cell);
   bool sees_peak(const LobeAxis& peak, Vec3d position, const PlaneRegion& visible) const;
   double radiance_of_peak(const LobeAxis& peak, Vec3d position) const;  // 0 if the peak misses the light
@@ -68,6 +91,8 @@ class ProfiledLight {
   bool round_;
   Vec3d center_, x_, y_;  // of a rect: half axes
   double widest_;         // a cell's largest span [rad]: of the kernel 1 / r^2, and of the profile
+  double reach_ = 0;
+  std::shared_ptr<const ProfileTable> table_;
 };
 
 namespace methods {

@@ -11,6 +11,7 @@
 #include "integrals/point_light.h"
 #include "integrals/textured/profiled_light.h"
 #include "integrals/textured/textured_light.h"
+#include "render/direct/profiled_means.h"
 #include "render/direct/textured_means.h"
 #include "render/frame/uneven_diffuse.h"
 #include "render/many/lobe_elements.h"
@@ -105,10 +106,12 @@ Vec3d seen_by(const PackLight& light, std::size_t slot, const Material& material
               TextureWay way = TextureWay::either) {
   const double alpha = width(material.alpha_x, material.alpha_y);
   const bool textured = light.textured != nullptr && material.brdf == Brdf::ggx;
+  if (light.profiled != nullptr)
+    if (const std::optional<Vec3d> even_light = light.profiled->even_radiance(at.position)) return *even_light;
   if (light.is_pieces() && (light.profiled != nullptr || textured)) {
     const PlaneRegion visible = visible_region(light, slot, at.position);
     if (textured) return static_cast<Vec3d>(light.textured->seen_by_ggx(at, alpha, visible));
-    return light.profiled->seen_by(material, at, largest_of(even), kCellsInPart, &visible);
+    return light.profiled->seen_in_part(material, at, largest_of(even), visible);
   }
   if (light.profiled != nullptr) return light.profiled->seen_by(material, at, largest_of(even));
   if (textured) return static_cast<Vec3d>(light.textured->seen_by_ggx(at, alpha, way));
@@ -165,6 +168,18 @@ void SpecularPass::integrate_ggx(const PackLight& light, const Points& points, c
   (light.is_area() ? packs_[procedure_] : punctual)(light, points, {{}, {method_.ggx, method_.quality}, &tables_}, result);
 }
 
+// The largest channel of the lobe decides, as in ProfiledLight::seen_by.
+void SpecularPass::find_profiled_means(const ProfiledLight& light, const Points& points, const Lobe& lobe, const LobeRadiance& even,
+                                       const ProfiledMeans& means) {
+  alignas(64) TilePlane f0, f90, integral;
+  const auto largest = [](const TileVector& v, std::size_t i) { return std::max({v.x[i], v.y[i], v.z[i]}); };
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    f0[i] = largest(lobe.f0, i), f90[i] = largest(lobe.f90, i);
+    integral[i] = f0[i] * (even.plain[i] - even.fresnel[i]) + f90[i] * even.fresnel[i];
+  }
+  profiled_means_table_for(active_simd()).ggx(light, points, {f0.data(), f90.data(), integral.data()}, means);
+}
+
 void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const {
   const Points points = points_of(tile, lobe.normal, lobe.alpha_x, lobe.alpha_y);
   alignas(64) TilePlane plain, fresnel, irradiance;
@@ -183,17 +198,20 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
       continue;
     }
     TileVector seen;
-    alignas(64) TilePlane found, wanted;
+    alignas(64) TilePlane found, wanted, candela;
     for (std::size_t i = 0; i < kTilePixels; ++i) wanted[i] = std::max(plain[i], fresnel[i]);
     found.fill(0);
+    const bool on_packs = light->profiled != nullptr && light->profiled->table() != nullptr && !light->is_pieces();
+    if (on_packs) find_profiled_means(*light->profiled, points, lobe, {plain.data(), fresnel.data()}, {candela.data(), found.data()});
     if (light->textured != nullptr && !light->is_pieces())
       textured_means_table_for(active_simd())
           .ggx(*light->textured, points, compact_tables_, wanted.data(), {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       if (!(wanted[i] > 0)) continue;
       const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
-      Vec3f radiance = get(seen, i);
+      Vec3f radiance = on_packs ? static_cast<Vec3f>(light->profiled->radiance_of(static_cast<double>(candela[i]))) : get(seen, i);
       const Vec3f even = f0 * (plain[i] - fresnel[i]) + f90 * fresnel[i];
+      if (!(std::max({even.x, even.y, even.z}) > 0)) continue;
       if (!(found[i] > 0))
         radiance = static_cast<Vec3f>(seen_by(*light, i, ggx_material(lobe, tile, i), shading_point(tile, lobe.normal, i),
                                               static_cast<Vec3d>(even), TextureWay::look_up));

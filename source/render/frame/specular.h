@@ -16,6 +16,7 @@ namespace lights {
 struct FarLights;
 struct LobeElements;
 }  // namespace lights
+struct ProfiledMeans;
 
 // Lobes of metallic-roughness surfaces and their coats run on packs, and so do Phong, Beckmann and Blinn-Phong lobes. Other lobes run point
 // by point in float.
@@ -40,6 +41,8 @@ class SpecularPass {
  private:
   struct Lobe;
   void add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights) const;
+  static void find_profiled_means(const ProfiledLight& light, const Points& points, const Lobe& lobe, const LobeRadiance& even,
+                                  const ProfiledMeans& means);
   void add_far_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vector<const PackLight*>& lights, const Far& far) const;
   void add_sheen(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   bool add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,

@@ -1,8 +1,11 @@
 #include "render/frame/uneven_diffuse.h"
 
+#include <optional>
+
 #include "integrals/textured/profiled_light.h"
 #include "integrals/textured/textured_light.h"
 #include "render/direct/lobe_packs.h"
+#include "render/direct/profiled_means.h"
 #include "render/direct/textured_means.h"
 
 namespace steradian {
@@ -46,8 +49,11 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
       diffuse(*light, without_boundary, {}, {above.data()});
     }
     TileVector seen;
-    alignas(64) TilePlane found;
+    alignas(64) TilePlane found, candela;
     found.fill(0);
+    const bool on_packs = light->profiled != nullptr && light->profiled->table() != nullptr && !light->is_pieces();
+    if (on_packs)
+      profiled_means_table_for(active_simd()).diffuse(*light->profiled, points, irradiance.data(), {candela.data(), found.data()});
     if (light->textured != nullptr && !light->is_pieces())
       textured_means_table_for(active_simd())
           .diffuse(*light->textured, points, irradiance.data(), {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
@@ -59,14 +65,17 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
       const Vec3d normal = normalized(Vec3d{tile.normal.x[i], tile.normal.y[i], tile.normal.z[i]});
       const ShadingPoint at = {position, normal, normal};
       const auto mean_of = [&]() -> Vec3f {
-        if (found[i] > 0) return get(seen, i);
+        if (found[i] > 0)
+          return on_packs ? static_cast<Vec3f>(light->profiled->radiance_of(static_cast<double>(candela[i]))) : get(seen, i);
         const double integral = static_cast<double>(above[i] * kInversePi);
         if (!light->is_pieces())
           return light->textured != nullptr ? light->textured->seen_by_diffuse(at, TextureWay::look_up)
                                             : static_cast<Vec3f>(light->profiled->seen_by({}, at, integral));
+        if (light->profiled != nullptr)
+          if (const std::optional<Vec3d> even = light->profiled->even_radiance(position)) return static_cast<Vec3f>(*even);
         const PlaneRegion visible = visible_region(*light, i, position);
         if (light->textured != nullptr) return light->textured->seen_by_diffuse(at, visible);
-        return static_cast<Vec3f>(light->profiled->seen_by({}, at, integral, kCellsInPart, &visible));
+        return static_cast<Vec3f>(light->profiled->seen_in_part({}, at, integral, visible));
       };
       const Vec3f mean = mean_of();
       const Vec3f add = albedo * mean * (irradiance[i] * kInversePi);

@@ -18,6 +18,4 @@ void add_diffuse_from_uneven(SurfaceTile& tile, const std::vector<const PackLigh
 // The part of a textured or profiled light that a slot sees (PackLight of pieces), in the coordinates of its mean.
 PlaneRegion visible_region(const PackLight& light, std::size_t slot, Vec3d position);
 
-inline constexpr int kCellsInPart = 1024;  // most cells of a profiled light that is visible in part
-
 }  // namespace steradian

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "integrals/textured/profiled_light.h"
 #include "integrals/textured/textured_light.h"
@@ -53,6 +54,21 @@ std::optional<Vec3d> foot_on_long_edge(Vec3d a, Vec3d b, Vec3d center, double ra
   return foot;
 }
 
+// Lights share the table of their profile. Each takes up to 1.2 MB, so a file of many profiles has tables for the first ones only.
+class ProfileTables {
+ public:
+  std::shared_ptr<const ProfileTable> of(const std::shared_ptr<const LightProfile>& profile) {
+    constexpr std::size_t kMostTables = 64;
+    const auto found = tables_.find(profile.get());
+    if (found != tables_.end()) return found->second;
+    if (tables_.size() == kMostTables) return nullptr;
+    return tables_[profile.get()] = std::make_shared<const ProfileTable>(*profile);
+  }
+
+ private:
+  std::map<const LightProfile*, std::shared_ptr<const ProfileTable>> tables_;
+};
+
 }  // namespace
 
 PackLight prepare_light(const PreparedPolygon& polygon) {
@@ -73,11 +89,12 @@ std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLi
       lights.push_back(std::move(light));
     }
   };
+  ProfileTables tables;
   for (const AreaLight& a : scene.area_lights) {
     PackLight light = from_area_light(a);
     if (a.texture && a.texture->use.present() && !light.polygon.vertices.empty())
       light.textured = std::make_shared<TexturedLight>(a, light.polygon, scene.images);
-    if (a.emission) light.profiled = std::make_shared<ProfiledLight>(a);
+    if (a.emission) light.profiled = std::make_shared<ProfiledLight>(a, tables.of(a.emission->profile));
     add(std::move(light));
   }
   for (const AreaLight& a : beside) add(from_area_light(a));

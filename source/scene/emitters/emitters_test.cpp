@@ -271,6 +271,29 @@ TEST(Framing, OnlyEmissiveTexturesLeaveRoomForTheDefaultLight) {
   EXPECT_FALSE(wants_light(scene, outside));
 }
 
+TEST(Framing, ABoxShowsItsFrontAndASideAndNeitherIsBlack) {
+  Scene scene = emitting(box({-1, -1, -1}, {1, 1, 1}), false);
+  scene.area_lights.clear();
+  measure_bounds(scene);
+  scene.cameras = {framing_camera(scene, 1.5)};
+  const Camera& camera = scene.cameras[0];
+  EXPECT_NEAR(camera.z.x / camera.z.z, 0.6, 1e-12);
+  EXPECT_NEAR(camera.z.y / camera.z.z, 0.45, 1e-12);
+  EXPECT_EQ(camera.x.y, 0) << "the horizon is level";
+  EXPECT_NEAR(dot(cross(camera.x, camera.y), camera.z), 1, 1e-12);
+  add_lights(scene, {AddedLight::standard});
+  ASSERT_EQ(scene.area_lights.size(), 1u);
+  ASSERT_EQ(scene.punctual_lights.size(), 1u);
+  const PunctualLight& fill = scene.punctual_lights[0];
+  const PreparedPolygon key = prepare_polygon(flat_polygon(scene.area_lights[0]));
+  const double whole = scene.area_lights[0].radiance.x * polygon_irradiance(key, {}, -key.normal);
+  EXPECT_NEAR(fill.intensity.x, whole / 4, 0.1 * whole) << "a quarter of the default light, whose irradiance is pi only from afar";
+  for (const Vec3d normal : {Vec3d{1, 0, 0}, Vec3d{0, 0, 1}}) {
+    EXPECT_GT(dot(camera.position - normal, normal), 0) << "the side is in view";
+    EXPECT_GT(-dot(fill.direction, normal), 0.3) << "and lit";
+  }
+}
+
 TEST(Framing, LabelsBehindWhatTheCameraSeesAreNoLight) {
   // The light is very bright and as large as the ball; it lights the ball's rim.
   Scene scene = emitting(quad_mesh({-4, -1, 0}, {-2, -1, 0}, {-2, 1, 0}, {-4, 1, 0}, 0), false);
