@@ -26,6 +26,7 @@ enum class Action {
   reload,
   split,
   error_map,
+  bounce,
   play,
   fly,
   quit,

@@ -231,6 +231,13 @@ void act(ViewState& state, Action action) {
       state.error_map = !state.error_map;
       choose_other(state);
       break;
+    case Action::bounce:
+      if (s != nullptr) {
+        IndirectMode& mode = s->options().indirect.mode;
+        mode = mode == IndirectMode::off ? IndirectMode::ltc : IndirectMode::off;
+        choose_other(state);
+      }
+      break;
     case Action::play: state.playing = !state.playing && stage.duration() > 0; break;
     case Action::fly: break;  // the window handles it while the key is held
     case Action::quit: state.quit = true; break;

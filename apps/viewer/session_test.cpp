@@ -37,6 +37,35 @@ TEST(ViewSession, SavesASceneThatRendersToTheSameBits) {
   }
 }
 
+// The default light, its fill and its camera are those of the saved file, too.
+TEST(ViewSession, SavesASceneOfDefaultsThatRendersToTheSameBits) {
+  const std::string from = scene::GltfTestFile::square().write("defaults.glb"), to = scene::test_path("saved_defaults.glb");
+  Session s(from, small());
+  s.wait_until_settled();
+  s.camera().orbit(0.6, 0.1);
+  s.changed();
+  s.wait_until_settled();
+  s.save_scene(to);
+  EXPECT_EQ(render(load_scene(to).scene, small()).pixels, s.frame().picture.pixels);
+}
+
+TEST(ViewSession, BAddsABounceAndTakesItAway) {
+  ViewState state;
+  open_stage(state, test::kSourceDir + "/scenes/gallery.glb", small());
+  const auto sum = [&] {
+    state.session->wait_until_settled();
+    double all = 0;
+    for (const Vec3f& c : state.session->frame().picture.pixels) all += static_cast<double>(c.y);
+    return all;
+  };
+  const double direct = sum();
+  act(state, Action::bounce);
+  EXPECT_EQ(state.session->options().indirect.mode, IndirectMode::ltc);
+  EXPECT_GT(sum(), 1.1 * direct);
+  act(state, Action::bounce);
+  EXPECT_EQ(sum(), direct);
+}
+
 TEST(ViewSession, SaysWhatIsWrongAndGoesOn) {
   EXPECT_THROW(Session("/nowhere.glb", small()), Error);
   Session s(room(), small());

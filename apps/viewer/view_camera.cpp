@@ -80,11 +80,11 @@ scene::GltfFile with_camera(scene::GltfFile file, const Camera& camera) {
   const Json matrix = Json::array({m.x.x, m.x.y, m.x.z, 0, m.y.x, m.y.y, m.y.z, 0, m.z.x, m.z.y, m.z.z, 0, m.t.x, m.t.y, m.t.z, 1});
 
   std::size_t node = 0;
+  if (!json.contains("cameras")) json["cameras"] = Json::array();  // a new key moves the values, so it comes ahead of references
   Json& nodes = json["nodes"];
   if (!nodes.is_array()) nodes = Json::array();
   while (node < nodes.size() && !(nodes[node].value("name", "") == kCameraName && nodes[node].contains("camera"))) ++node;
   if (node == nodes.size()) {
-    if (!json.contains("cameras")) json["cameras"] = Json::array();
     nodes.push_back({{"name", kCameraName}, {"camera", json["cameras"].size()}});
     json["cameras"].push_back({{"name", kCameraName}, {"type", "perspective"}, {"perspective", {{"yfov", camera.yfov}}}});
   }

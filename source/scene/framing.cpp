@@ -9,6 +9,8 @@
 namespace steradian::scene {
 namespace {
 
+const Vec3d kTowardsCamera = {0.6, 0.45, 1};  // from a scene without a camera
+
 struct Sphere {
   Vec3d center;
   double radius = 1;
@@ -48,7 +50,7 @@ Camera framing_camera(const Scene& scene, double aspect) {
   constexpr double kMargin = 1.05;
   Camera camera;
   camera.name = "default";
-  camera.z = normalized(Vec3d{0.6, 0.45, 1});
+  camera.z = normalized(kTowardsCamera);
   camera.x = normalized(cross(Vec3d{0, 1, 0}, camera.z));
   camera.y = cross(camera.z, camera.x);
   const double up = std::tan(camera.yfov / 2) / kMargin, across = up * aspect;
@@ -119,7 +121,7 @@ PunctualLight directional_light(const char* name, Vec3d direction, double irradi
 
 }  // namespace
 
-PunctualLight default_fill(const Camera& camera) { return directional_light("default fill", -camera.z, std::numbers::pi / 4); }
+PunctualLight default_fill() { return directional_light("default fill", -normalized(kTowardsCamera), std::numbers::pi / 4); }
 
 namespace {
 
@@ -218,7 +220,7 @@ void add_lights(Scene& scene, const std::vector<AddedLight>& lights) {
       case AddedLight::none: break;
       case AddedLight::standard:
         scene.area_lights.push_back(default_light(scene));
-        if (!scene.cameras.empty()) scene.punctual_lights.push_back(default_fill(scene.cameras.front()));
+        scene.punctual_lights.push_back(default_fill());
         break;
       case AddedLight::sun: scene.punctual_lights.push_back(directional_light("sun", -normalized(kTowardsKey), std::numbers::pi)); break;
       case AddedLight::studio:

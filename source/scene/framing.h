@@ -24,9 +24,9 @@ Camera framing_camera(const Scene& scene, double aspect);
 // A square light above, in front and to the left, that faces the scene's centre. It is not visible itself.
 AreaLight default_light(const Scene& scene);
 
-// Light of a quarter of that irradiance along the camera's view, so that shade is not black. It is directional: its shadows are cheapest,
-// and behind what the camera sees.
-PunctualLight default_fill(const Camera& camera);
+// Light of a quarter of that irradiance from the side of framing_camera, so that shade is not black. It is directional: its shadows are
+// cheapest, and lie behind what that camera sees. Another camera does not move it, so a scene looks the same when it is saved with one.
+PunctualLight default_fill();
 
 // True if the scene's own lights leave its picture black. That is so if it has no light, or only emissive textures, each of which is one of
 //   - a detail that glows on an object, such as a helmet's visor. Its radiance times area is below a thirtieth of the default light's.
@@ -36,7 +36,7 @@ PunctualLight default_fill(const Camera& camera);
 // Other lights are intended, however weak, and so are textures that light visible surfaces.
 bool wants_light(const Scene& scene, const Camera& camera);
 
-// Adds the lights that a user asks for. None of them is visible itself. The scene has its cameras: the first one has the default fill.
+// Adds the lights that a user asks for. None of them is visible itself.
 void add_lights(Scene& scene, const std::vector<AddedLight>& lights);
 
 }  // namespace steradian::scene

@@ -158,8 +158,8 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   } else if (!scene.environment && wants_light(scene, scene.cameras.front())) {
     warnings.say(
         scene.area_lights.empty()
-            ? "the scene has no lights: a default area light shines from above, and a weak one from the camera"
-            : "the scene's emissive textures do not light it: a default area light shines from above, and a weak one from the camera");
+            ? "the scene has no lights: a default area light shines from above, and a weak one from the front"
+            : "the scene's emissive textures do not light it: a default area light shines from above, and a weak one from the front");
     add_lights(scene, {AddedLight::standard});
   }
   facts.not_supported = warnings.features();

@@ -12,7 +12,7 @@ constexpr int kCellsForNarrowLobes = 1024;  // for a lobe too narrow for strips
 
 // Strips and cells of a strip. The spacing is a fraction of the lobe's width: the midpoints' sum over a lobe w wide at a spacing of 0.35 w
 // is off by exp(-2 pi / 0.35), and by the ends of the light. A quarter of a radian is the same for cosines over distance squared.
-constexpr int kStripsOfPart = 16, kMostStripsOfPart = 32, kCellsOfStrip = 6;
+constexpr int kStripsOfPart = 14, kMostStripsOfPart = 32, kCellsOfStrip = 5;
 constexpr double kLobeSpacing = 0.35, kKernelSpacing = 0.25;
 
 // sin(theta / 2) for the point at this height above the light's plane and this distance from the normal.
