@@ -250,14 +250,17 @@ TEST(Methods, BlenderOffersKnownWords) {
     const std::string option = (*s)[1], items = (*s)[2];
     for (std::sregex_iterator i(items.begin(), items.end(), item); i != end; ++i) {
       const std::string word = (*i)[1];
-      EXPECT_TRUE(option == "method"    ? method_of(word).has_value()
-                  : option == "shadows" ? words::find<Shadows>(word).has_value()
-                                        : words::find<IndirectMode>(word).has_value())
+      EXPECT_TRUE(option == "method"       ? method_of(word).has_value()
+                  : option == "shadows"    ? words::find<Shadows>(word).has_value()
+                  : option == "terminator" ? words::find<Terminator>(word).has_value()
+                  : option == "environment"
+                      ? word == "white" || word == "sky" || word == "world" || word == "none"  // the last two: Blender's
+                      : words::find<IndirectMode>(word).has_value())
           << option << " " << word;
       found.insert(option);
     }
   }
-  EXPECT_EQ(found, (std::set<std::string>{"method", "shadows", "indirect"}));
+  EXPECT_EQ(found, (std::set<std::string>{"method", "shadows", "indirect", "terminator", "environment"}));
 }
 
 }  // namespace steradian::methods_test
