@@ -10,7 +10,8 @@
 namespace steradian::radiosity {
 namespace {
 
-// What a surface's narrow lobes reflect of the light from the mirrored direction. Lobes about another normal than the first are left out.
+// The mirrored direction of a surface's narrow lobes, and the fraction that they reflect. It leaves out lobes about another normal than the
+// first.
 struct Mirror {
   Vec3f direction, weight;
 };
