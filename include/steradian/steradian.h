@@ -4,6 +4,7 @@
 #include "steradian/albedo.h"
 #include "steradian/area_light.h"
 #include "steradian/batch.h"
+#include "steradian/bounces.h"
 #include "steradian/capsule_light.h"
 #include "steradian/closed_form.h"
 #include "steradian/compare.h"
