@@ -175,8 +175,10 @@ void run(CompareArguments& options) {
     seen.push_back(method);
   }
   exposure_stops(options.exposure);
+  options.render.bounces = bounces_of(options.bounces);
   Subject subject;
   if (is_plane_scene(options.scene)) {
+    if (options.render.bounces != 0) throw WrongOption("--bounces", "has an effect only with a scene in three dimensions (.gltf, .glb)");
     const auto world = std::make_shared<const PlaneWorld>(load_plane_scene(options.scene, options.limits).scene, options.limits);
     if (options.methods.empty())
       options.methods = takes_par(*world) ? Names{"exact", "par", "sampled", "marched"} : Names{"exact", "sampled", "marched"};
@@ -219,6 +221,7 @@ void add_compare(CommandLine& line) {
   verb.add("--methods", options->methods, "names separated by commas; default: the usual four").separator(',').suggests(method_names());
   verb.add_flag("!--one-setting", options->settings, "one quality and one number of samples a method");
   verb.add_word("--shadows", r.shadows, "direct shadows");
+  verb.add("--bounces", options->bounces, "light between surfaces (.gltf, .glb): number of bounces, or all").check(unknown_bounces);
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels; default: 960x540, or the drawing's").group("Picture");
   verb.add("--camera", r.camera, "name of the camera; default: the file's first").group("Picture");
   verb.add("--exposure", options->exposure, "of the page and of FLIP: stops, or auto").group("Picture");

@@ -1,5 +1,7 @@
 #include "picture_options.h"
 
+#include "steradian/bounces.h"
+
 #include <cstdio>
 
 #include "integrals/methods.h"
@@ -34,6 +36,13 @@ std::vector<std::string> method_names() {
 std::string unknown_method(const std::string& name, bool plane) {
   if (method_of(name) || (plane && words::find<PlaneMethod>(name))) return {};
   return "unknown method " + name + ", use " + methods::names();
+}
+
+int bounces_of(const std::string& text) { return text == "all" ? kAllBounces : std::stoi(text); }
+
+std::string unknown_bounces(const std::string& text) {
+  const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
+  return number || text == "all" ? std::string() : "give a number of bounces, or all";
 }
 
 }  // namespace steradian::app

@@ -17,6 +17,10 @@ PictureSize picture_size(const std::string& text);
 // Parses stops, -30 to 30; none for "auto". Throws WrongOption.
 std::optional<float> exposure_stops(const std::string& text);
 
+// Parses a number of bounces, or "all" (kAllBounces), that unknown_bounces accepts.
+int bounces_of(const std::string& text);
+std::string unknown_bounces(const std::string& text);  // message for anything else; empty for these
+
 // The names of methods that completions offer.
 std::vector<std::string> method_names();
 

@@ -189,8 +189,6 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
        {"--stats", options.frames.empty(), "one picture, not --frames"}});
 }
 
-int bounces_of(const RenderArguments& options) { return options.bounces == "all" ? kAllBounces : std::stoi(options.bounces); }
-
 // A plane scene has its own size, one unit per pixel, and its own methods.
 void run_plane(RenderArguments& options) {
   PlaneRender job = options.plane;
@@ -206,7 +204,7 @@ void run_plane(RenderArguments& options) {
     job.frame.width = options.render.width;
     job.frame.height = options.render.height;
   }
-  job.bounces = bounces_of(options);
+  job.bounces = bounces_of(options.bounces);
   job.frames = options.frames;
   job.fps = options.fps;
   job.force = options.force;
@@ -227,7 +225,7 @@ void run(const Verb& verb, RenderArguments& options) {
   if (!method_of(render_options.method)) throw WrongOption("--method", render_options.method + " is for plane scenes (.svg)");
   parse_size(options.size, render_options);
   refuse_unused_in_space(verb, options);
-  render_options.bounces = bounces_of(options);
+  render_options.bounces = bounces_of(options.bounces);
   const std::optional<float> fixed_exposure = exposure_stops(options.exposure);
   parse_indirect_shadows(options);
   LoadOptions& load = options.load;
@@ -336,12 +334,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   verb.add_word("--terminator", r.terminator, "shadow edge of curved meshes on themselves").group("Light");
   verb.add_word("--indirect", r.indirect.mode, "one bounce, by virtual lights or paths").group("Light");
-  verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all")
-      .check([](const std::string& text) {
-        const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
-        return number || text == "all" ? std::string() : "give a number of bounces, or all";
-      })
-      .group("Light");
+  verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--reflections", r.reflections, "of --bounces: mirrors in a row").range(0, 16).group("Light");
   verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");

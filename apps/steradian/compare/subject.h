@@ -16,7 +16,7 @@
 namespace steradian::app {
 
 struct CompareArguments {
-  std::string scene, output, size, exposure = "auto";
+  std::string scene, output, size, exposure = "auto", bounces = "0";
   std::vector<std::string> methods;
   bool settings = true;
   std::optional<int> max_lights;
