@@ -100,11 +100,13 @@ TEST_F(Faults, AnInterruptedReferenceGoesOnToTheSameBytes) {
       arguments = resume();
     }
     if (fs::exists(partial)) {
-      std::vector<std::string> other = resume();
-      other.insert(other.end(), {"--seed", "2"});
-      const Outcome refused = run(other);
-      EXPECT_EQ(refused.status, 1);
-      EXPECT_NE(refused.err.find("was begun with another scene or other options"), std::string::npos) << refused.err;
+      for (const auto& [option, value] : {std::pair{"--seed", "2"}, {"--bounces", "2"}}) {
+        std::vector<std::string> other = resume();
+        other.insert(other.end(), {option, value});
+        const Outcome refused = run(other);
+        EXPECT_EQ(refused.status, 1) << option;
+        EXPECT_NE(refused.err.find("was begun with another scene or other options"), std::string::npos) << refused.err;
+      }
     }
     const Outcome o = run(resume());
     EXPECT_EQ(o.status, 0) << o.err;

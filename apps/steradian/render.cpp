@@ -113,9 +113,10 @@ std::string identity_of(const RenderArguments& options, const Scene& scene) {
              fmt::join(options.lights, ","), words::name_of(load.light_units), load.environment, load.environment_rotation,
              words::name_of(r.background), r.camera, r.method, words::name_of(r.quality), words::name_of(r.shadows),
              words::name_of(r.terminator), options.multiple_scattering) +
-         fmt::format(" | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", words::name_of(r.indirect.mode),
-                     r.indirect.virtual_lights, options.indirect_shadows, r.indirect.kept_pairs, words::name_of(r.indirect.quads),
-                     words::name_of(r.indirect.soften), options.size, r.aa, r.spp, r.target_error, r.seed);
+         fmt::format(" | bounces {} | indirect {} {} {} {} {} {} | size {} aa {} spp {} target {} seed {}", r.bounces,
+                     words::name_of(r.indirect.mode), r.indirect.virtual_lights, options.indirect_shadows, r.indirect.kept_pairs,
+                     words::name_of(r.indirect.quads), words::name_of(r.indirect.soften), options.size, r.aa, r.spp, r.target_error,
+                     r.seed);
 }
 
 // Renders the picture. The error for running out of memory gives the picture and its size.
