@@ -142,6 +142,33 @@ Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, i
   }
 }
 
+// Adds the irradiance over pi that the bright sides send. A place counts as a disk of the area that it stands for.
+void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::array<Vec3f, kLanes>& mean) const {
+  const std::vector<BrightPlace>& places = light_.bright_places();
+  const float soft = light_.bright_area() / std::numbers::pi_v<float>;
+  for (std::size_t first = 0; first < places.size(); first += kLanes) {
+    RayScene::Sixteen rays;
+    std::uint32_t traced = 0;
+    std::array<Vec3f, kLanes> light;
+    SixteenSurfaces::each(asked, [&](std::size_t i) {
+      const auto number = static_cast<std::size_t>(kPlaces[(i + static_cast<std::size_t>(sample)) % kLanes]);
+      const BrightPlace& place = places[std::min(first + number, places.size() - 1)];
+      const Surface& s = surfaces.surface[i];
+      const auto offset = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(s.position)));
+      const Vec3f from = s.position + s.geometric_normal * offset, way = place.position - from;
+      const float here = dot(way, s.normal), there = -dot(way, place.normal), square = dot(way, way);
+      if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0)) return;
+      // Each pixel takes a sixteenth of the places.
+      light[i] = place.power * (static_cast<float>(kLanes) * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
+      const float most = 1 - 2 * offset / std::sqrt(square);
+      if (!(most > 0)) return;
+      rays.set(i, static_cast<Vec3d>(from), static_cast<Vec3d>(way * most));
+      traced |= 1u << i;
+    });
+    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { mean[i] += light[i]; });
+  }
+}
+
 // The mean radiance about each surface, weighted by the cosine, times its albedo.
 void Gather::add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, Result& result) const {
   std::array<std::array<Vec3f, 2>, kLanes> light{};  // by half of the rays
@@ -159,7 +186,7 @@ void Gather::add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, i
     });
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i] != kNoSide) light[i][k % 2] += light_.radiance(met[i]) * cosine[i];
+      if (met[i] != kNoSide && !light_.is_bright(met[i])) light[i][k % 2] += light_.radiance(met[i]) * cosine[i];
   }
   std::array<Vec3f, kLanes> mean{}, error{};
   SixteenSurfaces::each(asked, [&](std::size_t i) {
@@ -168,6 +195,7 @@ void Gather::add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, i
     const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f;
     error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
   });
+  add_bright(surfaces, asked, sample, mean);
   const BlockFit fit(surfaces, asked);
   SixteenSurfaces::each(asked, [&](std::size_t i) {
     const Surface& s = surfaces.surface[i];

@@ -28,6 +28,7 @@ class Gather {
   Result reflected(const SixteenSurfaces& surfaces, int sample) const;
 
  private:
+  void add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::array<Vec3f, kLanes>& mean) const;
   void add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, Result& result) const;
   void add_lobe(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, Result& result) const;
 

@@ -10,6 +10,7 @@
 #include "core/float_mode.h"
 #include "core/random.h"
 #include "render/surface/gbuffer.h"
+#include "steradian/area_light.h"  // luminance
 
 namespace steradian::radiosity {
 namespace {
@@ -66,9 +67,12 @@ PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& 
   direct_.resize(sides);
   find_direct(add_direct);
   radiance_ = direct_;
-  if (options.bounces == 1 || sides == 0) return;
-  find_links(std::clamp(kMostLinks / sides, std::size_t{16}, size_for(options.quality).rays) / BounceRays::kLanes * BounceRays::kLanes);
-  iterate(options.bounces);
+  if (sides == 0) return;
+  if (options.bounces != 1) {
+    find_links(std::clamp(kMostLinks / sides, std::size_t{16}, size_for(options.quality).rays) / BounceRays::kLanes * BounceRays::kLanes);
+    iterate(options.bounces);
+  }
+  find_bright_sides();
 }
 
 // The surface at the middle of a side, as a ray sees it that comes along the normal.
@@ -162,6 +166,48 @@ void PatchLight::iterate(int bounces) {
     residual_ = largest > 0 ? change / largest : 0;
     if (bounces == kAllBounces && residual_ <= kSmallChange) break;
   }
+}
+
+float PatchLight::area_of(std::uint32_t side) const {
+  const Patches::Site& at = patches_.site(side);
+  const Mesh& mesh = scene_.meshes[at.mesh];
+  const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
+  return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * at.step * at.step;
+}
+
+// Spreads places over the bright sides in proportion to their light.
+void PatchLight::find_bright_sides() {
+  constexpr double kBright = 6;  // times the mean radiance of the sides that send light
+  constexpr std::size_t kPlaces = 1024;
+  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side])); };
+  double power = 0, area = 0;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    if (!(brightness(side) > 0)) continue;
+    power += brightness(side) * static_cast<double>(area_of(side));
+    area += static_cast<double>(area_of(side));
+  }
+  const double least = area > 0 ? kBright * power / area : 0;
+  std::vector<std::uint8_t> bright(sides);
+  double bright_power = 0, bright_area = 0;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    bright[side] = least > 0 && brightness(side) > least;
+    if (bright[side] == 0) continue;
+    bright_power += brightness(side) * static_cast<double>(area_of(side));
+    bright_area += static_cast<double>(area_of(side));
+  }
+  if (!(bright_power > 0)) return;
+  double before = 0;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    if (bright[side] == 0) continue;
+    before += brightness(side) * static_cast<double>(area_of(side));
+    while (places_.size() < kPlaces && (static_cast<double>(places_.size()) + 0.5) * bright_power < before * kPlaces) {
+      const Surface s = surface_of(side);
+      places_.push_back({s.position, s.geometric_normal, radiance_[side] * static_cast<float>(bright_power / kPlaces / brightness(side))});
+    }
+  }
+  bright_ = std::move(bright);
+  bright_area_ = static_cast<float>(bright_area / kPlaces);
 }
 
 }  // namespace steradian::radiosity

@@ -16,6 +16,12 @@ struct PatchOptions {
   Quality quality = Quality::normal;
 };
 
+// A place that stands for an equal part of the light of all bright sides, which few directions of a gather would meet.
+struct BrightPlace {
+  Vec3f position, normal;
+  Vec3f power;  // radiance times area
+};
+
 class PatchLight {
  public:
   // Adds the direct light of a tile's surfaces to their radiance.
@@ -26,6 +32,10 @@ class PatchLight {
 
   const Patches& patches() const { return patches_; }
   Vec3f radiance(std::uint32_t side) const { return side == kNoSide ? Vec3f{} : radiance_[side]; }
+  // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().
+  bool is_bright(std::uint32_t side) const { return side != kNoSide && !bright_.empty() && bright_[side] != 0; }
+  const std::vector<BrightPlace>& bright_places() const { return places_; }
+  float bright_area() const { return bright_area_; }  // of the part that one place stands for
   int iterations() const { return iterations_; }
   // Largest change of the last iteration over the largest radiance.
   double residual() const { return residual_; }
@@ -35,6 +45,8 @@ class PatchLight {
   void find_direct(const AddDirect& add_direct);
   void find_links(std::size_t rays);
   void iterate(int bounces);
+  void find_bright_sides();
+  float area_of(std::uint32_t side) const;
 
   const Scene& scene_;
   const RayScene& rays_;
@@ -43,6 +55,9 @@ class PatchLight {
   std::vector<Vec3f> reflectance_, direct_, radiance_;  // by side
   std::size_t links_per_side_ = 0;
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
+  std::vector<std::uint8_t> bright_;  // by side; empty: none is
+  std::vector<BrightPlace> places_;
+  float bright_area_ = 0;
   int iterations_ = 0;
   double residual_ = 0;
 };
