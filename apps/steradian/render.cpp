@@ -158,7 +158,7 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--reflections", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--time-limit", r.method != "sampled" && r.method != "reference", "a method without samples"},
        {"--time-limit", r.shadows != Shadows::off, "--shadows on or exact"},
-       {"--time-limit", r.indirect.mode == IndirectMode::off, "direct light, not --indirect"}});
+       {"--time-limit", r.indirect.mode == IndirectMode::off && options.bounces == "0", "direct light, without --bounces and --indirect"}});
   verb.refuse({"--moments", "--occluders", "--normal-map", "--lamp-height", "--bounce-lattice", "--edits"}, "a plane scene (.svg)");
 }
 

@@ -46,8 +46,9 @@ struct RenderOptions {
   int aa = 1;                  // primary samples a pixel, at the same places in every pixel
   int spp = 16;                // for `sampled`: light and lobe sample pairs per light and primary sample
   double target_error = 0.01;  // for `reference`: rms of the standard error over rms of the picture; 0: `spp` pairs in every pixel
-  // Seconds from the start of render; 0: no limit. With a limit, a few rays estimate the shadows first. Tiles then become exact, the least
-  // certain first, until the time is over. The layer "shadow_bound" gives each pixel's possible error (docs/shadows.md).
+  // Seconds from the start of render; 0: no limit. It has no effect with bounces. With a limit, a few rays estimate the shadows first.
+  // Tiles then become exact, the least certain first, until the time is over. The layer "shadow_bound" gives each pixel's possible error
+  // (docs/shadows.md).
   double time_limit = 0;
   // Light that other surfaces send, after this number of bounces at most (kAllBounces: any number). Excludes `indirect`.
   int bounces = 0;

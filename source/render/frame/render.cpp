@@ -308,9 +308,14 @@ class Renderer {
 
   // Solves the light between surfaces.
   void solve_bounces() {
+    steps_ += radiosity::PatchLight::direct_tiles(scene_, options_.quality);
     arena_.execute([&] {
       all_light_ = std::make_unique<AllLight>(
-          scene_, parts_, surfaces_.camera(), options_, [this](SurfaceTile& tile) { light_directly(tile, true); },
+          scene_, parts_, surfaces_.camera(), options_,
+          [this](SurfaceTile& tile) {
+            if (tile.any_surface) light_directly(tile, true);
+            if (options_.progress) options_.progress(++done_, steps_);
+          },
           [this](SurfaceTile& tile) { light_directly(tile, false); });
     });
   }
@@ -322,8 +327,8 @@ class Renderer {
     std::size_t rays = 0;  // of a pixel to a light
   };
 
-  // True if the time is limited. Only shadows take much of it that something else can stand for.
-  bool is_limited() const { return options_.time_limit > 0 && lighting_.has_shadows() && !in_blocks(); }
+  // True if the time is limited. Only shadows of direct light take much of it that something else can stand for.
+  bool is_limited() const { return options_.time_limit > 0 && options_.bounces == 0 && lighting_.has_shadows() && !in_blocks(); }
   double seconds() const { return ms_since(start_) * 1e-3; }
 
   // Renders all tiles with shadows by 4 rays, then by 16 and 64 if they fit into a part of the time. Then makes tiles exact, those with the

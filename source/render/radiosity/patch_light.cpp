@@ -49,6 +49,9 @@ Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)};
 }
 
+constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
+std::size_t tiles_for(std::size_t patches) { return (patches + kTilePatches - 1) / kTilePatches; }
+
 template <class Work>
 void each(std::size_t count, Work work) {
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -75,6 +78,10 @@ PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& 
   find_bright_sides();
 }
 
+std::size_t PatchLight::direct_tiles(const Scene& scene, Quality quality) {
+  return tiles_for(Patches(scene, size_for(quality).patches).side_count() / 2);
+}
+
 // The surface at the middle of a side, as a ray sees it that comes along the normal.
 Surface PatchLight::surface_of(std::uint32_t side) const {
   const Patches::Site& at = patches_.site(side);
@@ -90,16 +97,15 @@ Surface PatchLight::surface_of(std::uint32_t side) const {
 // Finds the direct light of the sides, a tile of sides at a time: the fronts of its patches, and then their backs.
 void PatchLight::find_direct(const AddDirect& add_direct) {
   static const SurfaceMaterial plain;
-  constexpr std::size_t kPatches = kTilePixels / 2;
   const std::size_t patches = patches_.side_count() / 2;
-  each((patches + kPatches - 1) / kPatches, [&](std::size_t number) {
+  each(tiles_for(patches), [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
     clear_kinds(*tile);
     tile->seed = number;
     // The side in a slot, or kNoSide.
     const auto side_of = [&](std::size_t slot) {
-      const std::size_t patch = number * kPatches + slot % kPatches;
-      return patch < patches ? static_cast<std::uint32_t>(2 * patch + slot / kPatches) : kNoSide;
+      const std::size_t patch = number * kTilePatches + slot % kTilePatches;
+      return patch < patches ? static_cast<std::uint32_t>(2 * patch + slot / kTilePatches) : kNoSide;
     };
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const std::uint32_t side = side_of(i);
@@ -117,7 +123,7 @@ void PatchLight::find_direct(const AddDirect& add_direct) {
       white.material = &plain;
       put_surface(*tile, i, white, s.geometric_normal);
     }
-    if (tile->any_surface) add_direct(*tile);
+    add_direct(*tile);
     for (std::size_t i = 0; i < kTilePixels; ++i)
       if (const std::uint32_t side = side_of(i); side != kNoSide) direct_[side] = get(tile->radiance, i) * reflectance_[side];
   });

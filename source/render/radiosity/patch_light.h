@@ -30,6 +30,9 @@ class PatchLight {
   // Computes all radiances, on the threads of the caller's arena. The scene, its rays and its mip maps must outlive this object.
   PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options, const AddDirect& add_direct);
 
+  // Number of calls of add_direct, for progress.
+  static std::size_t direct_tiles(const Scene& scene, Quality quality);
+
   const Patches& patches() const { return patches_; }
   Vec3f radiance(std::uint32_t side) const { return side == kNoSide ? Vec3f{} : radiance_[side]; }
   // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().
