@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/lattices.h"
+
 namespace steradian::app {
 namespace {
 
@@ -40,7 +42,6 @@ void for_each_facet(const Scene& scene, Use use) {
 }
 
 // Points at even steps of the area, each at the next place of a sequence that is even over the unit square, folded into its triangle.
-// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
 std::vector<Patch> patches_of(const Scene& scene, double total) {
   std::vector<Patch> patches;
   double before = 0;
@@ -48,9 +49,7 @@ std::vector<Patch> patches_of(const Scene& scene, double total) {
     before += f.area;
     while (patches.size() < kPoints && (static_cast<double>(patches.size()) + 0.5) * total < before * static_cast<double>(kPoints)) {
       const auto i = static_cast<double>(patches.size() + 1);
-      double u = 0.7548776662466927 * i, v = 0.5698402909980532 * i;
-      u -= std::floor(u);
-      v -= std::floor(v);
+      auto [u, v] = r2_place(i);
       if (u + v > 1) u = 1 - u, v = 1 - v;
       patches.push_back({f.corner + f.e1 * u + f.e2 * v, f.normal, f.albedo});
     }

@@ -48,7 +48,7 @@ struct RenderOptions {
   double target_error = 0.01;  // for `reference`: rms of the standard error over rms of the picture; 0: `spp` pairs in every pixel
   // Seconds from the start of render; 0: no limit. It has no effect with bounces. With a limit, a few rays estimate the shadows first.
   // Tiles then become exact, the least certain first, until the time is over. The layer "shadow_bound" gives each pixel's possible error
-  // (docs/shadows.md).
+  // (docs/time-limit.md).
   double time_limit = 0;
   // Light that other surfaces send, after this number of bounces at most (kAllBounces: any number). Excludes `indirect`.
   int bounces = 0;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/lattices.h"
+
 namespace steradian::scene {
 namespace {
 
@@ -151,12 +153,9 @@ std::vector<SurfacePoint> points_in_view(const Scene& scene, const Camera& camer
   for (const Piece& piece : pieces) {
     before += piece.area;
     while (static_cast<int>(points.size()) < count && (static_cast<double>(points.size()) + 0.5) * total < before * count) {
-      // Points that are even over the unit square, folded into the triangle. Roberts, "The unreasonable effectiveness of quasirandom
-      // sequences", 2018.
+      // Points that are even over the unit square, folded into the triangle.
       const auto i = static_cast<double>(points.size() + 1);
-      double u = 0.7548776662466927 * i, v = 0.5698402909980532 * i;
-      u -= std::floor(u);
-      v -= std::floor(v);
+      auto [u, v] = r2_place(i);
       if (u + v > 1) u = 1 - u, v = 1 - v;
       points.push_back({piece.corner + piece.e1 * u + piece.e2 * v, piece.normal});
     }

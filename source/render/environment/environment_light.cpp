@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 
+#include "core/lattices.h"
 #include "lobes/lobe.h"
 #include "steradian/area_light.h"  // luminance
 
@@ -43,18 +44,11 @@ double integrate_mean_grazing(double cos_view) {
   return sum / (kSteps * kSteps);
 }
 
-// Positions in the unit square, uniform in both directions: a Fibonacci lattice, shifted in its second direction.
-std::array<double, 2> place_of_cone(int i, int count, double turn) {
-  const double golden = 0.61803398874989485;
-  const double v = i * golden + turn;
-  return {(i + 0.5) / count, v - std::floor(v)};
-}
-
 // Points of the unit disc, with the square of their radius.
 std::vector<Vec3f> points_of_disc(int count) {
   std::vector<Vec3f> points;
-  for (int i = 0; i < count; ++i) {
-    const auto [u, v] = place_of_cone(i, count, 0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const auto [u, v] = fibonacci_place(i, static_cast<std::size_t>(count), 0);
     const double r = std::sqrt(u), phi = 2 * std::numbers::pi * v;
     points.push_back(static_cast<Vec3f>(Vec3d{r * std::cos(phi), r * std::sin(phi), u}));
   }
@@ -112,7 +106,7 @@ double EnvironmentLight::measured_residual(const DirectionGrid& whole, const Dir
                         luminance(static_cast<Vec3d>(left.map.at(i, j))) * all.solid_angle(j)});
   double squares = 0, mean = 0;
   for (int i = 0; i < kViews; ++i) {
-    const double golden = i * 0.61803398874989485;
+    const double golden = i * kGolden;
     const Vec3d normal = direction_of({golden - std::floor(golden), std::acos(1 - (2 * i + 1.0) / kViews) / std::numbers::pi});
     const Frame frame = Frame::from_normal(normal);
     const double tilt = 1.2 * (i % 4) / 4;
@@ -209,7 +203,7 @@ LobeCones EnvironmentLight::cones_of(const SurfaceLobe& of, const Surface& surfa
   const lobes::Lobe lobe(lobes::in_frame(material, frame), local_view);
   if (!lobe.above_surface()) return result;
   for (int i = 0; i < count; ++i) {
-    const auto [u, v] = place_of_cone(i, count, turn);
+    const auto [u, v] = fibonacci_place(static_cast<std::size_t>(i), static_cast<std::size_t>(count), turn);
     const Vec3d l = lobe.sample(u, v);
     if (!(l.z > 0)) continue;
     const double pdf = lobe.pdf(l);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sphere_lattice.h"
+#include "core/lattices.h"
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian::environment {
@@ -57,7 +57,7 @@ EnvironmentShadows::EnvironmentShadows(const EnvironmentLight& light, const RayS
   for (int set = 0; set < std::min(options.aa, kSets); ++set) {
     std::vector<Direction>& directions = sets_.emplace_back();
     for (std::size_t i = 0; i < count; ++i) {
-      const auto to = static_cast<Vec3f>(lattice_direction(i, count, static_cast<double>(set) / kSets));
+      const auto to = static_cast<Vec3f>(fibonacci_direction(i, count, static_cast<double>(set) / kSets));
       directions.push_back({to, light.rest(to, width)});
     }
   }
@@ -151,8 +151,7 @@ std::array<Vec3f, EnvironmentShadows::kLanes> EnvironmentShadows::reflected(cons
   std::uint32_t diffuse = 0;
   SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
     const Surface& surface = surfaces.surface[i];
-    const auto position = static_cast<Vec3d>(surface.position);
-    origins.position[i] = position + static_cast<Vec3d>(surface.geometric_normal) * rays_.offset_from_surface(position);
+    origins.position[i] = rays_.off_surface(static_cast<Vec3d>(surface.position), static_cast<Vec3d>(surface.geometric_normal));
     if (terminator_ == Terminator::strict) origins.horizon[i] = surface.geometric_normal;
     lobes[i] = lobes_of(surface);
     most_lobes = std::max(most_lobes, lobes[i].size());

@@ -9,9 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -21,6 +19,7 @@
 #include "render/frame/frame_surfaces.h"
 #include "render/frame/methods.h"
 #include "render/frame/tile_lighting.h"
+#include "render/frame/timed_picture.h"
 #include "render/sampled/monte_carlo.h"
 #include "render/sampled/paths.h"
 #include "render/surface/gbuffer.h"
@@ -320,80 +319,22 @@ class Renderer {
     });
   }
 
-  // Finder of the shadows of a tile.
-  enum class ShadowsBy { edges, rays, nothing };
-  struct ShadowWork {
-    ShadowsBy by = ShadowsBy::edges;
-    std::size_t rays = 0;  // of a pixel to a light
-  };
-
   // True if the time is limited. Only shadows of direct light take much of it that something else can stand for.
   bool is_limited() const { return options_.time_limit > 0 && options_.bounces == 0 && lighting_.has_shadows() && !in_blocks(); }
-  double seconds() const { return ms_since(start_) * 1e-3; }
 
-  // Renders all tiles with shadows by 4 rays, then by 16 and 64 if they fit into a part of the time. Then makes tiles exact, those with the
-  // largest estimated error first, until the time is over. Tiles for which not even rays have time show the light without shadows.
   void render_within_limit(RenderState& state) {
-    constexpr double kForRays = 0.6;  // fraction of the time that rays may take
-    constexpr std::size_t kMore = 4;  // factor from step to step
-    LimitedPicture limited{state.picture, state.picture, std::vector<double>(state.done.size()), state.done};
     steps_ = static_cast<std::uint64_t>(2 * tile_count());
-    std::vector<int> order(state.done.size());
-    std::iota(order.begin(), order.end(), 0);
-    double expected = 0, last = 0;  // seconds of a step; the time grows by the same amount a ray
-    for (std::size_t rays = 4; rays <= FewRays::kMost; rays *= kMore) {
-      const double begun = seconds(), end = kForRays * options_.time_limit;
-      if (rays > 4 && begun + expected > end) break;
-      improve(order, {ShadowsBy::rays, rays}, rays > 4 ? end : std::numeric_limits<double>::infinity(), limited);
-      const double took = seconds() - begun;
-      expected = rays > 4 ? took + kMore * (took - last) : kMore / 2 * took;
-      last = took;
-    }
-    const std::vector<double>& errors = limited.errors;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int i, int j) { return errors[static_cast<std::size_t>(i)] > errors[static_cast<std::size_t>(j)]; });
-    improve(order, {}, options_.time_limit, limited);
-    exact_tiles_ = static_cast<double>(std::count(state.done.begin(), state.done.end(), 1)) / static_cast<double>(state.done.size());
-    double light = 0;
-    for (const Vec3f& p : state.picture.pixels) light += luminance(static_cast<Vec3d>(p));
-    const auto pixels = static_cast<double>(state.picture.pixels.size());
-    estimated_error_ = light > 0 ? std::sqrt(std::accumulate(errors.begin(), errors.end(), 0.0) / pixels) / (light / pixels) : 0;
+    TimedPicture timed(state.picture, options_.time_limit,
+                       {tile_count(), [this](int index) { return area(index); },
+                        [this](int index, ShadowWork work, Picture& to) { return render_tile(index, 0, to, work); },
+                        [this] { return ms_since(start_) * 1e-3; }, [this] { return stopped(); },
+                        [this] {
+                          if (options_.progress) options_.progress(++done_, steps_);
+                        }});
+    arena_.execute([&] { timed.render(threads_); });
+    exact_tiles_ = timed.exact_tiles();
+    estimated_error_ = timed.estimated_error();
     std::fill(state.done.begin(), state.done.end(), 1);
-  }
-
-  struct LimitedPicture {
-    Picture& picture;
-    Picture scratch;             // where a tile is rendered before it replaces that of the picture
-    std::vector<double> errors;  // by tile: sum of the squares of the estimated errors
-    std::vector<std::uint8_t>& exact;
-  };
-
-  // Renders tiles again, in an order, as long as the next one is likely to end in time.
-  void improve(const std::vector<int>& order, ShadowWork work, double until, LimitedPicture& limited) {
-    std::atomic<std::size_t> next = 0;
-    std::atomic<double> longest = 0;  // seconds of a tile
-    arena_.execute([&] {
-      tbb::parallel_for(0, threads_, [&](int) {
-        const FlushDenormals flush;
-        while (!stopped() && seconds() + longest < until) {
-          const std::size_t place = next++;
-          if (place >= order.size()) break;
-          const int index = order[place];
-          const auto tile = static_cast<std::size_t>(index);
-          const double begun = seconds();
-          // No limit holds for the first picture, but its last tiles go without shadows.
-          const bool late = begun > options_.time_limit;
-          clear_area(area(index), limited.scratch);
-          limited.errors[tile] = render_tile(index, 0, limited.scratch, late ? ShadowWork{ShadowsBy::nothing} : work);
-          copy_area(area(index), limited.scratch, limited.picture);
-          limited.exact[tile] = work.by == ShadowsBy::edges;
-          const double took = seconds() - begun;
-          for (double before = longest; before < took && !longest.compare_exchange_weak(before, took);) {
-          }
-          if (options_.progress && (work.by == ShadowsBy::edges || work.rays == 4)) options_.progress(++done_, steps_);
-        }
-      });
-    });
   }
 
   enum class Sum { tile, block };

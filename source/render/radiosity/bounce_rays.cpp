@@ -6,8 +6,7 @@ namespace steradian::radiosity {
 
 void BounceRays::set(std::size_t lane, const Surface& from, Vec3f direction) {
   if (!(dot(direction, from.geometric_normal) > 0)) return;
-  const auto offset = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(from.position)));
-  const Vec3f origin = from.position + from.geometric_normal * offset;
+  const auto origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(from.position), static_cast<Vec3d>(from.geometric_normal)));
   RTCRay16& ray = packet_.ray;
   ray.org_x[lane] = origin.x;
   ray.org_y[lane] = origin.y;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/box.h"
+#include "core/lattices.h"
 #include "lobes/lobe.h"
 #include "render/environment/environment_light.h"  // mean_grazing
 
@@ -129,7 +130,7 @@ Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, i
   for (int s = 0; s < samples_; ++s) {
     std::vector<Cell>& cells = cells_.emplace_back();
     // The pixels take the places of a 4 x 4 grid in each cell; the primary samples, places in a cell of that.
-    const double golden = 0.61803398874989485, in_x = (s + 0.5) / samples_, in_y = std::fmod(s * golden + 0.5, 1.0);
+    const double in_x = (s + 0.5) / samples_, in_y = std::fmod(s * kGolden + 0.5, 1.0);
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
         Cell& cell = cells.emplace_back();
@@ -154,15 +155,14 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       const auto number = static_cast<std::size_t>(kPlaces[(i + static_cast<std::size_t>(sample)) % kLanes]);
       const BrightPlace& place = places[std::min(first + number, places.size() - 1)];
       const Surface& s = surfaces.surface[i];
-      const auto offset = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(s.position)));
-      const Vec3f from = s.position + s.geometric_normal * offset, way = place.position - from;
+      const Vec3d from = rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(s.geometric_normal));
+      const Vec3d end = rays_.off_surface(static_cast<Vec3d>(place.position), static_cast<Vec3d>(place.normal));
+      const Vec3f way = static_cast<Vec3f>(end - from);
       const float here = dot(way, s.normal), there = -dot(way, place.normal), square = dot(way, way);
       if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0)) return;
       // Each pixel takes a sixteenth of the places.
       light[i] = place.power * (static_cast<float>(kLanes) * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
-      const float most = 1 - 2 * offset / std::sqrt(square);
-      if (!(most > 0)) return;
-      rays.set(i, static_cast<Vec3d>(from), static_cast<Vec3d>(way * most));
+      rays.set(i, from, end - from);
       traced |= 1u << i;
     });
     SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { mean[i] += light[i]; });
@@ -222,12 +222,10 @@ void Gather::add_lobe(const SixteenSurfaces& surfaces, const std::array<const Su
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
     if (lobe.above_surface()) walkers[i] = Walker{frame, lobe};
   }
-  constexpr double kGolden = 0.61803398874989485;
   BounceRays rays(rays_, light_.patches());
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
   for (std::size_t k = 0; k < kLobeRays; ++k) {
-    const double u = (static_cast<double>(k) + 0.5) / kLobeRays,
-                 v = std::fmod(static_cast<double>(k) * kGolden + static_cast<double>(sample % samples_) / samples_, 1.0);
+    const auto [u, v] = fibonacci_place(k, kLobeRays, static_cast<double>(sample % samples_) / samples_);
     std::array<Vec3f, kLanes> weight{};
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (!walkers[i]) continue;

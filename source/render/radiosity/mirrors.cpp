@@ -52,9 +52,9 @@ bool Mirrors::find(const SurfaceTile& tile, const TilePlane& distance, Image& im
     const Surface surface = surface_in(tile, i);
     const std::optional<Mirror> mirror = mirror_of(surface, get(tile.view, i));
     if (!mirror || !weighs(mirror->weight) || !(dot(mirror->direction, surface.geometric_normal) > 0)) continue;
-    const auto offset = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(surface.position)));
+    const Vec3d origin = rays_.off_surface(static_cast<Vec3d>(surface.position), static_cast<Vec3d>(surface.geometric_normal));
     RTCRayHit hit;
-    if (!rays_.intersect(surface.position + surface.geometric_normal * offset, mirror->direction, hit)) continue;
+    if (!rays_.intersect(static_cast<Vec3f>(origin), mirror->direction, hit)) continue;
     const Mesh& mesh = scene_.meshes[hit.hit.geomID];
     image.distance[i] = distance[i] + hit.ray.tfar;
     Surface shown =

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/float_mode.h"
+#include "core/lattices.h"
 #include "core/random.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/area_light.h"  // luminance
@@ -43,9 +44,8 @@ Vec3f reflectance_of(const Surface& s) {
 
 // Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Each side turns it by its own angle.
 Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
-  constexpr double kGolden = 0.61803398874989485;
-  const double square = (static_cast<double>(index) + 0.5) / static_cast<double>(count), r = std::sqrt(square);
-  const double phi = 2 * std::numbers::pi * std::fmod(static_cast<double>(index) * kGolden + turn, 1.0);
+  const auto [square, v] = fibonacci_place(index, count, turn);
+  const double r = std::sqrt(square), phi = 2 * std::numbers::pi * v;
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)};
 }
 

@@ -129,7 +129,7 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
   // With shadows, the point is where closed forms look from (shadow::Viewpoint): off the triangle, and never below it.
   const auto geometric = static_cast<Vec3d>(surface.geometric_normal);
   auto p = static_cast<Vec3d>(surface.position);
-  if (shadows_ != nullptr) p += geometric * shadows_->offset_from_surface(p);
+  if (shadows_ != nullptr) p = shadows_->off_surface(p, geometric);
   Estimate result;
 
   for (const PunctualLight& light : scene_.punctual_lights) {

@@ -60,9 +60,9 @@ class LobesAt {
 std::optional<Surface> next_surface(const PathScene& in, const Surface& from, Vec3f direction) {
   // Below its own triangle a surface sees nothing.
   if (!(dot(direction, from.geometric_normal) > 0)) return {};
-  const auto offset = static_cast<float>(in.rays.offset_from_surface(wide(from.position)));
+  const Vec3d origin = in.rays.off_surface(wide(from.position), wide(from.geometric_normal));
   RTCRayHit hit;
-  if (!in.rays.intersect(from.position + from.geometric_normal * offset, direction, hit)) return {};
+  if (!in.rays.intersect(static_cast<Vec3f>(origin), direction, hit)) return {};
   Surface next = surface_at(in.scene, in.scene.meshes[hit.hit.geomID], hit.hit.primID, hit.hit.u, hit.hit.v, -direction);
   if (next.material->unlit) return {};
   return next;

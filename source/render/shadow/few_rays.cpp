@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/lattices.h"
 #include "render/shadow/side.h"
 
 namespace steradian {
@@ -12,20 +13,13 @@ namespace {
 // Fraction of the way to a place that a ray leaves out: occluders end just before the light.
 constexpr double kLeftOut = 1e-4;
 
-// The R2 sequence: any run of its points is nearly uniform in the unit square.
-// Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
-std::array<double, 2> place_in_square(std::size_t i) {
-  const double n = static_cast<double>(i) + 1;
-  return {std::fmod(n * 0.75487766624669276, 1.0), std::fmod(n * 0.56984029099805327, 1.0)};
-}
-
 // Places spread evenly over a flat light. A light that fills little of its box has fewer.
 std::vector<Vec3d> places_on(const PreparedPolygon& polygon, std::size_t count) {
   constexpr std::size_t kTries = 16;  // per place
   const shadow::LightFrame frame = shadow::light_frame(polygon, 1);
   std::vector<Vec3d> places;
   for (std::size_t i = 0; i < kTries * count && places.size() < count; ++i) {
-    const auto [u, v] = place_in_square(i);
+    const auto [u, v] = r2_place(static_cast<double>(i + 1));
     const double x = (2 * u - 1) * frame.half_x, y = (2 * v - 1) * frame.half_y;
     if (on_light(frame, x, y)) places.push_back(frame.to_world({x, y, 0}));
   }
@@ -68,7 +62,7 @@ FewRays::FewRays(const RayScene& rays, const std::vector<PackLight>& lights) : r
 FewRays::PlaceOnLight FewRays::place_on(const PackLight& light, const shadow::Viewpoint& from, std::size_t number) const {
   PlaceOnLight place;
   const std::vector<Vec3d>& flat = flat_[light.index];
-  const auto [u, v] = place_in_square(number);
+  const auto [u, v] = r2_place(static_cast<double>(number + 1));
   if (!flat.empty())
     place.at = flat[number % flat.size()];
   else if (const auto* ellipsoid = std::get_if<Ellipsoid>(&light.area->shape))

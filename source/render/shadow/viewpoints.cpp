@@ -95,7 +95,7 @@ TilePoints points_for_shadows(const SurfaceTile& tile, const RayScene& rays, Ter
     const Vec3d position = double_of(tile.position, i), geometric = double_of(tile.geometric_normal, i),
                 normal = normalized(double_of(tile.normal, i));
     Viewpoint& at = result.points[i];
-    positions[i] = at.position = position + geometric * rays.offset_from_surface(position);
+    positions[i] = at.position = rays.off_surface(position, geometric);
     at.normal = normal;
     at.seed = tile.seed * kTilePixels + i;
     if (terminator == Terminator::strict && length(normal - geometric) > 1e-5) at.geometric_normal = geometric;

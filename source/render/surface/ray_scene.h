@@ -63,6 +63,8 @@ class RayScene {
 
   // Distance that the origin of a shadow ray keeps from its surface, whose position is in float.
   double offset_from_surface(Vec3d position) const { return shadow::offset_from_surface(position, static_cast<double>(reach_), 0x1p-24); }
+  // A position moved off its surface along the surface's normal, where shadow rays begin and end.
+  Vec3d off_surface(Vec3d position, Vec3d normal) const { return position + normal * offset_from_surface(position); }
   float reach() const { return reach_; }  // largest coordinate of the meshes
 
   bool blocked_towards(Vec3d from, Vec3d direction) const;  // blocked by any mesh; direction: unit
