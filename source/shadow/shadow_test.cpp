@@ -361,7 +361,7 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
 
 // Sixteen points at once see what each of them sees by itself.
 TEST(SoftShadow, LanesSeeWhatPointsSee) {
-  std::size_t lanes_found = 0, lanes_asked = 0;
+  std::size_t lanes_found = 0, lanes_asked = 0, with_sections_found = 0, with_sections_asked = 0;
   for (const families::Family& family : families::all()) {
     SCOPED_TRACE(family.name);
     const Stage stage(family);
@@ -390,11 +390,11 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
       const Shaft shaft(frame, positions);
       std::vector<std::uint32_t> edges;
       tree.gather(packs(), shaft, edges);
-      const std::vector<std::uint32_t> all_crossing = crossing_triangles(stage.mesh, frame);
-      if (std::any_of(all_crossing.begin(), all_crossing.end(), [&](std::uint32_t t) { return shaft.needs_triangle(stage.mesh, t); }))
-        continue;
+      std::vector<std::uint32_t> crossing;
+      for (const std::uint32_t t : crossing_triangles(stage.mesh, frame))
+        if (shaft.needs_triangle(stage.mesh, t)) crossing.push_back(t);
       LocalEdges<double> local;
-      local.assign(stage.mesh, frame, edges, {});
+      local.assign(stage.mesh, frame, edges, crossing);
       const std::vector<Segment> outline = outline_segments(frame);
       LightFrame other;
       other.origin = frame.origin + frame.axes.x * 0.1;
@@ -402,7 +402,7 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
       for (const bool turned : {false, true}) {
         const LightFrame& base = turned ? other : frame;
         EdgeArrays arrays;
-        arrays.assign(stage.mesh, base, edges, {});
+        arrays.assign(stage.mesh, base, edges, crossing);
         std::vector<PointLanes::Point> asked;
         for (const Viewpoint& at : points) asked.push_back({&frame, &at, true});
         lanes.find(lane_table_for(active_simd()), arrays, base, turned, asked, outline);
@@ -410,13 +410,14 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
           const Viewpoint& at = points[k];
           local.see(at, exact.set);
           find_visible(frame, at.position, stage.rays, exact, in_exact);
-          ++lanes_asked;
+          ++(crossing.empty() ? lanes_asked : with_sections_asked);
           if (lanes.none() >> k & 1) {
             EXPECT_TRUE(in_exact.boundary.empty()) << first.kind << " " << g << " " << k;
+            ++(crossing.empty() ? lanes_found : with_sections_found);
             continue;
           }
           if ((lanes.found() >> k & 1) == 0) continue;  // falls back to its own search
-          ++lanes_found;
+          ++(crossing.empty() ? lanes_found : with_sections_found);
           const double height = -frame.to_local(at.position).z;
           const Vec3d to = lanes.place(k) - at.position;
           const bool free = !stage.rays.between(at.position, at.position + to * ((height - frame.eta) / height));
@@ -441,7 +442,9 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
     // The bound is that for positions in float; one point above the goal's mean counts among few.
     EXPECT_LE(std::sqrt(squares / std::max(compared, 1)), 1e-6) << compared;
   }
-  EXPECT_GT(lanes_found, lanes_asked / 2);
+  EXPECT_GT(lanes_found, lanes_asked * 97 / 100) << lanes_asked;
+  EXPECT_GT(with_sections_found, with_sections_asked * 97 / 100) << with_sections_asked;
+  EXPECT_GT(with_sections_asked, 400u);
 }
 
 // A vertex lies inside by less than a rounding. Its edge must stay, with the event of the side that cut it. Otherwise counts to its left

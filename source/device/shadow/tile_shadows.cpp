@@ -137,7 +137,7 @@ void TileShadows::clear() {
 bool TileShadows::find(const Group& asked) {
   const shadow::EdgeArrays& edges = asked.edges;
   const shadow::LaneEdges all = edges.lane_edges();
-  const std::vector<shadow::EdgeArrays::Triangle>& crossing = edges.crossing();
+  const std::vector<shadow::CrossingTriangle>& crossing = edges.crossing();
   // A triangle takes one and a half times as many loop turns as an edge.
   const std::size_t turns = all.edge_count + crossing.size() + crossing.size() / 2;
   if (values.size() > kMostValues || turns > kMostEdges) return false;

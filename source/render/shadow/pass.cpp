@@ -166,7 +166,7 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
     for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
     return;
   }
-  if (even && work.in_lanes && work.group.crossing().empty()) {
+  if (even && work.in_lanes) {
     const LightSide* sides[shadow::kPoints];
     std::uint32_t of[shadow::kPoints];
     std::size_t count = 0;

@@ -205,8 +205,8 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   work.cut_outs = meets_cut_outs(shaft);
   if (!together) gather_round(flat, shaft, work);
   work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
-  const std::vector<shadow::EdgeArrays::Triangle>& crossing = work.group.crossing();
-  const auto crowds_end = [&](const shadow::EdgeArrays::Triangle& t) { return is_near_end(*work.tube, shadow::box_of(mesh_, t.number)); };
+  const std::vector<shadow::CrossingTriangle>& crossing = work.group.crossing();
+  const auto crowds_end = [&](const shadow::CrossingTriangle& t) { return is_near_end(*work.tube, shadow::box_of(mesh_, t.number)); };
   work.in_parts = work.tube != nullptr && !crossing.empty() &&
                   (std::any_of(crossing.begin(), crossing.end(), crowds_end) ||
                    std::any_of(slots.begin(), slots.end(), [&](std::uint32_t i) { return is_oblique(*work.tube, work.at(i).position); }));

@@ -156,8 +156,24 @@ EdgeView EdgeArrays::view() const {
 }
 
 LaneEdges EdgeArrays::lane_edges() const {
-  return {view(),          edge_.size(),    plane_count_, vertex_count_, vertices_.view(),
-          normals_.view(), offsets_.data(), more_.data(), more_.size(),  incidences_.data()};
+  return {view(),       edge_.size(), plane_count_,       vertex_count_,    vertices_.view(), normals_.view(), offsets_.data(),
+          more_.data(), more_.size(), incidences_.data(), crossing_.data(), crossing_.size(), vertex_.data()};
+}
+
+// Adds a crossing triangle and finds its twin: the first among the crossing ones with the same corners.
+void EdgeArrays::add_crossing(const EdgeMesh& mesh, CrossingTriangle triangle) {
+  triangle.twin = -1;
+  const auto twin = std::lower_bound(mesh.coincident.begin(), mesh.coincident.end(), triangle.number,
+                                     [](const CoincidentTriangle& c, std::uint32_t number) { return c.number < number; });
+  if (twin != mesh.coincident.end() && twin->number == triangle.number) {
+    const auto first = std::lower_bound(crossing_.begin(), crossing_.end(), twin->first,
+                                        [](const CrossingTriangle& c, std::uint32_t number) { return c.number < number; });
+    if (first != crossing_.end() && first->number == twin->first) {
+      triangle.twin = static_cast<std::int32_t>(first - crossing_.begin());
+      triangle.same_direction = twin->same_direction;
+    }
+  }
+  crossing_.push_back(triangle);
 }
 
 void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std::vector<std::uint32_t>& edges,
@@ -211,12 +227,12 @@ void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std
     edge_.push_back(number);
   }
   for (const std::uint32_t number : crossing) {
-    Triangle t{number, plane(number), {}, {}};
+    CrossingTriangle t{number, plane(number), {}, {}, -1, true};
     for (std::size_t c = 0; c < 3; ++c) {
       t.corners[c] = vertex(mesh.triangles[number][c]);
       t.edges[c] = mesh.triangle_edges[number][c];
     }
-    crossing_.push_back(t);
+    add_crossing(mesh, t);
   }
   pad();
 }
@@ -269,12 +285,12 @@ void EdgeArrays::assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, c
     }
     edge_.push_back(tile.edge_[e]);
   }
-  for (const Triangle& t : tile.crossing_) {
+  for (const CrossingTriangle& t : tile.crossing_) {
     if (!shaft.needs_triangle(mesh, t.number)) continue;
-    Triangle own = t;
+    CrossingTriangle own = t;
     own.plane = plane(t.plane);
     for (std::uint32_t& c : own.corners) c = vertex(c);
-    crossing_.push_back(own);
+    add_crossing(mesh, own);
   }
   pad();
 }
@@ -357,7 +373,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
   }
 
   const std::size_t sections = result.segments.size();
-  for (const Triangle& t : crossing_) {
+  for (const CrossingTriangle& t : crossing_) {
     // The section runs from where the triangle's outline leaves the space below the plane to where it comes back.
     int leaving = -1, returning = -1;
     const auto below = [&](std::uint32_t v) { return (static_cast<int>(outside_[v]) & kAbove) == 0; };

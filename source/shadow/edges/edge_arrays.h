@@ -34,12 +34,7 @@ class EdgeArrays {
   std::size_t edge_count() const { return edge_.size(); }
   std::size_t vertex_count() const { return vertex_count_; }
   std::size_t plane_count() const { return plane_count_; }
-  // Triangles that cross the light's plane. plane and corners: places in these arrays; edges: mesh numbers of the edges that begin at the
-  // corners.
-  struct Triangle {
-    std::uint32_t number, plane, corners[3], edges[3];
-  };
-  const std::vector<Triangle>& crossing() const { return crossing_; }
+  const std::vector<CrossingTriangle>& crossing() const { return crossing_; }
 
   // For lanes: the edges, and the cell of an edge's end as its point sees it.
   LaneEdges lane_edges() const;
@@ -72,6 +67,7 @@ class EdgeArrays {
   Cell vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return cell_of(vertex_[v], x, y); }
   void clear();
   void pad();
+  void add_crossing(const EdgeMesh& mesh, CrossingTriangle triangle);
   EdgeView view() const;
   void collect(const ShadowTable& packs, const LightFrame& frame, const Vectors& vertices, const Vec3d& plane_point, const Viewpoint& from,
                const std::vector<Segment>& outline, SegmentSet& result);
@@ -91,7 +87,7 @@ class EdgeArrays {
   std::vector<std::uint8_t> has_more_;  // true: more than two triangles, all of them in `more_`
   std::vector<LaneEdges::More> more_;
   std::vector<LaneEdges::Incidence> incidences_;
-  std::vector<Triangle> crossing_;
+  std::vector<CrossingTriangle> crossing_;
 
   // Buffers for one point.
   Vectors turned_, homogeneous_;

@@ -73,6 +73,29 @@ Around ball_around(const EdgeMesh& mesh) {
   return {box.center(), length(box.half())};
 }
 
+// Triangles with the corners of an earlier one. They share all three edges.
+std::vector<CoincidentTriangle> coincident_triangles(const EdgeMesh& mesh) {
+  std::vector<CoincidentTriangle> result;
+  const auto third = [&](std::uint32_t t, const Edge& e) {
+    const auto& c = mesh.triangles[t];
+    return c[0] + c[1] + c[2] - e.v0 - e.v1;
+  };
+  for (const Edge& e : mesh.edges)
+    for (std::uint32_t i = e.first + 1; i < e.first + e.count; ++i) {
+      const EdgeTriangle& t = mesh.edge_triangles[i];
+      // Each triangle has three edges: the one between its two least corners reports it.
+      if (third(t.triangle, e) < std::max(e.v0, e.v1)) continue;
+      for (std::uint32_t k = e.first; k < i; ++k) {
+        const EdgeTriangle& earlier = mesh.edge_triangles[k];
+        if (third(earlier.triangle, e) != third(t.triangle, e) || earlier.triangle == t.triangle) continue;
+        result.push_back({t.triangle, earlier.triangle, t.walks == earlier.walks});
+        break;
+      }
+    }
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  return result;
+}
+
 struct TriangleSide {
   std::uint32_t v0, v1, triangle, corner;
   std::int32_t walks;
@@ -122,6 +145,7 @@ EdgeMesh build_edges(const std::vector<Vec3d>& positions, const std::vector<std:
     for (const std::uint32_t t : triangles)
       for (const std::uint32_t e : mesh.triangle_edges[t]) mesh.edges[e].at_body = true;
   sort_into_leaves(mesh);
+  mesh.coincident = coincident_triangles(mesh);
   mesh.around = ball_around(mesh);
   return mesh;
 }

@@ -38,6 +38,12 @@ struct Around {
   double radius = 0;
 };
 
+// A triangle with the corners of an earlier one. same_direction: it walks them in the same order.
+struct CoincidentTriangle {
+  std::uint32_t number = 0, first = 0;
+  bool same_direction = true;
+};
+
 struct EdgeMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -46,6 +52,7 @@ struct EdgeMesh {
   std::vector<EdgeTriangle> edge_triangles;                  // in the order of edges
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
   std::vector<std::vector<std::uint32_t>> inside;            // for each body, the triangles inside it, ascending
+  std::vector<CoincidentTriangle> coincident;                // ascending
   Around around;
 };
 

@@ -49,6 +49,9 @@ struct LaneEdges {
   const More* more = nullptr;  // edges of more than two triangles, ascending
   std::size_t more_count = 0;
   const Incidence* incidences = nullptr;
+  const CrossingTriangle* crossing = nullptr;
+  std::size_t crossing_count = 0;
+  const std::uint32_t* vertex_numbers = nullptr;  // in the mesh
 };
 
 // A vertex as seen from all points.
@@ -67,7 +70,7 @@ struct SegmentLanes {
   LaneBits cut_a, cut_b;          // the part of these that the plane cuts, not the box
   LaneBits left_a, left_b;        // the part of these that the box's left side clips: an event
   std::int32_t place_a, place_b;  // places of its ends among the vertices, followed by the outline's corners; -1: none
-  std::uint32_t row;              // row of its edge in the group, or index in its own kind
+  std::uint32_t row;              // row of its edge or crossing triangle in the group, or index in its own kind
 
   // Results of arranging, along the segment from its start to its end.
   LaneInts left;                      // count on the left at the start
@@ -144,10 +147,16 @@ struct RegionLanes {
   LaneReals place_x, place_y;
 };
 
+// Numbers of vertices and segments that see() wrote.
+struct SeenByLanes {
+  std::size_t vertices = 0, edges = 0, sections = 0;
+};
+
 struct LaneTable {
-  // Writes the segments of edges; returns their number. front: one number per plane; place_of: one per vertex; vertices: capacity for all.
-  std::size_t (*see)(const LaneEdges& edges, const LaneView& view, std::uint16_t* front, std::int32_t* place_of, VertexLanes* vertices,
-                     std::size_t& vertex_count, SegmentLanes* to);
+  // Writes the segments of edges, then the sections of crossing triangles. front: one number per plane; place_of: one per vertex;
+  // vertices and to: capacity for all.
+  SeenByLanes (*see)(const LaneEdges& edges, const LaneView& view, std::uint16_t* front, std::int32_t* place_of, VertexLanes* vertices,
+                     SegmentLanes* to);
   // Computes the boxes of segments.
   void (*bound)(const SegmentLanes* segments, std::size_t count, const BoxArrays& boxes);
   // Finds all crossings; returns false if the capacity is too small.

@@ -91,8 +91,8 @@ STERADIAN_INLINE void near(const shadow::BoxArrays& b, std::size_t count, std::s
 // Floats hold differences of cells exactly; a product is off by 2^-24 of itself, and so is the difference of two.
 STERADIAN_INLINE PackReal bound_of(PackReal p, PackReal q) { return PackReal(4e-7) * (abs(p) + abs(q)); }
 
-std::size_t see_in_lanes(const shadow::LaneEdges& edges, const shadow::LaneView& view, std::uint16_t* front, std::int32_t* place_of,
-                         shadow::VertexLanes* vertices, std::size_t& vertex_count, shadow::SegmentLanes* to);
+shadow::SeenByLanes see_in_lanes(const shadow::LaneEdges& edges, const shadow::LaneView& view, std::uint16_t* front, std::int32_t* place_of,
+                                 shadow::VertexLanes* vertices, shadow::SegmentLanes* to);
 void bound_in_lanes(const shadow::SegmentLanes* segments, std::size_t count, const shadow::BoxArrays& boxes);
 bool cross_in_lanes(shadow::LaneWork& work);
 void count_in_lanes(shadow::LaneWork& work, const shadow::LaneView& view);

@@ -154,11 +154,67 @@ std::uint32_t weigh(const LaneEdges& edges, const LaneEdges::More& more, const s
   return bits;
 }
 
+STERADIAN_INLINE std::uint32_t beyond_a_side(const std::uint32_t a[4], const std::uint32_t b[4]) {
+  return (a[0] & b[0]) | (a[1] & b[1]) | (a[2] & b[2]) | (a[3] & b[3]);
+}
+
+// Writes the section of a triangle by the light's plane. It runs from where the triangle's outline leaves the space below the plane to
+// where it comes back. Returns false if no lane has one.
+bool see_section(const LaneEdges& edges, const LaneView& lane_view, const View& view, const CrossingTriangle& triangle,
+                 const VertexLanes* const corners[3], std::uint32_t front, SegmentLanes& to) {
+  std::uint32_t leaving[3], returning[3], leaves = 0, returns = 0;
+  for (int c = 0; c < 3; ++c) {
+    const std::uint32_t here = corners[c]->above, there = corners[(c + 1) % 3]->above;
+    leaving[c] = ~here & there & lane_view.valid;
+    returning[c] = here & ~there & lane_view.valid;
+    leaves |= leaving[c];
+    returns |= returning[c];
+  }
+  std::uint32_t bits = leaves & returns;
+  if (bits == 0) return false;
+  Ends a, b;
+  take(*corners[0], a);
+  take(*corners[0], b);
+  for (int c = 0; c < 3; ++c) {
+    const std::uint32_t from = triangle.corners[c], with = triangle.corners[(c + 1) % 3];
+    const bool in_order = edges.vertex_numbers[from] < edges.vertex_numbers[with];  // all triangles of an edge agree on its cut
+    const std::size_t low = in_order ? from : with, high = in_order ? with : from;
+    if (leaving[c] != 0) view.cut(low, high, leaving[c], a);
+    if (returning[c] != 0) view.cut(low, high, returning[c], b);
+  }
+  bits &= ~beyond_a_side(a.out, b.out);
+  if (bits == 0) return false;
+  to.present = to.clipped_a = to.clipped_b = to.cut_a = to.cut_b = narrow(bits);
+  to.left_a = to.left_b = 0;
+  each_pack([&](std::size_t i) {
+    put(to.ax, i, get(a.cell_x, i));
+    put(to.ay, i, get(a.cell_y, i));
+    put(to.bx, i, get(b.cell_x, i));
+    put(to.by, i, get(b.cell_y, i));
+    put(to.weight, i, select(mask_at(front, i), PackInt(-1), PackInt(1)));
+  });
+  if ((bits & (a.out[0] | a.out[1] | a.out[2] | a.out[3] | b.out[0] | b.out[1] | b.out[2] | b.out[3])) != 0) clip(view, a, b, to);
+  to.place_a = to.place_b = -1;
+  return to.present != 0;
+}
+
+// Adds the weight of a section to that of a coincident triangle, in the lanes where both have the same ends. Two segments with the same
+// ends could not decide which one lies left of the other.
+void merge_twins(SegmentLanes& first, SegmentLanes& second, bool same_direction) {
+  const std::uint32_t both = static_cast<std::uint32_t>(first.cut_a) & first.cut_b & second.cut_a & second.cut_b;
+  each_pack([&](std::size_t i) {
+    const PackInt w = where(mask_at(both, i), get(second.weight, i));
+    put(first.weight, i, same_direction ? get(first.weight, i) + w : get(first.weight, i) - w);
+  });
+  const std::uint32_t nothing = both & lane_bits([&](std::size_t i) { return get(first.weight, i) == PackInt(0); });
+  first.present = narrow(first.present & ~nothing);
+  second.present = narrow(second.present & ~both);
+}
+
 }  // namespace
 
-__attribute__((flatten)) std::size_t see_in_lanes(const LaneEdges& edges, const LaneView& view, std::uint16_t* front,
-                                                  std::int32_t* place_of, VertexLanes* vertices, std::size_t& vertex_count,
-                                                  SegmentLanes* to) {
+__attribute__((flatten)) SeenByLanes see_in_lanes(const LaneEdges& edges, const LaneView& view, std::uint16_t* front,
+                                                  std::int32_t* place_of, VertexLanes* vertices, SegmentLanes* to) {
   K k;
   for (std::size_t p = 0; p < edges.plane_count; ++p) {
     const PackVec3 normal = broadcast({edges.normals.x[p], edges.normals.y[p], edges.normals.z[p]});
@@ -194,9 +250,8 @@ __attribute__((flatten)) std::size_t see_in_lanes(const LaneEdges& edges, const 
     const VertexLanes &v0 = vertices[place_a], &v1 = vertices[place_b];
     // If the plane cuts an edge, its upper end is not tested against the box.
     const std::uint32_t cut_a = v0.above & ~v1.above, cut_b = v1.above & ~v0.above;
-    const auto beyond = [](const auto& a, const auto& b) { return (a[0] & b[0]) | (a[1] & b[1]) | (a[2] & b[2]) | (a[3] & b[3]); };
     const std::uint32_t out0[4] = {v0.left, v0.right, v0.bottom, v0.top}, out1[4] = {v1.left, v1.right, v1.bottom, v1.top};
-    bits &= ~(v0.above & v1.above) & ~(beyond(out0, out1) & ~(cut_a | cut_b));
+    bits &= ~(v0.above & v1.above) & ~(beyond_a_side(out0, out1) & ~(cut_a | cut_b));
     if (bits == 0) continue;
     SegmentLanes& segment = to[n];
     const bool cuts = (bits & (cut_a | cut_b)) != 0;
@@ -220,7 +275,7 @@ __attribute__((flatten)) std::size_t see_in_lanes(const LaneEdges& edges, const 
         const auto v = [](std::int32_t i) { return static_cast<std::size_t>(i); };
         by.cut(v(all.v0[e]), v(all.v1[e]), cut_a, a);
         by.cut(v(all.v0[e]), v(all.v1[e]), cut_b, b);
-        segment.present = narrow(segment.present & ~beyond(a.out, b.out));
+        segment.present = narrow(segment.present & ~beyond_a_side(a.out, b.out));
         each_pack([&](std::size_t i) {
           put(segment.ax, i, get(a.cell_x, i));
           put(segment.ay, i, get(a.cell_y, i));
@@ -236,8 +291,20 @@ __attribute__((flatten)) std::size_t see_in_lanes(const LaneEdges& edges, const 
     segment.row = static_cast<std::uint32_t>(e);
     ++n;
   }
-  vertex_count = seen;
-  return n;
+  const std::size_t sections = n;
+  for (std::size_t t = 0; t < edges.crossing_count; ++t) {
+    const CrossingTriangle& triangle = edges.crossing[t];
+    std::int32_t places[3];
+    for (int c = 0; c < 3; ++c) places[c] = place(static_cast<std::int32_t>(triangle.corners[c]));
+    const VertexLanes* const corners[3] = {&vertices[places[0]], &vertices[places[1]], &vertices[places[2]]};
+    if (!see_section(edges, view, by, triangle, corners, front[triangle.plane], to[n])) continue;
+    to[n].row = static_cast<std::uint32_t>(t);
+    if (triangle.twin >= 0)
+      for (std::size_t s = sections; s < n; ++s)
+        if (to[s].row == static_cast<std::uint32_t>(triangle.twin)) merge_twins(to[s], to[n], triangle.same_direction);
+    if (to[n].present != 0) ++n;
+  }
+  return {seen, sections, n - sections};
 }
 
 STERADIAN_END_ISA

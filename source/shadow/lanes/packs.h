@@ -42,6 +42,14 @@ struct EdgeView {
   const float *walks0 = nullptr, *walks1 = nullptr;
 };
 
+// A triangle that crosses the light's plane. plane and corners: places in the arrays; edges: mesh numbers of the edges that begin at the
+// corners.
+struct CrossingTriangle {
+  std::uint32_t number, plane, corners[3], edges[3];
+  std::int32_t twin;    // place of the first triangle with the same corners among the crossing ones; -1: none
+  bool same_direction;  // true: it walks its corners as its twin does
+};
+
 // A shaft in float. A vertex x is inside if dot(normal, x) <= offset for all sides. The box of points is given by its middle and half
 // sides. reach: distance of the light and the points from the coordinates' origin, which scales their rounding.
 inline constexpr std::size_t kShaftSides = 7;

@@ -66,8 +66,8 @@ void PointLanes::add_surroundings(LaneBits lanes) {
     for (std::size_t lane = 0; lane < kPoints; ++lane) put_cells(s, lane, of);
     s.present = lanes;
     s.row = static_cast<std::uint32_t>(k);
-    s.place_a = static_cast<std::int32_t>(vertex_count_) + of.place_a;
-    s.place_b = static_cast<std::int32_t>(vertex_count_) + of.place_b;
+    s.place_a = static_cast<std::int32_t>(seen_.vertices) + of.place_a;
+    s.place_b = static_cast<std::int32_t>(seen_.vertices) + of.place_b;
   }
   horizon_rows_.fill(0);
   for (std::size_t h = 0; h < 2; ++h) {
@@ -100,19 +100,34 @@ void PointLanes::add_surroundings(LaneBits lanes) {
   }
 }
 
+// The edge of a crossing triangle at which its section starts (0) or ends (1).
+std::uint32_t PointLanes::cut_edge(const CrossingTriangle& triangle, int end, std::size_t lane) const {
+  const auto above = [&](std::size_t c) {
+    return (vertices_[static_cast<std::size_t>(place_of_[triangle.corners[c % 3]])].above >> lane & 1) != 0;
+  };
+  std::size_t side = 0;
+  while (side < 2 && !(above(side) == (end != 0) && above(side + 1) == (end == 0))) ++side;
+  return triangle.edges[side];
+}
+
 Segment PointLanes::segment(std::uint32_t number, std::size_t lane) const {
-  if (number >= edge_segments_ && number < edge_segments_ + outline_->size()) {
-    Segment s = (*outline_)[number - edge_segments_];
+  const std::size_t surroundings = seen_.edges + seen_.sections;
+  if (number >= surroundings && number < surroundings + outline_->size()) {
+    Segment s = (*outline_)[number - surroundings];
     s.place_a = s.place_b = -1;
     return s;
   }
-  if (number >= edge_segments_) return horizons_[number == horizon_rows_[0] ? 0 : 1].lanes[lane];
+  if (number >= surroundings) return horizons_[number == horizon_rows_[0] ? 0 : 1].lanes[lane];
   const SegmentLanes& s = segments_[number];
+  const CrossingTriangle* triangle = number < seen_.edges ? nullptr : &edges_->crossing()[s.row];
   const auto end = [&](int which, LaneBits clipped, LaneBits cut, const LaneReals& x, const LaneReals& y) {
     const std::int32_t cell_x = whole(x.at[lane]), cell_y = whole(y.at[lane]);
-    const std::uint32_t edge = edges_->edge_number(s.row);
-    if ((cut >> lane & 1) != 0) return cell_of(kCutId | edge, cell_x, cell_y);
-    if ((clipped >> lane & 1) != 0) return cell_of(clip_id(Source::edge, edge, which), cell_x, cell_y);
+    if ((cut >> lane & 1) != 0)
+      return cell_of(kCutId | (triangle != nullptr ? cut_edge(*triangle, which, lane) : edges_->edge_number(s.row)), cell_x, cell_y);
+    if ((clipped >> lane & 1) != 0)
+      return cell_of(triangle != nullptr ? clip_id(Source::section, triangle->number, which)
+                                         : clip_id(Source::edge, edges_->edge_number(s.row), which),
+                     cell_x, cell_y);
     return edges_->end_of(s.row, which, cell_x, cell_y);
   };
   Segment result;
@@ -213,12 +228,12 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   if (edges.plane_count() == 0) front_[0] = 0;  // edges without a triangle read the first entry
   grow(place_of_, edges.vertex_count());
   grow(vertices_, edges.vertex_count());
-  grow(segments_, edges.edge_count() + outline.size() + 2);
-  edge_segments_ = packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), vertex_count_, segments_.data());
-  work_.count = edge_segments_;
-  work_.outline = static_cast<std::uint32_t>(edge_segments_);
+  grow(segments_, edges.edge_count() + edges.crossing().size() + outline.size() + 2);
+  seen_ = packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), segments_.data());
+  work_.count = seen_.edges + seen_.sections;
+  work_.outline = static_cast<std::uint32_t>(work_.count);
   occluded_ = 0;
-  for (std::size_t s = 0; s < edge_segments_; ++s) occluded_ |= segments_[s].present;
+  for (std::size_t s = 0; s < work_.count; ++s) occluded_ |= segments_[s].present;
   LaneBits arranged = occluded_;
   for (std::size_t lane = 0; lane < point_count_; ++lane)
     if (points_[lane].arranged) arranged |= static_cast<LaneBits>(1u << lane);
@@ -228,7 +243,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   make_room();
   find_boxes(packs);
   work_.segments = segments_.data();
-  work_.place_count = vertex_count_ + outline.size();
+  work_.place_count = seen_.vertices + outline.size();
   work_.crossing_first = crossing_first_.data();
   work_.end_first = end_first_.data();
   work_.ends = ends_.data();
@@ -267,7 +282,7 @@ Vec3d PointLanes::place(std::size_t lane) const {
 
 std::size_t PointLanes::segment_count(std::size_t lane) const {
   std::size_t n = 0;
-  for (std::size_t s = 0; s < edge_segments_; ++s) n += segments_[s].present >> lane & 1;
+  for (std::size_t s = 0; s < seen_.edges + seen_.sections; ++s) n += segments_[s].present >> lane & 1;
   return n;
 }
 

@@ -21,7 +21,7 @@ class PointLanes {
     bool arranged = false;  // true: also if it sees no occluder
   };
 
-  // edges: in the coordinates of `base`, without triangles that cross the light's plane. base: the points' frame, or another one if
+  // edges: in the coordinates of `base`. base: the points' frame, or another one if
   // `turned`. outline: of all of the frames, in their cells.
   void find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points,
             const std::vector<Segment>& outline);
@@ -62,6 +62,7 @@ class PointLanes {
   void add_surroundings(LaneBits lanes);
   void make_room();
   void find_boxes(const LaneTable& packs);
+  std::uint32_t cut_edge(const CrossingTriangle& triangle, int end, std::size_t lane) const;
   Segment segment(std::uint32_t number, std::size_t lane) const;
   ExactLanes exact() const;
 
@@ -73,7 +74,7 @@ class PointLanes {
   LaneView view_;
   LaneWork work_;
   RegionLanes region_;
-  std::size_t edge_segments_ = 0, vertex_count_ = 0;
+  SeenByLanes seen_;
   struct Horizon {
     std::array<Segment, kPoints> lanes;
   };
