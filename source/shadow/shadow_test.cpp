@@ -404,8 +404,8 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
         EdgeArrays arrays;
         arrays.assign(stage.mesh, base, edges, crossing);
         std::vector<PointLanes::Point> asked;
-        for (const Viewpoint& at : points) asked.push_back({&frame, &at, true});
-        lanes.find(lane_table_for(active_simd()), arrays, base, turned, asked, outline);
+        for (const Viewpoint& at : points) asked.push_back({&frame, &at, &outline, true});
+        lanes.find(lane_table_for(active_simd()), arrays, base, turned, asked);
         for (std::size_t k = 0; k < points.size(); ++k) {
           const Viewpoint& at = points[k];
           local.see(at, exact.set);

@@ -68,7 +68,6 @@ ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result
   work.flat = nullptr;
   work.tube = nullptr;
   work.turned = work.whole_outline = work.cut_outs = work.in_parts = false;
-  work.in_lanes = true;
   work.points = &points.points;
   work.result = &result;
   work.counts = &counts;
@@ -166,7 +165,7 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
     for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
     return;
   }
-  if (even && work.in_lanes) {
+  if (even && !work.in_parts) {
     const LightSide* sides[shadow::kPoints];
     std::uint32_t of[shadow::kPoints];
     std::size_t count = 0;
@@ -178,7 +177,12 @@ void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideA
       if (i == slots.size()) break;
       sides[count] = side_at(slots[i]);
       of[count] = slots[i];
-      if (sides[count] != nullptr) ++count;
+      if (sides[count] == nullptr) continue;
+      // A tube's polygon may lack a corner that coincides with another one.
+      if (sides[count]->outline->size() == sides[0]->outline->size())
+        ++count;
+      else
+        find_point(*sides[count], slots[i], work);
     }
     return;
   }

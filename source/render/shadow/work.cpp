@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 
 #include "render/shadow/side.h"
 #include "shadow/rays/shafts.h"
@@ -25,9 +26,9 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
     const LightSide& side = *sides[k];
     const Viewpoint& at = work.at(slots[k]);
     const bool simple = side.middle && dot(*side.middle - at.position, at.normal) > 0 && !is_cut(side.frame, at);
-    points[k] = {&side.frame, &at, !simple};
+    points[k] = {&side.frame, &at, side.outline.get(), !simple};
   }
-  work.lanes.find(lanes_, work.group, work.turned ? work.base : sides[0]->frame, work.turned, {points, count}, *sides[0]->outline);
+  work.lanes.find(lanes_, work.group, work.turned ? work.base : sides[0]->frame, work.turned, {points, count});
   const std::uint32_t occluded = work.lanes.occluded(), found = work.lanes.found(), none = work.lanes.none();
   for (std::size_t k = 0; k < count; ++k) {
     const LightSide& side = *sides[k];
@@ -144,7 +145,6 @@ Box3d box_around(const std::vector<Vec3d>& positions) {
 void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
   work.whole_outline = true;
   work.turned = true;
-  work.in_lanes = std::holds_alternative<Ellipsoid>(light.area->shape);
   work.flat = &flat;
   work.tube = std::get_if<Capsule>(&light.area->shape);
   const shadow::Ball ball = shadow::ball_around(*light.area);
@@ -210,16 +210,13 @@ void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, cons
   work.in_parts = work.tube != nullptr && !crossing.empty() &&
                   (std::any_of(crossing.begin(), crossing.end(), crowds_end) ||
                    std::any_of(slots.begin(), slots.end(), [&](std::uint32_t i) { return is_oblique(*work.tube, work.at(i).position); }));
-  std::array<std::optional<LightSide>, shadow::kPoints> sides;
-  std::size_t next = 0;
+  std::deque<LightSide> sides;  // find_group keeps addresses
   find_group(
       slots,
       [&](std::uint32_t i) {
-        std::optional<LightSide>& side = sides[next];
-        side = side_of_round(light, *flat.body, work.at(i).position, ellipse_);
-        if (!side) return static_cast<const LightSide*>(nullptr);
-        next = (next + 1) % sides.size();
-        return static_cast<const LightSide*>(&*side);
+        std::optional<LightSide> side = side_of_round(light, *flat.body, work.at(i).position, ellipse_);
+        if (side) sides.push_back(std::move(*side));
+        return side ? &sides.back() : nullptr;
       },
       work);
 }

@@ -34,10 +34,9 @@ struct ShadowPass::Work {
   std::vector<std::uint32_t> slots, edges, crossing;
   shadow::LightFrame base;     // for round lights: the frame of the arrays' coordinates
   bool turned = false;         // the arrays are in that frame
-  bool in_lanes = false;       // the points' sides of the light have the same outline
   bool whole_outline = false;  // parts come with their light's polygon
   bool cut_outs = false;       // the group's shaft meets cut-outs
-  bool in_parts = false;       // the group sees the tube in its flat parts
+  bool in_parts = false;       // the group sees the tube in its flat parts, one point at a time
   const Flat* flat = nullptr;  // of the round light
   const Capsule* tube = nullptr;
   struct PlaneEdge {

@@ -59,11 +59,11 @@ void PointLanes::take_points(const EdgeArrays& edges, const LightFrame& base, bo
 
 // Adds the outline, and the horizons of the points whose light they cut.
 void PointLanes::add_surroundings(LaneBits lanes) {
-  for (std::size_t k = 0; k < outline_->size(); ++k) {
-    const Segment& of = (*outline_)[k];
+  for (std::size_t k = 0; k < outline_size_; ++k) {
+    const Segment& of = (*points_[0].outline)[k];
     SegmentLanes& s = segments_[work_.count++];
     clear_bits(s);
-    for (std::size_t lane = 0; lane < kPoints; ++lane) put_cells(s, lane, of);
+    for (std::size_t lane = 0; lane < kPoints; ++lane) put_cells(s, lane, (*points_[std::min(lane, point_count_ - 1)].outline)[k]);
     s.present = lanes;
     s.row = static_cast<std::uint32_t>(k);
     s.place_a = static_cast<std::int32_t>(seen_.vertices) + of.place_a;
@@ -112,8 +112,8 @@ std::uint32_t PointLanes::cut_edge(const CrossingTriangle& triangle, int end, st
 
 Segment PointLanes::segment(std::uint32_t number, std::size_t lane) const {
   const std::size_t surroundings = seen_.edges + seen_.sections;
-  if (number >= surroundings && number < surroundings + outline_->size()) {
-    Segment s = (*outline_)[number - surroundings];
+  if (number >= surroundings && number < surroundings + outline_size_) {
+    Segment s = (*points_[lane].outline)[number - surroundings];
     s.place_a = s.place_b = -1;
     return s;
   }
@@ -182,7 +182,7 @@ void PointLanes::make_room() {
     ends_.resize(2 * room);
     stack_.resize(kPoints * room + 1);
   }
-  const std::size_t places = vertices_.size() + outline_->size() + 1;
+  const std::size_t places = vertices_.size() + outline_size_ + 1;
   if (end_first_.size() < places + 1) {
     end_first_.resize(places + 1);
     shared_by_two_.resize(places);
@@ -214,10 +214,9 @@ void PointLanes::find_boxes(const LaneTable& packs) {
   }
 }
 
-void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points,
-                      const std::vector<Segment>& outline) {
+void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points) {
   edges_ = &edges;
-  outline_ = &outline;
+  outline_size_ = points.front().outline->size();
   point_count_ = points.size();
   std::copy(points.begin(), points.end(), points_.begin());
   take_points(edges, base, turned);
@@ -228,7 +227,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   if (edges.plane_count() == 0) front_[0] = 0;  // edges without a triangle read the first entry
   grow(place_of_, edges.vertex_count());
   grow(vertices_, edges.vertex_count());
-  grow(segments_, edges.edge_count() + edges.crossing().size() + outline.size() + 2);
+  grow(segments_, edges.edge_count() + edges.crossing().size() + outline_size_ + 2);
   seen_ = packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), segments_.data());
   work_.count = seen_.edges + seen_.sections;
   work_.outline = static_cast<std::uint32_t>(work_.count);
@@ -243,7 +242,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   make_room();
   find_boxes(packs);
   work_.segments = segments_.data();
-  work_.place_count = seen_.vertices + outline.size();
+  work_.place_count = seen_.vertices + outline_size_;
   work_.crossing_first = crossing_first_.data();
   work_.end_first = end_first_.data();
   work_.ends = ends_.data();

@@ -18,13 +18,13 @@ class PointLanes {
   struct Point {
     const LightFrame* frame = nullptr;
     const Viewpoint* at = nullptr;
-    bool arranged = false;  // true: also if it sees no occluder
+    const std::vector<Segment>* outline = nullptr;  // of its frame, in its cells
+    bool arranged = false;                          // true: also if it sees no occluder
   };
 
   // edges: in the coordinates of `base`. base: the points' frame, or another one if
-  // `turned`. outline: of all of the frames, in their cells.
-  void find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points,
-            const std::vector<Segment>& outline);
+  // `turned`. The outlines of all points have the same number of segments.
+  void find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points);
 
   // Lanes that see occluders. Of the other lanes, only those to be arranged are in the results below.
   LaneBits occluded() const { return occluded_; }
@@ -69,7 +69,7 @@ class PointLanes {
   std::array<Point, kPoints> points_;
   std::size_t point_count_ = 0;
   const EdgeArrays* edges_ = nullptr;
-  const std::vector<Segment>* outline_ = nullptr;
+  std::size_t outline_size_ = 0;
   LaneBits occluded_ = 0;
   LaneView view_;
   LaneWork work_;
