@@ -361,7 +361,7 @@ TEST(SoftShadow, PacksSeeWhatDoublesSee) {
 
 // Sixteen points at once see what each of them sees by itself.
 TEST(SoftShadow, LanesSeeWhatPointsSee) {
-  std::size_t lanes_found = 0, lanes_asked = 0, with_sections_found = 0, with_sections_asked = 0;
+  std::size_t lanes_found = 0, lanes_asked = 0, with_sections_found = 0, with_sections_asked = 0, thin_lanes = 0;
   for (const families::Family& family : families::all()) {
     SCOPED_TRACE(family.name);
     const Stage stage(family);
@@ -411,8 +411,10 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
           local.see(at, exact.set);
           find_visible(frame, at.position, stage.rays, exact, in_exact);
           ++(crossing.empty() ? lanes_asked : with_sections_asked);
+          const bool thin = (lanes.thin() >> k & 1) != 0;
+          thin_lanes += thin;
           if (lanes.none() >> k & 1) {
-            EXPECT_TRUE(in_exact.boundary.empty()) << first.kind << " " << g << " " << k;
+            EXPECT_TRUE(in_exact.boundary.empty() || thin) << first.kind << " " << g << " " << k;
             ++(crossing.empty() ? lanes_found : with_sections_found);
             continue;
           }
@@ -442,9 +444,10 @@ TEST(SoftShadow, LanesSeeWhatPointsSee) {
     // The bound is that for positions in float; one point above the goal's mean counts among few.
     EXPECT_LE(std::sqrt(squares / std::max(compared, 1)), 1e-6) << compared;
   }
-  EXPECT_GT(lanes_found, lanes_asked * 97 / 100) << lanes_asked;
-  EXPECT_GT(with_sections_found, with_sections_asked * 97 / 100) << with_sections_asked;
+  EXPECT_GT(lanes_found, lanes_asked * 99 / 100) << lanes_found << " of " << lanes_asked;
+  EXPECT_GT(with_sections_found, with_sections_asked * 99 / 100) << with_sections_found << " of " << with_sections_asked;
   EXPECT_GT(with_sections_asked, 400u);
+  EXPECT_GT(thin_lanes, 10u);  // or no lane passed over a level
 }
 
 // A vertex lies inside by less than a rounding. Its edge must stay, with the event of the side that cut it. Otherwise counts to its left

@@ -29,7 +29,7 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
     points[k] = {&side.frame, &at, side.outline.get(), !simple};
   }
   work.lanes.find(lanes_, work.group, work.turned ? work.base : sides[0]->frame, work.turned, {points, count});
-  const std::uint32_t occluded = work.lanes.occluded(), found = work.lanes.found(), none = work.lanes.none();
+  const std::uint32_t occluded = work.lanes.occluded(), found = work.lanes.found(), none = work.lanes.none(), thin = work.lanes.thin();
   for (std::size_t k = 0; k < count; ++k) {
     const LightSide& side = *sides[k];
     const Viewpoint& at = work.at(slots[k]);
@@ -48,8 +48,12 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
     if (open || ((occluded & bit(k)) == 0 && !is_cut(side.frame, at))) whole |= bit(k);
   }
   const std::uint32_t free = asked & ~rays_.blocked_among(rays, asked);
-  for (std::size_t k = 0; k < count; ++k)
+  for (std::size_t k = 0; k < count; ++k) {
     if ((free & bit(k)) != 0) work.result->seen[slots[k]] = (whole & bit(k)) != 0 ? Seen::whole : Seen::part;
+    if ((thin & (none | asked) & ~free & bit(k)) == 0) continue;
+    const Vec3d from = work.at(slots[k]).position;
+    if (!rays_.between(from, from + sides[k]->frame.way(from, work.lanes.thin_place(k)))) find_point(*sides[k], slots[k], work);
+  }
   if ((free & ~whole) != 0) add_lanes(sides, slots, count, free & ~whole, work);
 }
 

@@ -141,8 +141,10 @@ struct LaneWork {
 
 // The visible region, as far as edges determine it.
 struct RegionLanes {
-  LaneInts level;
+  LaneInts floor;  // input: lower levels, and this one, are passed over
+  LaneInts level;  // the lowest level above the floor
   LaneBits none;   // lanes without any region
+  LaneBits wide;   // lanes whose region is not thin
   LaneBits found;  // lanes with a position well inside
   LaneReals place_x, place_y;
 };
@@ -163,7 +165,8 @@ struct LaneTable {
   bool (*cross)(LaneWork& work);
   // Computes the counts along all segments.
   void (*count)(LaneWork& work, const LaneView& view);
-  // Finds the lowest level, its boundary and the boundary pieces of crossed segments. Returns false if the capacity is too small.
+  // Finds the lowest level above the floor, its boundary and the boundary pieces of crossed segments. Returns false if the capacity is too
+  // small.
   bool (*cut)(LaneWork& work, LaneBits lanes, RegionLanes& result);
   // Finds a position inside the region.
   void (*region)(LaneWork& work, const LaneView& view, LaneBits lanes, RegionLanes& result);

@@ -187,8 +187,8 @@ struct Writer {
 }  // namespace
 
 static __attribute__((flatten)) void region_in_lanes(LaneWork& work, const LaneView& view, LaneBits lanes, RegionLanes& result) {
-  std::uint32_t todo = find_wide(work) & lanes & ~static_cast<std::uint32_t>(result.none);
-  const std::uint32_t wanted = todo;
+  result.wide = narrow(find_wide(work) & lanes & ~static_cast<std::uint32_t>(result.none));
+  std::uint32_t todo = result.wide;
   LaneReals best{}, x, y, room;
   Longest before, longest;
   each_pack([&](std::size_t i) {
@@ -215,7 +215,8 @@ static __attribute__((flatten)) void region_in_lanes(LaneWork& work, const LaneV
     todo &= ~enough;
     before = longest;
   }
-  result.found = narrow(wanted & lane_bits([&](std::size_t i) { return get(best, i) > broadcast(kLeastRoom); }));
+  result.found =
+      narrow(static_cast<std::uint32_t>(result.wide) & lane_bits([&](std::size_t i) { return get(best, i) > broadcast(kLeastRoom); }));
 }
 
 static std::size_t count_edges_in_lanes(const LaneWork& work, LaneBits lanes) {

@@ -1,6 +1,8 @@
 #include "shadow/lanes/point_lanes.h"
 
 #include <algorithm>
+#include <bit>
+#include <climits>
 #include <cmath>
 
 #include "shadow/edges/gather.h"
@@ -236,7 +238,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   LaneBits arranged = occluded_;
   for (std::size_t lane = 0; lane < point_count_; ++lane)
     if (points_[lane].arranged) arranged |= static_cast<LaneBits>(1u << lane);
-  region_.none = region_.found = 0;
+  region_.none = region_.found = thin_ = 0;
   if (arranged == 0) return;
   add_surroundings(arranged);
   make_room();
@@ -264,19 +266,82 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   work_.sorted_t = sorted_t_.data();
   work_.sorted_change = sorted_change_.data();
   packs.count(work_, view_);
+  std::fill(std::begin(region_.floor.at), std::end(region_.floor.at), INT_MIN);
+  cut(packs, arranged);
+  packs.region(work_, view_, arranged, region_);
+  pass_over_thin_levels(packs, arranged);
+}
+
+void PointLanes::cut(const LaneTable& packs, LaneBits arranged) {
   while (true) {
     work_.pieces.data = pieces_.data();
     work_.pieces.capacity = pieces_.size();
     if (packs.cut(work_, arranged, region_)) break;
     pieces_.resize(2 * pieces_.size() + 256);
   }
-  packs.region(work_, view_, arranged, region_);
 }
 
-Vec3d PointLanes::place(std::size_t lane) const {
+// The region of the lowest level may be a sliver that roundings made. Then the next level decides, as in find_visible.
+void PointLanes::pass_over_thin_levels(const LaneTable& packs, LaneBits arranged) {
+  constexpr int kMostLevels = 8;
+  thin_ = 0;
+  for (int passed = 0; passed < kMostLevels; ++passed) {
+    LaneBits again = 0;
+    for (std::uint32_t bits = arranged & ~(region_.none | region_.wide); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      const Width width = width_in(lane);
+      if (width == Width::wide) continue;  // the lane is left to its own search
+      if (width == Width::thin) thin_ |= static_cast<LaneBits>(1u << lane);
+      again |= static_cast<LaneBits>(1u << lane);
+      region_.floor.at[lane] = region_.level.at[lane];
+    }
+    if (again == 0) return;
+    const RegionLanes before = region_;
+    cut(packs, arranged);
+    packs.region(work_, view_, again, region_);
+    const auto settled = static_cast<LaneBits>(~again);
+    region_.wide |= before.wide & settled;
+    region_.found |= before.found & settled;
+    for (std::size_t lane = 0; lane < kPoints; ++lane) {
+      if ((again >> lane & 1) != 0) continue;
+      region_.place_x.at[lane] = before.place_x.at[lane];
+      region_.place_y.at[lane] = before.place_y.at[lane];
+    }
+  }
+}
+
+// Judges the region of a lane's level, and keeps a place of a thin one.
+Width PointLanes::width_in(std::size_t lane) {
+  of_lane_.clear();
+  of_lane_.base = view_.base.at[lane];
+  pieces_of_lane_.clear();
+  const std::int32_t level = region_.level.at[lane];
+  const auto add = [&](float ax, float ay, float bx, float by, std::size_t number, bool backwards) {
+    Piece piece{double{ax}, double{ay}, double{bx}, double{by}, level, level + 1, static_cast<std::uint32_t>(number)};
+    if (backwards) std::swap(piece.left, piece.right);
+    pieces_of_lane_.push_back(piece);
+  };
+  std::vector<std::uint32_t>& place = found_;  // of a segment in the set
+  for (std::uint32_t number = 0; number < work_.count; ++number) {
+    const SegmentLanes& s = segments_[number];
+    if ((s.present >> lane & 1) == 0) continue;
+    place[number] = static_cast<std::uint32_t>(of_lane_.segments.size());
+    const Segment segment = this->segment(number, lane);
+    of_lane_.segments.push_back(segment);
+    if ((s.left_a >> lane & 1) != 0) of_lane_.events.push_back({segment.a.y, segment.a.dy, segment.weight});
+    if ((s.left_b >> lane & 1) != 0) of_lane_.events.push_back({segment.b.y, segment.b.dy, -segment.weight});
+    if ((s.bounds >> lane & 1) != 0) add(s.ax.at[lane], s.ay.at[lane], s.bx.at[lane], s.by.at[lane], place[number], segment.weight > 0);
+  }
+  for (std::size_t k = 0; k < work_.pieces.size; ++k) {
+    const CrossedPiece& p = pieces_[k];
+    if (p.lane == lane) add(p.ax, p.ay, p.bx, p.by, place[p.segment], false);
+  }
+  return width_of(of_lane_, pieces_of_lane_, level, thin_places_[lane].x, thin_places_[lane].y);
+}
+
+Vec3d PointLanes::in_world(std::size_t lane, double x, double y) const {
   const LightFrame& frame = *points_[lane].frame;
-  return frame.to_world({static_cast<double>(region_.place_x.at[lane]) / kCells * frame.box_x,
-                         static_cast<double>(region_.place_y.at[lane]) / kCells * frame.box_y, 0});
+  return frame.to_world({x / kCells * frame.box_x, y / kCells * frame.box_y, 0});
 }
 
 std::size_t PointLanes::segment_count(std::size_t lane) const {

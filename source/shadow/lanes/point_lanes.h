@@ -10,6 +10,7 @@
 
 #include "shadow/edges/edge_arrays.h"
 #include "shadow/lanes/lanes.h"
+#include "shadow/region/visible.h"
 
 namespace steradian::shadow {
 
@@ -30,7 +31,10 @@ class PointLanes {
   LaneBits occluded() const { return occluded_; }
   LaneBits none() const { return region_.none; }    // lanes that see nothing
   LaneBits found() const { return region_.found; }  // lanes that see a region if the way to its position is free, else nothing
-  Vec3d place(std::size_t lane) const;
+  Vec3d place(std::size_t lane) const { return in_world(lane, double{region_.place_x.at[lane]}, double{region_.place_y.at[lane]}); }
+  // Lanes with a thin region at a lower level. If the way to its position is free, and that to place() is not, they see that region.
+  LaneBits thin() const { return thin_; }
+  Vec3d thin_place(std::size_t lane) const { return in_world(lane, thin_places_[lane].x, thin_places_[lane].y); }
   // Number of segments that a lane sees.
   std::size_t segment_count(std::size_t lane) const;
 
@@ -65,6 +69,10 @@ class PointLanes {
   std::uint32_t cut_edge(const CrossingTriangle& triangle, int end, std::size_t lane) const;
   Segment segment(std::uint32_t number, std::size_t lane) const;
   ExactLanes exact() const;
+  void cut(const LaneTable& packs, LaneBits arranged);
+  void pass_over_thin_levels(const LaneTable& packs, LaneBits arranged);
+  Width width_in(std::size_t lane);
+  Vec3d in_world(std::size_t lane, double x, double y) const;  // from cells
 
   std::array<Point, kPoints> points_;
   std::size_t point_count_ = 0;
@@ -80,6 +88,8 @@ class PointLanes {
   };
   std::array<Horizon, 2> horizons_;  // horizons of the shading normal and the triangle
   std::array<std::uint32_t, 2> horizon_rows_{};
+  LaneBits thin_ = 0;
+  std::array<Corner, kPoints> thin_places_;  // in cells
 
   // Reused memory.
   std::vector<std::uint16_t> front_;
@@ -93,7 +103,8 @@ class PointLanes {
   std::vector<LaneInts> sorted_change_;
   std::vector<std::uint32_t> crossing_first_, crossing_list_, end_first_, ends_, found_, stack_, events_;
   std::vector<LaneBits> shared_by_two_;
-  SegmentSet horizon_;
+  SegmentSet horizon_, of_lane_;
+  std::vector<Piece> pieces_of_lane_;
 };
 
 }  // namespace steradian::shadow

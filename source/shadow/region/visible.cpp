@@ -32,6 +32,8 @@ Extent extent_of(const std::vector<Piece>& pieces, std::int32_t level) {
   return {e.area / kCells / kCells, e.perimeter / kCells};
 }
 
+bool is_thin(const Extent& e) { return e.area < e.perimeter * kThin; }
+
 // Queries on the segments that the search for a position makes, one by one.
 struct ByScalars {
   const SegmentSet& set;
@@ -93,12 +95,12 @@ struct ByPacks {
 // Finds a position well inside the region of a level: from the middles of its longest pieces along the normal, half way to the next
 // segment. Returns false if there is none, which happens to slivers only.
 template <class By>
-bool place_inside(const By& by, const Scratch& scratch, std::int32_t level, Place& result) {
+bool place_inside(const By& by, const std::vector<Piece>& pieces, std::int32_t level, Place& result) {
   constexpr int kTrials = 4;
   constexpr double kRoomEnough = kCells / 32.0;
   thread_local std::vector<std::pair<double, const Piece*>> longest;
   longest.clear();
-  for (const Piece& p : scratch.pieces) {
+  for (const Piece& p : pieces) {
     if (!bounds(p, level)) continue;
     const double x = p.bx - p.ax, y = p.by - p.ay;
     longest.push_back({x * x + y * y, &p});
@@ -159,8 +161,10 @@ void find_in_pieces(const By& by, const LightFrame& frame, Vec3d from, const Blo
   for (const std::int32_t level : levels) {
     const Extent extent = extent_of(scratch.pieces, level);
     Place q;
-    if (!(extent.area > 0) || !(place_inside(by, scratch, level, q) || place_inside(ByScalars{scratch.set}, scratch, level, q))) continue;
-    if (extent.area < extent.perimeter * kThin) {
+    if (!(extent.area > 0) ||
+        !(place_inside(by, scratch.pieces, level, q) || place_inside(ByScalars{scratch.set}, scratch.pieces, level, q)))
+      continue;
+    if (is_thin(extent)) {
       thin = true;
       thin_level = level;
       thin_place = q;
@@ -183,6 +187,15 @@ void find_visible_on_packs(const ShadowTable& packs, const LightFrame& frame, Ve
                            VisibleRegion& result) {
   arrange(packs, scratch.set, scratch.arrays, scratch.pieces);
   find_in_pieces(ByPacks{scratch.set, scratch.arrays, packs}, frame, from, blockers, scratch, result);
+}
+
+Width width_of(const SegmentSet& set, const std::vector<Piece>& pieces, std::int32_t level, double& x, double& y) {
+  const Extent extent = extent_of(pieces, level);
+  Place q;
+  if (!(extent.area > 0) || !place_inside(ByScalars{set}, pieces, level, q)) return Width::none;
+  x = q.x;
+  y = q.y;
+  return is_thin(extent) ? Width::thin : Width::wide;
 }
 
 WorldPiece relative_to(Vec3d from, const LightFrame& frame, const Boundary& piece) {

@@ -44,6 +44,11 @@ void find_visible(const LightFrame& frame, Vec3d from, const Blockers& blockers,
 void find_visible_on_packs(const ShadowTable& packs, const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch,
                            VisibleRegion& result);
 
+// The width of a region, as a ray to a place in it can prove.
+enum class Width { none, thin, wide };
+// Judges the region of a level by its boundary among some pieces. x, y: a position inside it in cells, unless there is none.
+Width width_of(const SegmentSet& set, const std::vector<Piece>& pieces, std::int32_t level, double& x, double& y);
+
 // Ends of a boundary relative to the point, in world space.
 struct WorldPiece {
   Vec3d a, b;
