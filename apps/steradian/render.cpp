@@ -74,6 +74,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"bounce_error", stats.bounce_error},
           {"environment_shadow_error", stats.environment_shadow_error},
           {"shadow_fallback", stats.shadow_fallback},
+          {"shadows_estimated", stats.shadows_estimated},
           {"shadow_on_host", stats.shadow_on_host},
           {"exact_tiles", stats.exact_tiles},
           {"estimated_shadow_error", stats.estimated_shadow_error},
@@ -156,6 +157,7 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--stats", options.frames.empty(), "one picture, not --frames"},
        {"--bounces", r.indirect.mode == IndirectMode::off, "no --indirect"},
        {"--reflections", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
+       {"--shadow-error", !samples && r.method != "reference" && r.shadows == Shadows::on, "--shadows on, by a method without samples"},
        {"--time-limit", r.method != "sampled" && r.method != "reference", "a method without samples"},
        {"--time-limit", r.shadows != Shadows::off, "--shadows on or exact"},
        {"--time-limit", r.indirect.mode == IndirectMode::off && options.bounces == "0", "direct light, without --bounces and --indirect"}});
@@ -171,7 +173,8 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
                "--indirect-quads", "--indirect-clamp", "--max-lights",       "--light",
                "--lights",         "--light-error",    "--environment",      "--environment-rotation",
                "--background",     "--light-units",    "--camera",           "--target-error",
-               "--resume",         "--animation",      "--time-limit",       "--reflections"},
+               "--resume",         "--animation",      "--time-limit",       "--reflections",
+               "--shadow-error"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -272,6 +275,10 @@ void run(const Verb& verb, RenderArguments& options) {
   }
   for (const std::string& warning : stats.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
+  if (stats.shadows_estimated > 0)
+    fmt::print(stderr, "steradian: --shadow-error: rays estimate {:.1f} % of the shadows, within {:g} % of each pixel's light\n",
+               100 * stats.shadows_estimated, 100 * render_options.shadow_error);
+
   if (stats.exact_tiles < 1)
     fmt::print(
         stderr,
@@ -301,6 +308,7 @@ void run(const Verb& verb, RenderArguments& options) {
                       {"steradian.seed", std::to_string(render_options.seed)},
                       {"steradian.exposure", fmt::format("{}", exposure)},
                       {"steradian.tone", name_of(options.tone)}};
+  if (stats.shadows_estimated > 0) picture.metadata["steradian.shadow_error"] = fmt::format("{}", render_options.shadow_error);
   if (render_options.time_limit > 0) {
     picture.metadata["steradian.exact_tiles"] = fmt::format("{}", stats.exact_tiles);
     picture.metadata["steradian.estimated_shadow_error"] = fmt::format("{}", stats.estimated_shadow_error);
@@ -333,6 +341,9 @@ void add_render(CommandLine& line) {
   verb.add("--table", r.table, "LTC table for area lights (.json of `steradian fit`), not the built-in").group("Light");
   verb.add_flag("--multiple-scattering", options->multiple_scattering, "add the energy that single scattering by GGX loses").group("Light");
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
+  verb.add("--shadow-error", r.shadow_error, "fraction of a pixel's light within which shadows are estimated; 0: exact")
+      .range(0.0, 1.0)
+      .group("Light");
   verb.add_word("--terminator", r.terminator, "shadow edge of curved meshes on themselves").group("Light");
   verb.add_word("--indirect", r.indirect.mode, "one bounce, by virtual lights or paths").group("Light");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");

@@ -40,6 +40,9 @@ struct RenderOptions {
   Quality quality = Quality::normal;  // see method.h
   Shadows shadows = Shadows::off;
   Terminator terminator = Terminator::smooth;  // of shadows; without them it has no effect
+  // Shadows of a tile's dimmest area lights may be estimated by a few rays, if together they send at most this fraction of each pixel's
+  // light. The layer "shadow_bound" gives the possible error. 0: all shadows are exact. With `on` only.
+  double shadow_error = 0;
   LightSum lights = LightSum::automatic;
   double light_error = 1e-2;   // for tree: for each light, as a fraction of its light on a surface that faces it as nearly as possible
   bool background = true;      // the camera sees the scene's environment; false: black
@@ -96,6 +99,7 @@ struct RenderStats {
   double light_bound_max = 0;           // the layer's largest value ...
   double light_bound_mean = 0;          // ... and its mean, over pixels and channels
   double shadow_fallback = 0;           // fraction of pairs of a surface and a light whose shadows rays have estimated
+  double shadows_estimated = 0;         // fraction of such pairs of dim lights, within RenderOptions::shadow_error
   double exact_tiles = 1;               // fraction of the tiles that are exact, where time was limited
   double estimated_shadow_error = 0;    // estimated rms error of the others over the picture's mean light
   double shadow_on_host = 0;            // fraction of a device's pairs that see a part of the light for which the host found that part

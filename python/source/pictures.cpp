@@ -164,6 +164,7 @@ py::tuple render_scene(LoadedScene& loaded, const py::dict& o, const py::object&
   told["threads"] = stats.threads;
   told["light_tree"] = stats.light_tree;
   told["shadow_fallback"] = stats.shadow_fallback;
+  told["shadows_estimated"] = stats.shadows_estimated;
   told["shadow_on_host"] = stats.shadow_on_host;
   told["total_ms"] = stats.total_ms;
   py::dict passes;

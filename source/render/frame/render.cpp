@@ -119,6 +119,7 @@ class Renderer {
     if (lighting_.has_shadows()) {
       stats.passes.push_back(lighting_.shadow_time(threads_));
       stats.shadow_fallback = lighting_.shadow_fallback();
+      stats.shadows_estimated = lighting_.shadows_estimated();
       stats.exact_tiles = exact_tiles_;
       stats.estimated_shadow_error = estimated_error_;
     }
@@ -163,7 +164,7 @@ class Renderer {
       state.done.assign(tiles, 0);
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
       if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
-      if (is_limited()) picture.layers["shadow_bound"].resize(picture.pixels.size());
+      if (is_limited() || lighting_.may_estimate()) picture.layers["shadow_bound"].resize(picture.pixels.size());
       if (options_.bounces != 0 && !method_.estimates()) AllLight::begin(picture);
     }
     if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||
@@ -357,7 +358,11 @@ class Renderer {
         estimate->clear();
         lighting_.add_shadowed_by_rays(tile, reaching.lights, rays, sample, *estimate);
       } else if (lighting_.has_shadows() && work.by == ShadowsBy::edges) {
-        lighting_.add_shadowed(tile, reaching.lights);
+        if (lighting_.may_estimate()) {
+          estimate = estimates_.local().get();
+          estimate->clear();
+        }
+        lighting_.add_shadowed(tile, reaching.lights, sample, estimate);
       } else {
         lighting_.add(tile, reaching.lights);
       }
@@ -388,6 +393,7 @@ class Renderer {
     }
     if (estimate == nullptr) return 0;
     add_to_picture(estimate->bound, a, shares, weight, picture.layers.at("shadow_bound"), options_.width);
+    if (work.by == ShadowsBy::edges) return 0;
     return estimate->squares * static_cast<double>(weight * weight);
   }
 

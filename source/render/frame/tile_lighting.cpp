@@ -1,6 +1,7 @@
 #include "render/frame/tile_lighting.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "render/direct/lobe_packs.h"
@@ -18,6 +19,36 @@ void add_radiance(SurfaceTile& tile, std::size_t i, Vec3f r) {
   tile.radiance.z[i] += r.z;
 }
 
+// With fewer occluded lights, hardly any is so dim that its shadow need not be exact.
+constexpr std::size_t kFewestLights = 8;
+constexpr std::size_t kRaysOfDimLight = 4;
+
+float largest(Vec3f v) { return std::max({v.x, v.y, v.z}); }
+
+// Adds a fraction of the light `all` that a slot would get without occluders, and the bound of its error.
+void add_estimated(SurfaceTile& tile, std::size_t i, Vec3f all, const RayFractions& fractions, EstimatedShadows& estimate) {
+  add_radiance(tile, i, all * fractions.visible[i]);
+  const float most = std::max(fractions.visible[i], 1 - fractions.visible[i]);
+  estimate.bound.x[i] += all.x * most;
+  estimate.bound.y[i] += all.y * most;
+  estimate.bound.z[i] += all.z * most;
+  const double error = luminance(static_cast<Vec3d>(all)) * static_cast<double>(fractions.half_difference[i]);
+  estimate.squares += error * error;
+}
+
+// The fraction that arrives at a slot that sees all of the light, or a fraction by rays; 0 at the others.
+float whole_fraction(const TileShadow& shadow, std::size_t i) {
+  using Seen = TileShadow::Seen;
+  return shadow.seen[i] == Seen::whole ? 1.0f : shadow.seen[i] == Seen::share ? shadow.share[i] : 0.0f;
+}
+
+// The light that an area light sends to every slot, as if nothing occluded it, and with that of all dimmer ones.
+struct WholeLight {
+  const PackLight* light = nullptr;
+  std::array<Vec3f, kTilePixels> all{}, with_dimmer{};
+  double sum = 0;
+};
+
 }  // namespace
 
 void EstimatedShadows::clear() {
@@ -32,6 +63,7 @@ struct TileLighting::Work {
   OpenLights::Work open;
   PackLight pieces;                  // visible parts of a light, for some slots
   RayFractions fractions;            // of one light
+  std::vector<WholeLight> whole;     // of occluded lights, the brightest first
   std::vector<std::uint32_t> slots;  // slots copied to `some`, side by side
   SurfaceTile some;
   SurfaceTile coats;                 // coats that have a normal of their own
@@ -48,7 +80,12 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
       rays_(parts.rays),
       work_([] { return std::make_shared<Work>(); }) {
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
-  if (shadows_ && (options.time_limit > 0 || options.bounces != 0)) few_rays_.emplace(*rays_, lights);
+  area_lights_ = static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), [](const PackLight& l) { return l.is_area(); }));
+  if (shadows_ && (options.time_limit > 0 || options.bounces != 0 || may_estimate())) few_rays_.emplace(*rays_, lights);
+}
+
+bool TileLighting::may_estimate() const {
+  return shadows_ && options_.shadows == Shadows::on && options_.shadow_error > 0 && area_lights_ >= kFewestLights;
 }
 
 // plain: lights whose diffuse light is still to be added.
@@ -90,11 +127,13 @@ void TileLighting::with_coats(SurfaceTile& tile, Work& work, Add add) {
   put_back_coats(work.coats, tile);
 }
 
-void TileLighting::add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
+void TileLighting::add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights, int sample, EstimatedShadows* estimate) {
   if (lights.empty()) return;
   Work& work = *work_.local();
   with_coats(tile, work, [&](SurfaceTile& to) {
-    const std::vector<const PackLight*> plain = add_past_blockers(to, lights, work);
+    const std::vector<const PackLight*> plain = estimate != nullptr && lights.size() >= kFewestLights
+                                                    ? add_within_error(to, lights, sample, work, *estimate)
+                                                    : add_past_blockers(to, lights, work);
     if (!plain.empty()) add(to, plain);
   });
 }
@@ -126,17 +165,7 @@ void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLi
       for (std::uint32_t i = 0; i < kTilePixels; ++i)
         if (tile.material[i] != nullptr) work.slots.push_back(i);
       const SurfaceTile& whole = light_slots(tile, *light, work);
-      for (std::size_t k = 0; k < work.slots.size(); ++k) {
-        const std::uint32_t i = work.slots[k];
-        const Vec3f all = radiance_in(whole, k);
-        add_radiance(tile, i, all * fractions.visible[i]);
-        const float most = std::max(fractions.visible[i], 1 - fractions.visible[i]);
-        estimate.bound.x[i] += all.x * most;
-        estimate.bound.y[i] += all.y * most;
-        estimate.bound.z[i] += all.z * most;
-        const double error = luminance(static_cast<Vec3d>(all)) * static_cast<double>(fractions.half_difference[i]);
-        estimate.squares += error * error;
-      }
+      for (std::size_t k = 0; k < work.slots.size(); ++k) add_estimated(tile, work.slots[k], radiance_in(whole, k), fractions, estimate);
     }
   }
   for (const PackLight* light : add_past_blockers(tile, punctual, work)) plain.push_back(light);
@@ -185,17 +214,76 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
   return plain;
 }
 
+// Returns the lights that the caller adds as usual: none, or all that nothing occludes. Of the occluded ones, the brightest have exact
+// shadows, up to the first after which all others together send at most the permitted fraction of each pixel's light.
+std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, const std::vector<const PackLight*>& lights, int sample,
+                                                             Work& work, EstimatedShadows& estimate) {
+  TilePoints points;
+  shadow_clock_.run([&] {
+    points = points_for_shadows(tile, *rays_, options_.terminator);
+    shadows_->find_open(points, lights, work.open);
+  });
+  std::vector<const PackLight*> plain, occluded;
+  std::vector<WholeLight>& whole = work.whole;
+  whole.clear();
+  for (const PackLight* light : lights) {
+    if (work.open.open[light->index] != 0)
+      plain.push_back(light);
+    else if (light->is_area())
+      whole.emplace_back().light = light;
+    else
+      occluded.push_back(light);
+  }
+  if (whole.size() < kFewestLights) return add_past_blockers(tile, lights, work);
+  for (const PackLight* light : add_past_blockers(tile, occluded, work)) plain.push_back(light);
+  if (!plain.empty()) add(tile, plain);
+
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i)
+    if (tile.material[i] != nullptr) slots.push_back(i);
+  for (WholeLight& w : whole) {
+    work.slots = slots;
+    const SurfaceTile& lit = light_slots(tile, *w.light, work);
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+      w.all[slots[k]] = radiance_in(lit, k);
+      w.sum += luminance(static_cast<Vec3d>(w.all[slots[k]]));
+    }
+  }
+  std::stable_sort(whole.begin(), whole.end(), [](const WholeLight& a, const WholeLight& b) { return a.sum > b.sum; });
+  for (std::size_t k = whole.size(); k-- > 0;)
+    for (const std::uint32_t i : slots)
+      whole[k].with_dimmer[i] = k + 1 < whole.size() ? whole[k].all[i] + whole[k + 1].with_dimmer[i] : whole[k].all[i];
+
+  const auto error = static_cast<float>(options_.shadow_error);
+  std::size_t dim = 0;  // the first light whose shadow need not be exact
+  for (; dim < whole.size(); ++dim) {
+    WholeLight& w = whole[dim];
+    const auto needs_no_more = [&](std::uint32_t i) { return largest(w.with_dimmer[i]) <= error * largest(radiance_in(tile, i)); };
+    if (std::all_of(slots.begin(), slots.end(), needs_no_more)) break;
+    shadow_clock_.run([&] { shadows_->find(tile, points, *w.light, work.shadow, work.counts); });
+    for (const std::uint32_t i : slots) add_radiance(tile, i, w.all[i] * whole_fraction(work.shadow, i));
+    add_parts(tile, *w.light, work);
+  }
+  for (std::size_t k = dim; k < whole.size(); ++k) {
+    const WholeLight& w = whole[k];
+    if (!(w.sum > 0)) break;  // nor do the others send any
+    shadow_clock_.run([&] { few_rays_->find(tile, points, *w.light, kRaysOfDimLight, sample, work.fractions); });
+    work.counts.estimated += slots.size();
+    for (const std::uint32_t i : slots) add_estimated(tile, i, w.all[i], work.fractions, estimate);
+  }
+  return {};
+}
+
 // Adds the light for slots that see all of it, or a fraction of it.
 void TileLighting::add_whole(SurfaceTile& tile, const PackLight& light, Work& work) {
-  using Seen = TileShadow::Seen;
   work.slots.clear();
   for (std::uint32_t i = 0; i < kTilePixels; ++i)
-    if (work.shadow.seen[i] == Seen::whole || work.shadow.seen[i] == Seen::share) work.slots.push_back(i);
+    if (whole_fraction(work.shadow, i) > 0) work.slots.push_back(i);
   if (work.slots.empty()) return;
   SurfaceTile& some = light_slots(tile, light, work);
   for (std::size_t k = 0; k < work.slots.size(); ++k) {
     const std::uint32_t i = work.slots[k];
-    add_radiance(tile, i, radiance_in(some, k) * (work.shadow.seen[i] == Seen::share ? work.shadow.share[i] : 1.0f));
+    add_radiance(tile, i, radiance_in(some, k) * whole_fraction(work.shadow, i));
   }
 }
 
@@ -255,8 +343,15 @@ ShadowCounts TileLighting::shadow_counts() const {
     counts.points += work->counts.points;
     counts.parts += work->counts.parts;
     counts.fallback += work->counts.fallback;
+    counts.estimated += work->counts.estimated;
   }
   return counts;
+}
+
+double TileLighting::shadows_estimated() const {
+  const ShadowCounts counts = shadow_counts();
+  const std::uint64_t all = counts.points + counts.estimated;
+  return all > 0 ? static_cast<double>(counts.estimated) / static_cast<double>(all) : 0;
 }
 
 double TileLighting::shadow_fallback() const {

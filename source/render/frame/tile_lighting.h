@@ -33,6 +33,8 @@ class TileLighting {
                const SceneParts& parts, ManyLightPass* many_lights);
 
   bool has_shadows() const { return shadows_.has_value(); }
+  // True if the shadows of dim lights may be estimated (RenderOptions::shadow_error).
+  bool may_estimate() const;
 
   // Adds the light of lights that nothing occludes to tile.radiance. With many lights, their bound() grows.
   void add(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
@@ -40,8 +42,8 @@ class TileLighting {
   void add_beside_block(SurfaceTile& tile, const std::vector<const PackLight*>& lights) {
     add_many(tile, lights, many_lights_->others(lights));
   }
-  // Adds the light of lights that may be occluded.
-  void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights);
+  // Adds the light of lights that may be occluded. estimate: takes the bound of shadows within options.shadow_error; null: all are exact.
+  void add_shadowed(SurfaceTile& tile, const std::vector<const PackLight*>& lights, int sample = 0, EstimatedShadows* estimate = nullptr);
   // The same with the shadows of area lights estimated by a few rays. Adds to the estimate.
   void add_shadowed_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample,
                             EstimatedShadows& estimate);
@@ -55,6 +57,8 @@ class TileLighting {
   PassTime shadow_time(int threads) const { return shadow_clock_.time(threads); }
   // Fraction of pairs of a surface and a light whose shadows were estimated by rays.
   double shadow_fallback() const;
+  // Fraction of pairs whose shadows were estimated within RenderOptions::shadow_error.
+  double shadows_estimated() const;
   ShadowCounts shadow_counts() const;
 
  private:
@@ -62,6 +66,8 @@ class TileLighting {
   void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain);
   std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
                                                   ShadowTaker* taker = nullptr);
+  std::vector<const PackLight*> add_within_error(SurfaceTile& tile, const std::vector<const PackLight*>& lights, int sample, Work& work,
+                                                 EstimatedShadows& estimate);
   template <class Add>
   void with_coats(SurfaceTile& tile, Work& work, Add add);
   void add_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample, Work& work,
@@ -80,7 +86,8 @@ class TileLighting {
   const SpecularPass specular_;
   const std::shared_ptr<const RayScene> rays_;
   std::optional<ShadowPass> shadows_;
-  std::optional<FewRays> few_rays_;  // only where time is limited, and for patches
+  std::optional<FewRays> few_rays_;  // only where time is limited, for patches, and for dim lights
+  std::size_t area_lights_ = 0;
   tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
   PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};
 };

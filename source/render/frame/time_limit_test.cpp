@@ -59,6 +59,53 @@ TEST(TimeLimit, EnoughTimeGivesTheExactPicture) {
   for (const Vec3f& bound : limited.layers.at("shadow_bound")) EXPECT_EQ(bound, Vec3f{});
 }
 
+// A strong light and thirty dim ones over boxes. Together with the dimmer ones, some lights send less than the permitted fraction.
+Scene scene_of_dim_lights() {
+  Scene scene = scene::floor_scene(SurfaceMaterial{}, 3, {0, 3, 5});
+  for (int i = 0; i < 9; ++i) {
+    const float x = static_cast<float>(i % 3) - 1, z = static_cast<float>(i / 3) - 1;
+    scene.meshes.push_back(scene::quad_mesh({x, 0.3f, z}, {x + 0.4f, 0.3f, z}, {x + 0.4f, 0.5f, z + 0.4f}, {x, 0.5f, z + 0.4f}, 0));
+  }
+  for (int i = 0; i <= 30; ++i) {
+    AreaLight light;
+    const double angle = 0.7 * i, r = i == 0 ? 0 : 2.5;
+    light.shape = Ellipse{{r * std::cos(angle), i == 0 ? 3 : 1.5, r * std::sin(angle)}, {0.2, 0, 0}, {0, 0, 0.2}};
+    const float radiance = i == 0 ? 100 : 2 * std::exp(-0.3f * static_cast<float>(i));
+    light.radiance = {radiance, radiance, 0.5 * static_cast<double>(radiance)};
+    light.two_sided = true;
+    scene.area_lights.push_back(std::move(light));
+  }
+  return scene;
+}
+
+TEST(ShadowError, EveryPixelIsWithinItsBoundAndTheBoundWithinTheError) {
+  const Scene scene = scene_of_dim_lights();
+  RenderOptions options;
+  options.width = 160;
+  options.height = 90;
+  options.shadows = Shadows::on;
+  RenderStats stats;
+  const Picture exact = render(scene, options, &stats);
+  EXPECT_EQ(stats.shadows_estimated, 0);
+  EXPECT_EQ(exact.layers.count("shadow_bound"), 0u);
+  double estimated = 0;
+  for (const double error : {1e-3, 1e-2, 0.1}) {
+    options.shadow_error = error;
+    const Picture picture = render(scene, options, &stats);
+    const std::vector<Vec3f>& bound = picture.layers.at("shadow_bound");
+    for (std::size_t i = 0; i < bound.size(); ++i) {
+      const Vec3f a = picture.pixels[i], b = exact.pixels[i], of = bound[i];
+      // Sums of 31 lights in float are off by 31 roundings.
+      const float rounding = 2e-6f * std::max({b.x, b.y, b.z});
+      for (const auto [value, truth, most] : {std::array{a.x, b.x, of.x}, {a.y, b.y, of.y}, {a.z, b.z, of.z}})
+        ASSERT_LE(std::fabs(value - truth), most * 1.01f + rounding) << error << " pixel " << i;
+      ASSERT_LE(std::max({of.x, of.y, of.z}), static_cast<float>(error) * std::max({a.x, a.y, a.z}) + rounding) << error << " pixel " << i;
+    }
+    EXPECT_GT(stats.shadows_estimated, estimated);  // a larger error leaves more to rays
+    estimated = stats.shadows_estimated;
+  }
+}
+
 // A wall hides half of each kind of light from the floor's middle.
 TEST(FewRays, FindHalfOfALightOfAnyShape) {
   Scene scene = scene::floor_scene(SurfaceMaterial{}, 2, {0, 2, 2});

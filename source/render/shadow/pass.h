@@ -21,9 +21,10 @@ namespace steradian {
 
 // Counts over all tiles, for --stats.
 struct ShadowCounts {
-  std::uint64_t points = 0;    // pairs of a surface and a light that were tested
-  std::uint64_t parts = 0;     // pairs in a penumbra
-  std::uint64_t fallback = 0;  // pairs estimated by rays
+  std::uint64_t points = 0;     // pairs of a surface and a light that were tested
+  std::uint64_t parts = 0;      // pairs in a penumbra
+  std::uint64_t fallback = 0;   // pairs estimated by rays
+  std::uint64_t estimated = 0;  // pairs of dim lights, within RenderOptions::shadow_error; not among `points`
 };
 
 class ShadowPass {
