@@ -86,7 +86,7 @@ Json lobes_of(const SurfaceMaterial& m) {
   if (m.specular_override.empty() && (m.metallic > 0 || m.specular > 0)) lobes.push_back(m.anisotropy > 0 ? "ggx, anisotropic" : "ggx");
   if (weighs(m.sheen_color)) lobes.push_back("charlie (sheen)");
   if (m.clearcoat > 0) lobes.push_back("ggx (coat)");
-  if (m.transmission > 0) lobes.push_back("transmission, thin");
+  if (m.transmission > 0) lobes.push_back(m.solid ? "transmission, solid" : "transmission, thin");
   return lobes;
 }
 

@@ -56,8 +56,11 @@ struct SurfaceMaterial {
   float anisotropy_rotation = 0;  // radians, counter-clockwise from the tangent
   TextureUse anisotropy_texture;  // direction in rg (2x - 1), strength in b
 
-  float transmission = 0;           // fraction of the diffuse lobe that passes a thin wall instead, in the base colour
-  TextureUse transmission_texture;  // r
+  float transmission = 0;            // fraction of the diffuse lobe that passes a thin wall instead, in the base colour
+  TextureUse transmission_texture;   // r
+  bool solid = false;                // of what transmits: its mesh bounds a solid that bends light; false: a thin wall
+  Vec3f attenuation_color{1, 1, 1};  // of a solid: fraction of light that is left after attenuation_distance
+  float attenuation_distance = std::numeric_limits<float>::infinity();
 
   AlphaMode alpha_mode = AlphaMode::opaque;  // blend: covers the background by base_color's alpha
   float alpha_cutoff = 0.5f;                 // for AlphaMode::mask

@@ -88,9 +88,8 @@ std::shared_ptr<const SceneRays> rays_of(const Scene& scene, const std::shared_p
 // The view through one primary sample of a tile, past as many surfaces as `layer` says.
 struct Job {
   int tile;
-  std::unique_ptr<TileVector> shares;  // fraction of the light from there; null in front of the first surface that light passes
-  TilePlane behind;                    // position of those surfaces
-  bool passing = false;                // light also passes the surfaces found
+  std::unique_ptr<PassedRays::Ways> ways;  // past those surfaces; null in front of the first one
+  bool passing = false;                    // light also passes the surfaces found
 };
 
 }  // namespace
@@ -181,8 +180,10 @@ struct Frame::Parts {
           tile.seed = surfaces.seed(job.tile, sample);
           surfaces.add_background(job.tile, sample, tile);
         });
+      else if (job.ways)
+        surfaces.fill_behind(job.tile, sample, tile, *job.ways);
       else
-        distances = surfaces.fill(job.tile, sample, tile, layer > 0 ? &job.behind : nullptr);
+        distances = surfaces.fill(job.tile, sample, tile);
       if (bounced && sample == 0 && layer == 0) capture_clock.run([&] { bounced->take(tile, surfaces.area(job.tile)); });
       surfaces.add_environment(job.tile, sample, tile);
       lists_clock.run([&] { tiles[i].lights = lights_reaching(light_pointers, tile); });
@@ -196,11 +197,13 @@ struct Frame::Parts {
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
       // The fractions of this layer are still needed; those of the next one are stored beside them.
-      job.behind = distances;
-      next_shares[i] = job.shares ? std::make_unique<TileVector>(*job.shares) : std::make_unique<TileVector>();
-      if (!job.shares)
-        for (TilePlane* plane : {&next_shares[i]->x, &next_shares[i]->y, &next_shares[i]->z}) plane->fill(1);
-      look_through(tile, *next_shares[i], job.behind);
+      if (job.ways) {
+        next_ways[i] = std::make_unique<PassedRays::Ways>(*job.ways);
+      } else {
+        next_ways[i] = std::make_unique<PassedRays::Ways>();
+        PassedRays::begin(distances, *next_ways[i]);
+      }
+      surfaces.look_through(tile, *next_ways[i]);
     });
     return tiles;
   }
@@ -227,8 +230,8 @@ struct Frame::Parts {
 
   // Lights the jobs and adds them to the picture; returns those that may have more surfaces behind.
   std::vector<Job> light(std::vector<Job> jobs, int sample, int layer, Picture& picture) {
-    next_shares.clear();
-    next_shares.resize(jobs.size());
+    next_ways.clear();
+    next_ways.resize(jobs.size());
     std::vector<DirectLight::Tile> tiles = find_surfaces(jobs, sample, layer);
     device_clock.run([&] { light_tiles(tiles); });
     const float weight = 1.0f / static_cast<float>(options.aa);
@@ -236,14 +239,15 @@ struct Frame::Parts {
       resolve_clock.run([&] {
         TileVector& radiance = *radiances.local();
         direct.take_radiance(i, radiance);
-        add_to_picture(radiance, surfaces.area(jobs[i].tile), jobs[i].shares.get(), weight, picture.pixels, options.width);
+        add_to_picture(radiance, surfaces.area(jobs[i].tile), jobs[i].ways ? &jobs[i].ways->shares : nullptr, weight, picture.pixels,
+                       options.width);
       });
     });
     std::vector<Job> next;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
       if (!jobs[i].passing) continue;
       next.push_back(std::move(jobs[i]));
-      next.back().shares = std::move(next_shares[i]);
+      next.back().ways = std::move(next_ways[i]);
     }
     return next;
   }
@@ -265,7 +269,7 @@ struct Frame::Parts {
       const int sample = raster ? step / batches : step % options.aa, first = (raster ? step % batches : step / options.aa) * batch;
       if (raster && first == 0) device_clock.run([&] { raster->look(sample); });
       std::vector<Job> jobs;
-      for (int tile = first; tile < std::min(first + batch, count); ++tile) jobs.push_back({tile, nullptr, {}, false});
+      for (int tile = first; tile < std::min(first + batch, count); ++tile) jobs.push_back({tile, nullptr, false});
       const std::uint64_t now_done = done + jobs.size();
       for (int layer = 0; !jobs.empty(); ++layer) jobs = light(std::move(jobs), sample, layer, picture);
       while (options.progress && done < now_done)
@@ -343,7 +347,7 @@ struct Frame::Parts {
   double build_ms = 0;
   PassClock lists_clock{"lists"}, upload_clock{"upload"}, device_clock{"device"}, resolve_clock{"resolve"},
       capture_clock{"indirect: surfaces"};
-  std::vector<std::unique_ptr<TileVector>> next_shares;  // by job
+  std::vector<std::unique_ptr<PassedRays::Ways>> next_ways;  // by job
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> workspaces{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::enumerable_thread_specific<std::unique_ptr<TileVector>> radiances{[] { return std::make_unique<TileVector>(); }};
   std::map<std::string, double> reported;  // milliseconds of passes up to the last report

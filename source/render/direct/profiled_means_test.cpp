@@ -40,12 +40,6 @@ AreaLight lamp(bool round, bool spot) {
   return light;
 }
 
-void put(TileVector& v, std::size_t i, Vec3d a) {
-  v.x[i] = static_cast<float>(a.x);
-  v.y[i] = static_cast<float>(a.y);
-  v.z[i] = static_cast<float>(a.z);
-}
-
 }  // namespace
 
 // Packs against adaptive cubature at every point, relative to the brightest mean. The bounds are those of the mean by cells, which
@@ -75,9 +69,9 @@ TEST(ProfiledMeans, PacksFollowTheReference) {
         for (std::size_t i = 0; i < kPoints; ++i) {
           // About the rim of the spot, 0.8 m from the axis on the floor.
           const double angle = 2 * std::numbers::pi * random.uniform(), r = 0.6 + 0.4 * random.uniform();
-          put(tile->position, i, {r * std::cos(angle), 0.1 * random.uniform(), r * std::sin(angle)});
-          put(tile->normal, i, normalized(Vec3d{0.2 * random.uniform(), 1, 0.2 * random.uniform()}));
-          put(tile->view, i, normalized(Vec3d{random.uniform() - 0.5, 0.3 + random.uniform(), random.uniform() - 0.5}));
+          put(tile->position, i, static_cast<Vec3f>(Vec3d{r * std::cos(angle), 0.1 * random.uniform(), r * std::sin(angle)}));
+          put(tile->normal, i, static_cast<Vec3f>(normalized(Vec3d{0.2 * random.uniform(), 1, 0.2 * random.uniform()})));
+          put(tile->view, i, static_cast<Vec3f>(normalized(Vec3d{random.uniform() - 0.5, 0.3 + random.uniform(), random.uniform() - 0.5})));
           put(tile->tangent, i, {0, 0, 0});
           tile->alpha_x[i] = tile->alpha_y[i] = static_cast<float>(alpha);
           f0[i] = 0.2f, f90[i] = 1;

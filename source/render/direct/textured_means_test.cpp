@@ -40,11 +40,6 @@ struct Window {
   }
 };
 
-void put(TileVector& v, std::size_t i, Vec3d a) {
-  v.x[i] = static_cast<float>(a.x);
-  v.y[i] = static_cast<float>(a.y);
-  v.z[i] = static_cast<float>(a.z);
-}
 Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(get(v, i)); }
 
 }  // namespace
@@ -63,9 +58,9 @@ TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
     const double x = any ? random.uniform(-3, 3) : 0.02 * static_cast<double>(i % 32),
                  z = any ? random.uniform(-0.9, 4) : 0.02 * static_cast<double>(i / 32);
     const Vec3d normal = normalized(Vec3d{random.uniform(-0.1, 0.1), 1, random.uniform(-0.1, 0.1)});
-    put(tile->position, i, {x, 0, z});
-    put(tile->normal, i, normal);
-    put(tile->view, i, normalized(Vec3d{random.uniform(-0.5, 0.5), random.uniform(0.3, 1), random.uniform(0.2, 2)}));
+    put(tile->position, i, static_cast<Vec3f>(Vec3d{x, 0, z}));
+    put(tile->normal, i, static_cast<Vec3f>(normal));
+    put(tile->view, i, static_cast<Vec3f>(normalized(Vec3d{random.uniform(-0.5, 0.5), random.uniform(0.3, 1), random.uniform(0.2, 2)})));
     tile->alpha_x[i] = static_cast<float>(std::exp(random.uniform(-3.5, 0)));
     tile->alpha_y[i] = i % 3 == 0 ? tile->alpha_x[i] : static_cast<float>(std::exp(random.uniform(-3.5, 0)));
     tile->sheen_alpha[i] = i % 7 == 0 ? 0.0f : 1.0f;  // 1 if the mean is wanted

@@ -18,11 +18,11 @@ void add(TileVector& to, std::size_t i, Vec3f r) {
 
 }  // namespace
 
-AllLight::AllLight(const Scene& scene, const SceneParts& parts, const CameraRays& camera, const RenderOptions& options,
+AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
                    const AddDirect& add_to_patches, AddDirect add_direct)
     : width_(options.width),
       reflections_(options.reflections),
-      eye_(camera.origin()),
+      eye_(surfaces.camera().origin()),
       patches_([&] {
         const auto start = Clock::now();
         radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_to_patches);
@@ -30,7 +30,7 @@ AllLight::AllLight(const Scene& scene, const SceneParts& parts, const CameraRays
         return light;
       }()),
       gather_(patches_, *parts.rays, options.quality, options.aa),
-      mirrors_(scene, *parts.rays, *parts.maps, camera.steps(options.aa)),
+      surfaces_(surfaces),
       add_direct_(std::move(add_direct)) {}
 
 void AllLight::begin(Picture& picture) {
@@ -51,17 +51,30 @@ void AllLight::gather(SurfaceTile& tile, int sample, TileVector& light, TileVect
   }
 }
 
-// Adds the light of the surfaces that mirrors show, which are lit like those that the camera sees.
+// Adds the light of the surfaces that mirrors show, which are lit like those that the camera sees. The lobes' integrals over the lamps
+// already hold the lamps' light.
 void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const {
   if (depth == 0) return;
-  const auto image = std::make_unique<radiosity::Mirrors::Image>();
-  if (!mirrors_.find(tile, distance, *image)) return;
-  add_direct_(image->tile);
-  TileVector error{};
-  gather(image->tile, sample, image->tile.radiance, error);
-  add_mirrored(image->tile, image->distance, sample, depth - 1, image->tile.radiance);
-  for (std::size_t i = 0; i < kTilePixels; ++i)
-    if (image->tile.material[i] != nullptr) steradian::add(light, i, get(image->tile.radiance, i) * get(image->weight, i));
+  const auto ways = std::make_unique<PassedRays::Ways>();
+  if (!radiosity::find_mirrored(surfaces_.rays(), tile, distance, *ways)) return;
+  const auto shown = std::make_unique<SurfaceTile>();
+  for (int layer = 0; layer < kMostLayers; ++layer) {
+    if (layer > 0) surfaces_.look_through(*shown, *ways);
+    clear_kinds(*shown);
+    shown->seed = tile.seed;
+    for (std::size_t i = 0; i < kTilePixels; ++i) put_nothing(*shown, i);
+    surfaces_.passed_rays().fill(*ways, PassedRays::Lamps::hidden, *shown);
+    if (!shown->any_surface) return;
+    add_direct_(*shown);
+    TileVector error{};
+    gather(*shown, sample, shown->radiance, error);
+    TilePlane onwards;
+    for (std::size_t i = 0; i < kTilePixels; ++i) onwards[i] = ways->length[i] + length(get(shown->position, i) - get(ways->origin, i));
+    add_mirrored(*shown, onwards, sample, depth - 1, shown->radiance);
+    for (std::size_t i = 0; i < kTilePixels; ++i)
+      if (shown->material[i] != nullptr) steradian::add(light, i, get(shown->radiance, i) * get(ways->shares, i));
+    if (!shown->any_passing) return;
+  }
 }
 
 void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture) {

@@ -17,8 +17,8 @@ class AllLight {
   using AddDirect = radiosity::PatchLight::AddDirect;
 
   // Solves the light of all patches. add_to_patches and add_direct add the direct light of a tile's surfaces, the second also where other
-  // surfaces of the tile's pixels are being lit. Scene, parts and camera must outlive this object.
-  AllLight(const Scene& scene, const SceneParts& parts, const CameraRays& camera, const RenderOptions& options,
+  // surfaces of the tile's pixels are being lit. Scene, parts and surfaces must outlive this object.
+  AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
            const AddDirect& add_to_patches, AddDirect add_direct);
 
   // Makes the layers "indirect" and "bounce_error".
@@ -38,7 +38,7 @@ class AllLight {
   PassClock clock_{"bounces"};
   const radiosity::PatchLight patches_;
   const radiosity::Gather gather_;
-  const radiosity::Mirrors mirrors_;
+  const FrameSurfaces& surfaces_;
   const AddDirect add_direct_;
 };
 

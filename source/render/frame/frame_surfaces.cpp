@@ -4,12 +4,6 @@
 #include <utility>
 
 namespace steradian {
-namespace {
-
-constexpr float kLeastShare = 1e-3f;  // least fraction of the light from behind; less is black
-
-}  // namespace
-
 FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts)
     : scene_(scene),
       options_(options),
@@ -22,6 +16,7 @@ FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, c
       maps_(parts.maps),
       shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, maps_.get(),
                camera_.steps(options.aa)},
+      passed_(scene, *rays_, shading_, options.background ? environment_.get() : nullptr),
       tiles_x_((options.width + kTileSide - 1) / kTileSide),
       tiles_y_((options.height + kTileSide - 1) / kTileSide) {
   halves_of_rays_.resize(static_cast<std::size_t>(tile_count()));
@@ -55,6 +50,11 @@ TilePlane FrameSurfaces::fill(int index, int sample, SurfaceTile& tile, const Ti
   TilePlane distances{};
   std::copy(hits.distance.begin(), hits.distance.end(), distances.begin());
   return distances;
+}
+
+void FrameSurfaces::fill_behind(int index, int sample, SurfaceTile& tile, PassedRays::Ways& ways) {
+  ways.behind = fill(index, sample, tile, &ways.behind);
+  passed_.fill(ways, PassedRays::Lamps::shown, tile);
 }
 
 void FrameSurfaces::add_background(int index, int sample, SurfaceTile& tile) const {
@@ -113,18 +113,6 @@ double FrameSurfaces::environment_shadow_error() const {
   environment::HalvesOfRays all;
   for (const environment::HalvesOfRays& tile : halves_of_rays_) all += tile;
   return all.relative_rms();
-}
-
-void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind) {
-  constexpr float kPast = 1 + 2e-5f;  // some roundings of a distance and of a triangle's coordinates
-  for (std::size_t i = 0; i < kTilePixels; ++i) {
-    shares.x[i] *= tile.passes.x[i];
-    shares.y[i] *= tile.passes.y[i];
-    shares.z[i] *= tile.passes.z[i];
-    const bool any = tile.material[i] != nullptr && std::max({shares.x[i], shares.y[i], shares.z[i]}) > kLeastShare;
-    behind[i] = any ? behind[i] * kPast : 0;
-    if (!any) shares.x[i] = shares.y[i] = shares.z[i] = 0;
-  }
 }
 
 void add_to_picture(const TileVector& values, TileArea a, const TileVector* shares, float weight, std::vector<Vec3f>& pixels, int width) {

@@ -9,6 +9,7 @@
 #include "render/environment/environment_shadows.h"
 #include "render/surface/camera_rays.h"
 #include "render/surface/gbuffer.h"
+#include "render/surface/passed_rays.h"
 #include "render/surface/ray_scene.h"
 #include "render/surface/surface_pack.h"
 #include "render/tile/pass_clock.h"
@@ -34,6 +35,10 @@ class FrameSurfaces {
   // Fills a tile with the surfaces through the places of a primary sample, and the background around them. behind: distances to look past;
   // null for the nearest surfaces. Returns the distances of the surfaces.
   TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr);
+  // Moves rays past the surfaces of a tile, then fills it with the next ones.
+  const PassedRays& passed_rays() const { return passed_; }
+  void look_through(const SurfaceTile& tile, PassedRays::Ways& ways) const { passed_.look_through(tile, ways); }
+  void fill_behind(int index, int sample, SurfaceTile& tile, PassedRays::Ways& ways);
   // SurfaceTile::seed. It depends on the pixels' places, not on their surfaces, which may differ by a rounding on another back end.
   std::uint64_t seed(int index, int sample) const {
     return static_cast<std::uint64_t>(sample) * static_cast<std::uint64_t>(tile_count()) + static_cast<std::uint64_t>(index);
@@ -69,12 +74,10 @@ class FrameSurfaces {
   std::vector<environment::HalvesOfRays> halves_of_rays_;                             // by tile
   const std::shared_ptr<const MipMaps> maps_;
   const Shading shading_;
+  const PassedRays passed_;
   const int tiles_x_, tiles_y_;
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, environment_clock_{"environment"};
 };
-
-// Multiplies `shares` by what the tile's surfaces let through, and moves `behind` past them: 0 where nothing comes through.
-void look_through(const SurfaceTile& tile, TileVector& shares, TilePlane& behind);
 
 // Adds `weight` times a tile's values to the pixels of a picture. shares: fraction of them that arrives; null for all.
 void add_to_picture(const TileVector& values, TileArea area, const TileVector* shares, float weight, std::vector<Vec3f>& pixels, int width);

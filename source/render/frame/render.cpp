@@ -311,7 +311,7 @@ class Renderer {
     steps_ += radiosity::PatchLight::direct_tiles(scene_, options_.quality);
     arena_.execute([&] {
       all_light_ = std::make_unique<AllLight>(
-          scene_, parts_, surfaces_.camera(), options_,
+          scene_, parts_, surfaces_, options_,
           [this](SurfaceTile& tile) {
             if (tile.any_surface) light_directly(tile, true);
             if (options_.progress) options_.progress(++done_, steps_);
@@ -416,16 +416,16 @@ class Renderer {
   double render_sample(int index, int s, int pairs, Picture& picture, Sum sum, ShadowWork work) {
     SurfaceTile* tile = workspace();
     const TileArea a = area(index);
-    TilePlane behind = surfaces_.fill(index, s, *tile);
+    const TilePlane distances = surfaces_.fill(index, s, *tile);
     if (indirect_ && s == 0) capture_clock_.run([&] { indirect_->take(*tile, a); });
     double squares = light_tile(*tile, index, s, 0, pairs, nullptr, picture, sum, work);
     if (!tile->any_passing) return squares;
-    TileVector shares;
-    for (TilePlane* plane : {&shares.x, &shares.y, &shares.z}) plane->fill(1);
+    const auto ways = std::make_unique<PassedRays::Ways>();
+    PassedRays::begin(distances, *ways);
     for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
-      look_through(*tile, shares, behind);
-      behind = surfaces_.fill(index, s, *tile, &behind);
-      squares += light_tile(*tile, index, s, layer, pairs, &shares, picture, Sum::tile, work);
+      surfaces_.look_through(*tile, *ways);
+      surfaces_.fill_behind(index, s, *tile, *ways);
+      squares += light_tile(*tile, index, s, layer, pairs, &ways->shares, picture, Sum::tile, work);
     }
     return squares;
   }

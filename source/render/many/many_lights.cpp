@@ -9,11 +9,6 @@ namespace steradian::lights {
 namespace {
 
 Vec3f at(const Planes& planes, std::uint32_t i) { return {planes.x[i], planes.y[i], planes.z[i]}; }
-void put(TileVector& v, std::size_t i, Vec3f a) {
-  v.x[i] = a.x;
-  v.y[i] = a.y;
-  v.z[i] = a.z;
-}
 
 // Costs in nanoseconds of one core with AVX-512: a light's element and outline at a point; a light that a half of a cell judges and takes
 // into its polynomial; a half itself. They only decide which way is faster.

@@ -22,6 +22,8 @@ std::array<std::uint32_t, BounceRays::kLanes> BounceRays::trace() {
   sides.fill(kNoSide);
   if (asked_ == 0) return sides;
   alignas(64) int valid[kLanes];
+  std::array<unsigned, kLanes> met;  // mesh
+  met.fill(RTC_INVALID_GEOMETRY_ID);
   RTCRay16& ray = packet_.ray;
   for (std::size_t i = 0; i < kLanes; ++i) {
     valid[i] = (asked_ >> i & 1) != 0 ? -1 : 0;
@@ -32,12 +34,31 @@ std::array<std::uint32_t, BounceRays::kLanes> BounceRays::trace() {
     ray.id[i] = ray.flags[i] = 0;
     packet_.hit.geomID[i] = packet_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rays_.intersect(valid, packet_);
+  constexpr int kMostPassed = 8;
+  for (int passed = 0; passed <= kMostPassed; ++passed) {
+    rays_.intersect(valid, packet_);
+    // Rays go straight through glass, and are traced again behind it.
+    bool again = false;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (valid[i] == 0) continue;
+      const unsigned mesh = packet_.hit.geomID[i];
+      valid[i] = mesh != RTC_INVALID_GEOMETRY_ID && patches_.lets_through(mesh) ? -1 : 0;
+      if (valid[i] == 0) {
+        met[i] = mesh;
+        continue;
+      }
+      again = true;
+      ray.tnear[i] = ray.tfar[i] * (1 + 2e-5f);
+      ray.tfar[i] = std::numeric_limits<float>::infinity();
+      packet_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (!again) break;
+  }
   for (std::size_t i = 0; i < kLanes; ++i) {
-    if (valid[i] == 0 || packet_.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    if ((asked_ >> i & 1) == 0 || met[i] == RTC_INVALID_GEOMETRY_ID) continue;
     // Embree's normal is that of the winding.
     const float towards = packet_.hit.Ng_x[i] * ray.dir_x[i] + packet_.hit.Ng_y[i] * ray.dir_y[i] + packet_.hit.Ng_z[i] * ray.dir_z[i];
-    sides[i] = patches_.side_at(packet_.hit.geomID[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
+    sides[i] = patches_.side_at(met[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
   }
   asked_ = 0;
   return sides;

@@ -32,42 +32,27 @@ std::optional<Mirror> mirror_of(const Surface& surface, Vec3f view) {
   return mirror;
 }
 
-// Steps between the pixels that meet a ray of this direction.
-PixelSteps steps_about(Vec3f direction, float pixel) {
-  const Frame frame = Frame::from_normal(static_cast<Vec3d>(direction));
-  return {static_cast<Vec3f>(frame.x) * pixel, static_cast<Vec3f>(frame.y) * pixel, direction};
-}
-
 }  // namespace
 
-Mirrors::Mirrors(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PixelSteps& steps)
-    : scene_(scene), rays_(rays), maps_(maps), pixel_(std::sqrt(length(steps.right) * length(steps.down))) {}
-
-bool Mirrors::find(const SurfaceTile& tile, const TilePlane& distance, Image& image) const {
-  clear_kinds(image.tile);
-  image.tile.seed = tile.seed;
+bool find_mirrored(const RayScene& rays, const SurfaceTile& tile, const TilePlane& distance, PassedRays::Ways& ways) {
+  bool any = false;
+  ways.behind.fill(0);
   for (std::size_t i = 0; i < kTilePixels; ++i) {
-    put_nothing(image.tile, i);
+    ways.bent[i] = 0;
+    put(ways.shares, i, {});
     if (tile.material[i] == nullptr || tile.material[i]->unlit) continue;
     const Surface surface = surface_in(tile, i);
     const std::optional<Mirror> mirror = mirror_of(surface, get(tile.view, i));
     if (!mirror || !weighs(mirror->weight) || !(dot(mirror->direction, surface.geometric_normal) > 0)) continue;
-    const Vec3d origin = rays_.off_surface(static_cast<Vec3d>(surface.position), static_cast<Vec3d>(surface.geometric_normal));
-    RTCRayHit hit;
-    if (!rays_.intersect(static_cast<Vec3f>(origin), mirror->direction, hit)) continue;
-    const Mesh& mesh = scene_.meshes[hit.hit.geomID];
-    image.distance[i] = distance[i] + hit.ray.tfar;
-    Surface shown =
-        surface_at(scene_, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -mirror->direction,
-                   footprint_on(maps_, mesh, hit.hit.primID, mirror->direction, image.distance[i], steps_about(mirror->direction, pixel_)));
-    // The lobe's integral over the lamps already holds their light.
-    if (!shown.material->unlit) shown.emission = {};
-    put_surface(image.tile, i, shown, -mirror->direction);
-    image.weight.x[i] = mirror->weight.x;
-    image.weight.y[i] = mirror->weight.y;
-    image.weight.z[i] = mirror->weight.z;
+    const Vec3d origin = rays.off_surface(static_cast<Vec3d>(surface.position), static_cast<Vec3d>(surface.geometric_normal));
+    ways.bent[i] = 1;
+    put(ways.shares, i, mirror->weight);
+    put(ways.origin, i, static_cast<Vec3f>(origin));
+    put(ways.direction, i, mirror->direction);
+    ways.length[i] = distance[i];
+    any = true;
   }
-  return image.tile.any_surface;
+  return any;
 }
 
 }  // namespace steradian::radiosity

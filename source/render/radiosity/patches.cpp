@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/surface/surface.h"
+
 namespace steradian::radiosity {
 namespace {
 
@@ -24,6 +26,7 @@ std::uint32_t patches_before(std::uint32_t row, std::uint32_t cells) { return ro
 }  // namespace
 
 Patches::Patches(const Scene& scene, std::size_t wanted) {
+  for (const Mesh& mesh : scene.meshes) lets_through_.push_back(light_passes(scene, mesh));
   std::vector<float> edges;
   for (const Mesh& mesh : scene.meshes)
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) edges.push_back(longest_edge(mesh, t));

@@ -20,6 +20,9 @@ class Patches {
   // The side that a ray meets at a triangle's barycentric coordinates. front: on the side of the triangle's winding.
   std::uint32_t side_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const;
 
+  // True if light goes through a mesh, which then neither meets bounced light nor sends any.
+  bool lets_through(std::size_t mesh) const { return lets_through_[mesh] != 0; }
+
   // The middle of a side's patch, as barycentric coordinates of its triangle.
   struct Site {
     std::uint32_t mesh, triangle;
@@ -36,6 +39,7 @@ class Patches {
   };
   std::vector<std::vector<Grid>> grids_;  // by mesh and triangle
   std::vector<Site> sites_;
+  std::vector<std::uint8_t> lets_through_;  // by mesh
 };
 
 }  // namespace steradian::radiosity

@@ -60,12 +60,17 @@ class LobesAt {
 std::optional<Surface> next_surface(const PathScene& in, const Surface& from, Vec3f direction) {
   // Below its own triangle a surface sees nothing.
   if (!(dot(direction, from.geometric_normal) > 0)) return {};
-  const Vec3d origin = in.rays.off_surface(wide(from.position), wide(from.geometric_normal));
-  RTCRayHit hit;
-  if (!in.rays.intersect(static_cast<Vec3f>(origin), direction, hit)) return {};
-  Surface next = surface_at(in.scene, in.scene.meshes[hit.hit.geomID], hit.hit.primID, hit.hit.u, hit.hit.v, -direction);
-  if (next.material->unlit) return {};
-  return next;
+  constexpr int kMostPassed = 8;
+  auto origin = static_cast<Vec3f>(in.rays.off_surface(wide(from.position), wide(from.geometric_normal)));
+  for (int passed = 0; passed <= kMostPassed; ++passed) {
+    RTCRayHit hit;
+    if (!in.rays.intersect(origin, direction, hit)) return {};
+    const Mesh& mesh = in.scene.meshes[hit.hit.geomID];
+    const Surface next = surface_at(in.scene, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -direction);
+    if (!light_passes(in.scene, mesh)) return next.material->unlit ? std::nullopt : std::optional(next);
+    origin = static_cast<Vec3f>(in.rays.off_surface(wide(next.position), -wide(next.geometric_normal)));
+  }
+  return {};
 }
 
 // Light that a path brings from its first direction on, per unit of its weight.

@@ -20,6 +20,11 @@ PixelPlace pixel_place(int index, int count) {
   return {middle(index), middle(row)};
 }
 
+PixelSteps steps_about(Vec3f direction, float pixel) {
+  const Frame frame = Frame::from_normal(static_cast<Vec3d>(direction));
+  return {static_cast<Vec3f>(frame.x) * pixel, static_cast<Vec3f>(frame.y) * pixel, direction};
+}
+
 CameraRays::CameraRays(const Camera& camera, int width, int height) {
   const double h = std::tan(camera.yfov / 2), w = h * width / height;
   origin_ = static_cast<Vec3f>(camera.position);

@@ -1,6 +1,8 @@
 // Primary rays: their starting places within a pixel, and their directions.
 #pragma once
 
+#include <cmath>
+
 #include "steradian/scene.h"
 
 namespace steradian {
@@ -17,6 +19,10 @@ PixelPlace pixel_place(int index, int count);
 struct PixelSteps {
   Vec3f right, down, forward;  // forward: unit
 };
+
+// Size of a pixel at distance 1, and the steps between pixels of that size about another direction.
+inline float size_of_pixel(const PixelSteps& steps) { return std::sqrt(length(steps.right) * length(steps.down)); }
+PixelSteps steps_about(Vec3f direction, float pixel);
 
 class CameraRays {
  public:

@@ -14,12 +14,6 @@ namespace {
 // Unit normals closer than this share a horizon, which moves by 1e-5 of a light's solid angle.
 constexpr float kSameNormal = 1e-5f;
 
-void put(TileVector& v, std::size_t i, Vec3f a) {
-  v.x[i] = a.x;
-  v.y[i] = a.y;
-  v.z[i] = a.z;
-}
-
 // Updates the kinds that the tile holds after this surface was added.
 void note(SurfaceTile& tile, const Surface& s) {
   tile.any_surface = true;

@@ -58,6 +58,11 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
 
 Material sheen_of(const Surface& surface);
 
+// True if light between surfaces goes straight through a mesh: most of it passes, and none is sent.
+inline bool light_passes(const Scene& scene, const Mesh& mesh) {
+  return !mesh.casts_shadow && !scene.materials[static_cast<std::size_t>(mesh.material)].emits();
+}
+
 // The lobes of a surface in the form that scalar integrators take: diffuse, specular or its override, coat. Skips lobes of zero weight.
 struct SurfaceLobe {
   Material material;

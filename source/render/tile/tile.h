@@ -33,6 +33,11 @@ struct TileVector {
   alignas(64) TilePlane x, y, z;
 };
 inline Vec3f get(const TileVector& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+inline void put(TileVector& v, std::size_t i, Vec3f a) {
+  v.x[i] = a.x;
+  v.y[i] = a.y;
+  v.z[i] = a.z;
+}
 
 // Slots without a surface hold a normal of zero; every light sends them nothing.
 struct SurfaceTile {

@@ -14,7 +14,8 @@ constexpr const char* kSupported[] = {"KHR_animation_pointer",   "EXT_lights_are
                                       "EXT_lights_image_based",  "KHR_lights_punctual",    "KHR_materials_anisotropy",
                                       "KHR_materials_clearcoat", "KHR_materials_sheen",    "KHR_materials_emissive_strength",
                                       "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
-                                      "KHR_materials_unlit",     "KHR_mesh_quantization",  "KHR_texture_transform"};
+                                      "KHR_materials_unlit",     "KHR_materials_volume",   "KHR_mesh_quantization",
+                                      "KHR_texture_transform"};
 
 bool is_supported(const std::string& extension) {
   return std::any_of(std::begin(kSupported), std::end(kSupported), [&](const char* known) { return extension == known; });

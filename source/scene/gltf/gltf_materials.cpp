@@ -82,6 +82,15 @@ void read_extensions(SurfaceMaterial& m, const JsonCursor& json, GltfTextures& t
     m.transmission = factor(*x, "transmissionFactor", 0);
     m.transmission_texture = textures.use(*x, "transmissionTexture", ColorSpace::linear);
   }
+  if (const auto x = find_extension(json, "KHR_materials_volume")) {
+    m.solid = x->number("thicknessFactor", 0, 0, 1e30) > 0;
+    m.attenuation_color = color(*x, "attenuationColor", {1, 1, 1}, 1);
+    if (x->find("attenuationDistance")) {
+      const double distance = x->number("attenuationDistance", 1, 0, 1e30);
+      if (!(distance > 0)) x->at("attenuationDistance").fail("must be above 0");
+      m.attenuation_distance = static_cast<float>(distance);
+    }
+  }
   if (const auto x = find_extension(json, "KHR_materials_anisotropy")) {
     m.anisotropy = factor(*x, "anisotropyStrength", 0);
     m.anisotropy_rotation = static_cast<float>(x->number("anisotropyRotation", 0));
@@ -164,17 +173,6 @@ Material read_lobe(const JsonCursor& lobe) {
   return draft.material;
 }
 
-namespace {
-
-// Would light that passes be bent? Transmission alone is that of a thin wall, which does not.
-bool asks_for_refraction(const SurfaceMaterial& m, const JsonCursor& json) {
-  if (!(m.transmission > 0) || m.ior == 1) return false;
-  const auto volume = find_extension(json, "KHR_materials_volume");
-  return find_extension(json, "KHR_materials_ior").has_value() || (volume && volume->number("thicknessFactor", 0) > 0);
-}
-
-}  // namespace
-
 std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings) {
   std::vector<SurfaceMaterial> result;
   for (const JsonCursor& json : document.root().elements("materials")) {
@@ -183,7 +181,7 @@ std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTe
     read_base(m, json, textures);
     read_alpha(m, json);
     read_extensions(m, json, textures);
-    if (asks_for_refraction(m, json)) warnings.not_supported("refraction (light passes straight through what transmits)");
+    if (m.solid && m.transmission > 0 && m.roughness > 0.05f) warnings.not_supported("blur of rough glass (it shows a sharp image)");
     read_extras(m, json);
     result.push_back(std::move(m));
   }

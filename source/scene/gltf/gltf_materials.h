@@ -8,7 +8,7 @@
 
 namespace steradian::scene {
 
-// Names refraction as not supported where a material asks for it.
+// Names what a material asks for and the renderer lacks.
 std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings);
 
 // Reads a lobe in the form of `steradian eval`: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.

@@ -1,0 +1,135 @@
+#include "render/surface/passed_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace steradian {
+namespace {
+
+constexpr float kLeastShare = 1e-3f;  // least fraction of the light from behind; less is black
+constexpr int kMostFaces = 8;         // of a solid that a ray meets from within; then it ends
+
+bool lets_through(const SurfaceMaterial& m) { return m.transmission > 0 && m.specular_override.empty(); }
+
+// The triangle's normal by the order of its corners, not of unit length.
+Vec3f front_of(const Mesh& mesh, unsigned triangle) {
+  const auto corner = [&](std::size_t c) { return mesh.positions[mesh.indices[3 * std::size_t{triangle} + c]]; };
+  return cross(corner(1) - corner(0), corner(2) - corner(0));
+}
+
+// Fraction that a solid leaves of light after a distance.
+Vec3f attenuation(const SurfaceMaterial& m, float distance) {
+  if (!(m.attenuation_distance < std::numeric_limits<float>::infinity())) return {1, 1, 1};
+  const float t = distance / m.attenuation_distance;
+  return {std::pow(m.attenuation_color.x, t), std::pow(m.attenuation_color.y, t), std::pow(m.attenuation_color.z, t)};
+}
+
+}  // namespace
+
+PassedRays::PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, const environment::EnvironmentLight* background)
+    : scene_(scene), rays_(rays), shading_(shading), background_(background), pixel_(size_of_pixel(shading.steps)) {}
+
+void PassedRays::begin(const TilePlane& distances, Ways& ways) {
+  for (TilePlane* plane : {&ways.shares.x, &ways.shares.y, &ways.shares.z}) plane->fill(1);
+  ways.behind = distances;
+  ways.bent.fill(0);
+}
+
+void PassedRays::look_through(const SurfaceTile& tile, Ways& ways) const {
+  constexpr float kPast = 1 + 2e-5f;  // some roundings of a distance and of a triangle's coordinates
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    Vec3f share = get(ways.shares, i) * get(tile.passes, i);
+    if (tile.material[i] == nullptr || !(std::max({share.x, share.y, share.z}) > kLeastShare)) {
+      put(ways.shares, i, {});
+      ways.behind[i] = 0;
+      ways.bent[i] = 0;
+      continue;
+    }
+    const bool solid = tile.material[i]->solid;
+    if (!solid && ways.bent[i] == 0) {
+      put(ways.shares, i, share);
+      ways.behind[i] *= kPast;
+      continue;
+    }
+    const Vec3f position = get(tile.position, i), view = get(tile.view, i), normal = get(tile.geometric_normal, i);
+    const auto past = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(position)));
+    Ray ray{position - normal * past, -view, {1, 1, 1}, ways.bent[i] != 0 ? ways.length[i] + length(position - get(ways.origin, i)) : ways.behind[i]};
+    if (solid) {
+      ray.origin = position + view * (4 * past);  // the first face is met again, to know its side
+      pass_solid(ray);
+    }
+    share = share * ray.weight;
+    const bool ends = !(std::max({share.x, share.y, share.z}) > kLeastShare);
+    put(ways.shares, i, ends ? Vec3f{} : share);
+    ways.behind[i] = 0;
+    ways.bent[i] = ends ? 0 : 1;
+    put(ways.origin, i, ray.origin);
+    put(ways.direction, i, ray.direction);
+    ways.length[i] = ray.length;
+  }
+}
+
+// Follows a ray from just before the face of a solid to where it is outside of all solids, or to what stands in one. At a face the ray goes
+// on refracted. Light that is reflected within counts as leaving there too, so that a solid that does not absorb loses none. Where all is
+// reflected, the ray follows the reflection.
+void PassedRays::pass_solid(Ray& ray) const {
+  std::vector<const SurfaceMaterial*> within;  // solids that the ray is in, the innermost last
+  for (int face = 0; face <= kMostFaces; ++face) {
+    RTCRayHit hit;
+    if (!rays_.intersect(ray.origin, ray.direction, hit)) return;
+    const Mesh& mesh = scene_.meshes[hit.hit.geomID];
+    const SurfaceMaterial& m = scene_.materials[static_cast<std::size_t>(mesh.material)];
+    const bool stops = !m.solid || !lets_through(m);
+    const bool enters = dot(front_of(mesh, hit.hit.primID), ray.direction) < 0;
+    if (face > 0 && within.empty() && (stops || enters)) return;  // the next surface of the picture
+    if (!within.empty()) ray.weight = ray.weight * attenuation(*within.back(), hit.ray.tfar);
+    if (stops) return;
+    const Surface s = surface_at(scene_, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -ray.direction);
+    if (face > 0 && enters) ray.weight = ray.weight * s.passes;
+    const auto inner = [&](std::size_t from_last) { return within.size() > from_last ? within[within.size() - 1 - from_last]->ior : 1.0f; };
+    // A ray that starts within a solid leaves it first.
+    const float eta = enters ? inner(0) / m.ior : m.ior / inner(within.empty() ? 0 : 1);
+    const float cosine = dot(s.normal, -ray.direction), rest = 1 - eta * eta * (1 - cosine * cosine);
+    ray.length += hit.ray.tfar;
+    if (rest < 0) {
+      ray.direction = normalized(ray.direction + s.normal * (2 * cosine));
+      if (!(dot(ray.direction, s.geometric_normal) > 0)) ray.direction = normalized(ray.direction - s.geometric_normal * (2 * dot(ray.direction, s.geometric_normal)));
+      ray.origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(s.geometric_normal)));
+      if (within.empty() && !enters) within.push_back(&m);
+      continue;
+    }
+    const Vec3f bent = normalized(ray.direction * eta + s.normal * (eta * cosine - std::sqrt(rest)));
+    if (dot(bent, s.geometric_normal) < 0) ray.direction = bent;  // a smooth normal may bend it out of its triangle: then it goes straight on
+    ray.origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(-s.geometric_normal)));
+    if (enters)
+      within.push_back(&m);
+    else if (!within.empty())
+      within.pop_back();
+    if (within.empty()) return;
+  }
+  ray.weight = {};
+}
+
+void PassedRays::fill(const Ways& ways, Lamps lamps, SurfaceTile& tile) const {
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (ways.bent[i] == 0) continue;
+    const Vec3f origin = get(ways.origin, i), direction = get(ways.direction, i);
+    RTCRayHit hit;
+    if (!rays_.intersect(origin, direction, hit)) {
+      if (background_ != nullptr && lamps == Lamps::shown) put(tile.radiance, i, background_->background(direction));
+      continue;
+    }
+    const Mesh& mesh = scene_.meshes[hit.hit.geomID];
+    const SurfaceFootprint footprint =
+        footprint_on(*shading_.maps, mesh, hit.hit.primID, direction, ways.length[i] + hit.ray.tfar, steps_about(direction, pixel_));
+    Surface surface = surface_at(scene_, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -direction, footprint);
+    if (shading_.terminator == Terminator::smooth)
+      surface.position = smooth_position(mesh, hit.hit.primID, hit.hit.u, hit.hit.v, surface.geometric_normal);
+    if (lamps == Lamps::hidden && !surface.material->unlit) surface.emission = {};
+    put_surface(tile, i, surface, -direction);
+  }
+}
+
+}  // namespace steradian
