@@ -55,7 +55,8 @@ struct RenderOptions {
   double time_limit = 0;
   // Light that other surfaces send, after this number of bounces at most (kAllBounces: any number). Excludes `indirect`.
   int bounces = 0;
-  int reflections = 2;       // with bounces: number of mirrors in a row that show what they face
+  double bounce_error = 0;  // with bounces: estimated error of a pixel over the scene's mean light, as far as 16 times the directions reach
+  int reflections = 2;      // with bounces: number of mirrors in a row that show what they face
   IndirectOptions indirect;  // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   Backend backend = Backend::cpu;

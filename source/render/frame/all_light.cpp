@@ -29,7 +29,7 @@ AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfa
         solve_ms_ = ms_since(start);
         return light;
       }()),
-      gather_(patches_, *parts.rays, options.quality, options.aa),
+      gather_(patches_, *parts.rays, options.quality, options.bounce_error, options.aa),
       surfaces_(surfaces),
       add_direct_(std::move(add_direct)) {}
 

@@ -124,11 +124,17 @@ class BlockFit {
 
 }  // namespace
 
-Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, int samples)
-    : light_(light), rays_(rays), samples_(std::min(samples, kMostShifts)) {
-  const int rows = rows_for(quality), columns = 2 * rows;
+Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, double error, int samples)
+    : light_(light), rays_(rays), samples_(std::min(samples, kMostShifts)), tolerance_(static_cast<float>(error * light.mean_radiance())) {
+  for (int level = 0; level <= (error > 0 ? kFinest : 0); ++level) add_grids(rows_for(quality) << level);
+}
+
+// Adds the grids of a level, one for each primary sample.
+void Gather::add_grids(int rows) {
+  const int columns = 2 * rows;
+  std::vector<std::vector<Cell>>& grids = grids_.emplace_back();
   for (int s = 0; s < samples_; ++s) {
-    std::vector<Cell>& cells = cells_.emplace_back();
+    std::vector<Cell>& cells = grids.emplace_back();
     // The pixels take the places of a 4 x 4 grid in each cell; the primary samples, places in a cell of that.
     const double in_x = (s + 0.5) / samples_, in_y = std::fmod(s * kGolden + 0.5, 1.0);
     for (int row = 0; row < rows; ++row)
@@ -144,15 +150,17 @@ Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, i
 }
 
 // Adds the irradiance over pi that the bright sides send. A place counts as a disk of the area that it stands for.
-void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::array<Vec3f, kLanes>& mean) const {
+void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
+                        std::array<Vec3f, kLanes>& mean) const {
+  const std::size_t every = kLanes >> (2 * level);  // a pixel takes one of so many places
   const std::vector<BrightPlace>& places = light_.bright_places();
   const float soft = light_.bright_area() / std::numbers::pi_v<float>;
-  for (std::size_t first = 0; first < places.size(); first += kLanes) {
+  for (std::size_t first = 0; first < places.size(); first += every) {
     RayScene::Sixteen rays;
     std::uint32_t traced = 0;
     std::array<Vec3f, kLanes> light;
     SixteenSurfaces::each(asked, [&](std::size_t i) {
-      const auto number = static_cast<std::size_t>(kPlaces[(i + static_cast<std::size_t>(sample)) % kLanes]);
+      const auto number = static_cast<std::size_t>(kPlaces[(i + static_cast<std::size_t>(sample)) % kLanes]) % every;
       const BrightPlace& place = places[std::min(first + number, places.size() - 1)];
       const Surface& s = surfaces.surface[i];
       const Vec3d from = rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(s.geometric_normal));
@@ -160,8 +168,7 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       const Vec3f way = static_cast<Vec3f>(end - from);
       const float here = dot(way, s.normal), there = -dot(way, place.normal), square = dot(way, way);
       if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0)) return;
-      // Each pixel takes a sixteenth of the places.
-      light[i] = place.power * (static_cast<float>(kLanes) * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
+      light[i] = place.power * (static_cast<float>(every) * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
       rays.set(i, from, end - from);
       traced |= 1u << i;
     });
@@ -170,11 +177,11 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
 }
 
 // The mean radiance about each surface, weighted by the cosine, times its albedo.
-void Gather::add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, Result& result) const {
+Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const {
   std::array<std::array<Vec3f, 2>, kLanes> light{};  // by half of the rays
   std::array<std::array<float, 2>, kLanes> weight{};
   BounceRays rays(rays_, light_.patches());
-  const std::vector<Cell>& cells = cells_[static_cast<std::size_t>(sample % samples_)];
+  const std::vector<Cell>& cells = grids_[level][static_cast<std::size_t>(sample % samples_)];
   for (std::size_t k = 0; k < cells.size(); ++k) {
     std::array<float, kLanes> cosine{};
     SixteenSurfaces::each(asked, [&](std::size_t i) {
@@ -195,20 +202,24 @@ void Gather::add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, i
     const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f;
     error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
   });
-  add_bright(surfaces, asked, sample, mean);
+  add_bright(surfaces, asked, sample, level, mean);
   const BlockFit fit(surfaces, asked);
+  Result result;
   SixteenSurfaces::each(asked, [&](std::size_t i) {
     const Surface& s = surfaces.surface[i];
     const double cos_view = std::max(static_cast<double>(dot(s.normal, surfaces.view[i])), 0.0);
     const auto passed = static_cast<float>(1 - static_cast<double>(s.fresnel_loss) * environment::mean_grazing(cos_view));
     const BlockFit::Value value = fit.at(i, mean, error);
-    result.radiance[i] += s.albedo * value.value * passed;
-    result.error[i] += s.albedo * value.error * passed;
+    result.radiance[i] = s.albedo * value.value * passed;
+    result.error[i] = s.albedo * value.error * passed;
   });
+  return result;
 }
 
-// Adds one glossy lobe of each surface that has one.
-void Gather::add_lobe(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample, Result& result) const {
+// One glossy lobe of each surface that has one.
+Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
+                              std::size_t level) const {
+  const std::size_t count = kLobeRays << (2 * level);
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;
@@ -224,8 +235,8 @@ void Gather::add_lobe(const SixteenSurfaces& surfaces, const std::array<const Su
   }
   BounceRays rays(rays_, light_.patches());
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
-  for (std::size_t k = 0; k < kLobeRays; ++k) {
-    const auto [u, v] = fibonacci_place(k, kLobeRays, static_cast<double>(sample % samples_) / samples_);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
     std::array<Vec3f, kLanes> weight{};
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (!walkers[i]) continue;
@@ -234,40 +245,57 @@ void Gather::add_lobe(const SixteenSurfaces& surfaces, const std::array<const Su
       if (!(l.z > 0)) continue;
       const double pdf = lobe.pdf(l);
       if (!(pdf > 0)) continue;
-      weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) / (pdf * kLobeRays));
+      weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) / (pdf * static_cast<double>(count)));
       rays.set(i, surfaces.surface[i], static_cast<Vec3f>(walkers[i]->frame.to_world(l)));
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
       if (met[i] != kNoSide) halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
   }
+  Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {
-    result.radiance[i] += halves[i][0] + halves[i][1];
+    result.radiance[i] = halves[i][0] + halves[i][1];
     const Vec3f d = halves[i][0] - halves[i][1];  // each half stands for half of the light
-    result.error[i] += Vec3f{std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+    result.error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+  }
+  return result;
+}
+
+// Adds the first result of of(level), from the coarsest level on, whose errors are all within the tolerance, or that of the finest level.
+template <class Of>
+void Gather::refine(Of of, Result& sum) const {
+  Result result;
+  for (std::size_t level = 0; level < grids_.size(); ++level) {
+    result = of(level);
+    const auto is_within = [&](Vec3f error) { return std::max({error.x, error.y, error.z}) <= tolerance_; };
+    if (std::all_of(result.error.begin(), result.error.end(), is_within)) break;
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    sum.radiance[i] += result.radiance[i];
+    sum.error[i] += result.error[i];
   }
 }
 
 Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample) const {
   Result result;
   std::array<std::vector<SurfaceLobe>, kLanes> lobes;
-  std::uint32_t diffuse = 0;
+  std::uint32_t with_diffuse = 0;
   std::size_t most = 0;
   SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
     for (SurfaceLobe& lobe : lobes_of(surfaces.surface[i])) {
       if (lobe.material.brdf == Brdf::lambert)
-        diffuse |= 1u << i;
+        with_diffuse |= 1u << i;
       else if (is_gathered(lobe))
         lobes[i].push_back(std::move(lobe));
     }
     most = std::max(most, lobes[i].size());
   });
-  if (diffuse != 0) add_diffuse(surfaces, diffuse, sample, result);
+  if (with_diffuse != 0) refine([&](std::size_t level) { return diffuse(surfaces, with_diffuse, sample, level); }, result);
   for (std::size_t k = 0; k < most; ++k) {
     std::array<const SurfaceLobe*, kLanes> of{};
     for (std::size_t i = 0; i < kLanes; ++i)
       if (k < lobes[i].size()) of[i] = &lobes[i][k];
-    add_lobe(surfaces, of, sample, result);
+    refine([&](std::size_t level) { return glossy(surfaces, of, sample, level); }, result);
   }
   return result;
 }

@@ -18,8 +18,9 @@ class Gather {
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
   static constexpr float kLeastWidth = 0.03f;  // alpha
 
-  // All must outlive this object. samples: primary samples of a pixel, which shift the grid.
-  Gather(const PatchLight& light, const RayScene& rays, Quality quality, int samples);
+  // All must outlive this object. error: fraction of the scene's mean light; pixels with a larger estimated error take up to sixteen times
+  // as many directions; 0: all take as many as the quality says. samples: primary samples of a pixel, which shift the grid.
+  Gather(const PatchLight& light, const RayScene& rays, Quality quality, double error, int samples);
 
   // Radiance that each surface reflects to its view, and an estimate of its error.
   struct Result {
@@ -28,17 +29,23 @@ class Gather {
   Result reflected(const SixteenSurfaces& surfaces, int sample) const;
 
  private:
-  void add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::array<Vec3f, kLanes>& mean) const;
-  void add_diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, Result& result) const;
-  void add_lobe(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, Result& result) const;
+  void add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
+                  std::array<Vec3f, kLanes>& mean) const;
+  Result diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const;
+  Result glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, std::size_t level) const;
+  template <class Of>
+  void refine(Of of, Result& sum) const;
+  void add_grids(int rows);
 
+  static constexpr int kFinest = 2;  // level; each has four times the directions of the one before
   const PatchLight& light_;
   const RayScene& rays_;
   const int samples_;
+  const float tolerance_;
   struct Cell {
     std::array<Vec3f, kLanes> direction;  // of each pixel
   };
-  std::vector<std::vector<Cell>> cells_;  // of the sphere, by primary sample
+  std::vector<std::vector<std::vector<Cell>>> grids_;  // over the sphere, by level and primary sample
 };
 
 }  // namespace steradian::radiosity

@@ -49,6 +49,19 @@ Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)};
 }
 
+// Stores a white diffuse surface in the place of another.
+void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
+  static const SurfaceMaterial plain;
+  Surface white;
+  white.position = s.position;
+  white.normal = white.coat_normal = s.normal;
+  white.geometric_normal = s.geometric_normal;
+  white.tangent = s.tangent;
+  white.albedo = {1, 1, 1};
+  white.material = &plain;
+  put_surface(tile, slot, white, s.geometric_normal);
+}
+
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
 std::size_t tiles_for(std::size_t patches) { return (patches + kTilePatches - 1) / kTilePatches; }
 
@@ -69,6 +82,7 @@ PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& 
   reflectance_.resize(sides);
   direct_.resize(sides);
   find_direct(add_direct);
+  refine_direct(add_direct);
   radiance_ = direct_;
   if (sides == 0) return;
   if (options.bounces != 1) {
@@ -82,9 +96,10 @@ std::size_t PatchLight::direct_tiles(const Scene& scene, Quality quality) {
   return tiles_for(Patches(scene, size_for(quality).patches).side_count() / 2);
 }
 
-// The surface at the middle of a side, as a ray sees it that comes along the normal.
-Surface PatchLight::surface_of(std::uint32_t side) const {
-  const Patches::Site& at = patches_.site(side);
+Surface PatchLight::surface_of(std::uint32_t side) const { return surface_at_site(side, patches_.site(side)); }
+
+// The surface at a place of a side, as a ray sees it that comes along the normal.
+Surface PatchLight::surface_at_site(std::uint32_t side, const Patches::Site& at) const {
   const Mesh& mesh = scene_.meshes[at.mesh];
   const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
   const Vec3f across = cross(corner(1) - corner(0), corner(2) - corner(0));
@@ -96,7 +111,6 @@ Surface PatchLight::surface_of(std::uint32_t side) const {
 
 // Finds the direct light of the sides, a tile of sides at a time: the fronts of its patches, and then their backs.
 void PatchLight::find_direct(const AddDirect& add_direct) {
-  static const SurfaceMaterial plain;
   const std::size_t patches = patches_.side_count() / 2;
   each(tiles_for(patches), [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
@@ -114,18 +128,55 @@ void PatchLight::find_direct(const AddDirect& add_direct) {
       const Surface s = surface_of(side);
       reflectance_[side] = reflectance_of(s);
       if (!weighs(reflectance_[side])) continue;
-      Surface white;
-      white.position = s.position;
-      white.normal = white.coat_normal = s.normal;
-      white.geometric_normal = s.geometric_normal;
-      white.tangent = s.tangent;
-      white.albedo = {1, 1, 1};
-      white.material = &plain;
-      put_surface(*tile, i, white, s.geometric_normal);
+      put_white(*tile, i, s);
     }
     add_direct(*tile);
     for (std::size_t i = 0; i < kTilePixels; ++i)
       if (const std::uint32_t side = side_of(i); side != kNoSide) direct_[side] = get(tile->radiance, i) * reflectance_[side];
+  });
+}
+
+// Sides beside which the direct light changes a lot take the mean over sixteen places: a border of light or shadow crosses them.
+void PatchLight::refine_direct(const AddDirect& add_direct) {
+  constexpr double kChange = 0.1;  // of the mean light of the sides
+  constexpr std::size_t kPlaces = 16, kTileSides = kTilePixels / kPlaces;
+  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  const auto light = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(direct_[side])); };
+  double power = 0, area = 0;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    power += light(side) * static_cast<double>(area_of(side));
+    area += static_cast<double>(area_of(side));
+  }
+  const double least = area > 0 ? kChange * power / area : 0;
+  if (!(least > 0)) return;
+  std::vector<std::uint32_t> refined;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    const Patches::Site& at = patches_.site(side);
+    const auto changes_to = [&](float u, float v) {
+      if (!(u > 0) || !(v > 0) || !(u + v < 1)) return false;
+      return std::fabs(light(patches_.side_at(at.mesh, at.triangle, u, v, Patches::is_front(side))) - light(side)) > least;
+    };
+    if (changes_to(at.u + at.step, at.v) || changes_to(at.u - at.step, at.v) || changes_to(at.u, at.v + at.step) ||
+        changes_to(at.u, at.v - at.step))
+      refined.push_back(side);
+  }
+  const std::size_t tiles = (refined.size() + kTileSides - 1) / kTileSides;
+  each(tiles, [&](std::size_t number) {
+    const auto tile = std::make_unique<SurfaceTile>();
+    clear_kinds(*tile);
+    tile->seed = number;
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      put_nothing(*tile, i);
+      const std::size_t k = number * kTileSides + i / kPlaces;
+      if (k < refined.size()) put_white(*tile, i, surface_at_site(refined[k], patches_.place_in(refined[k], i % kPlaces)));
+    }
+    add_direct(*tile);
+    for (std::size_t k = 0; k < kTileSides && number * kTileSides + k < refined.size(); ++k) {
+      const std::uint32_t side = refined[number * kTileSides + k];
+      Vec3f sum{};
+      for (std::size_t i = 0; i < kPlaces; ++i) sum += get(tile->radiance, k * kPlaces + i);
+      direct_[side] = sum * (1.0f / kPlaces) * reflectance_[side];
+    }
   });
 }
 
@@ -193,7 +244,8 @@ void PatchLight::find_bright_sides() {
     power += brightness(side) * static_cast<double>(area_of(side));
     area += static_cast<double>(area_of(side));
   }
-  const double least = area > 0 ? kBright * power / area : 0;
+  mean_radiance_ = area > 0 ? power / area : 0;
+  const double least = kBright * mean_radiance_;
   std::vector<std::uint8_t> bright(sides);
   double bright_power = 0, bright_area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {

@@ -38,14 +38,17 @@ class PatchLight {
   // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().
   bool is_bright(std::uint32_t side) const { return side != kNoSide && !bright_.empty() && bright_[side] != 0; }
   const std::vector<BrightPlace>& bright_places() const { return places_; }
-  float bright_area() const { return bright_area_; }  // of the part that one place stands for
+  float bright_area() const { return bright_area_; }       // of the part that one place stands for
+  double mean_radiance() const { return mean_radiance_; }  // luminance, over the sides that send light
   int iterations() const { return iterations_; }
   // Largest change of the last iteration over the largest radiance.
   double residual() const { return residual_; }
 
  private:
   Surface surface_of(std::uint32_t side) const;
+  Surface surface_at_site(std::uint32_t side, const Patches::Site& at) const;
   void find_direct(const AddDirect& add_direct);
+  void refine_direct(const AddDirect& add_direct);
   void find_links(std::size_t rays);
   void iterate(int bounces);
   void find_bright_sides();
@@ -61,6 +64,7 @@ class PatchLight {
   std::vector<std::uint8_t> bright_;  // by side; empty: none is
   std::vector<BrightPlace> places_;
   float bright_area_ = 0;
+  double mean_radiance_ = 0;
   int iterations_ = 0;
   double residual_ = 0;
 };

@@ -31,6 +31,8 @@ Patches::Patches(const Scene& scene, std::size_t wanted) {
   for (const Mesh& mesh : scene.meshes)
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) edges.push_back(longest_edge(mesh, t));
   const float longest = edges.empty() ? 0 : *std::max_element(edges.begin(), edges.end());
+  // However many small triangles there are, half of the patches are for cutting the large ones.
+  wanted = std::max(wanted, edges.size() + wanted / 2);
   // The largest size of cells that gives as many as wanted.
   double size = static_cast<double>(longest);
   const auto count = [&](double s) {
@@ -53,6 +55,23 @@ Patches::Patches(const Scene& scene, std::size_t wanted) {
         }
     }
   }
+}
+
+Patches::Site Patches::place_in(std::uint32_t side, std::size_t part) const {
+  constexpr std::uint32_t kParts = 4;  // along a side
+  std::uint32_t row = 0;
+  while (row + 1 < kParts && part >= patches_before(row + 1, kParts)) ++row;
+  const auto k = static_cast<std::uint32_t>(part) - patches_before(row, kParts);
+  const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
+  const float x = (static_cast<float>(row) + third) / kParts - 1.0f / 3, y = (static_cast<float>(k / 2) + third) / kParts - 1.0f / 3;
+  Site at = site(side);
+  // Every other patch of a grid is turned by half a turn.
+  const float cell = at.u / at.step;
+  const float scale = cell - std::floor(cell) > 0.5f ? -at.step : at.step;
+  at.u += x * scale;
+  at.v += y * scale;
+  at.step /= kParts;
+  return at;
 }
 
 std::uint32_t Patches::side_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const {

@@ -13,7 +13,7 @@ inline constexpr std::uint32_t kNoSide = UINT32_MAX;
 
 class Patches {
  public:
-  // Cuts triangles with long edges into a grid, so that there are about `wanted` patches, and at least one a triangle.
+  // Cuts triangles with long edges into a grid, so that there are about `wanted` patches, or half as many more than triangles.
   Patches(const Scene& scene, std::size_t wanted);
 
   std::size_t side_count() const { return 2 * sites_.size(); }
@@ -30,6 +30,8 @@ class Patches {
     float step;  // side of the grid's cells in these coordinates
   };
   const Site& site(std::uint32_t side) const { return sites_[side / 2]; }
+  // The middle of one of sixteen equal parts of a side's patch.
+  Site place_in(std::uint32_t side, std::size_t part) const;
   static bool is_front(std::uint32_t side) { return side % 2 == 0; }
 
  private:

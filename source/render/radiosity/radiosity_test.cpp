@@ -170,4 +170,47 @@ TEST(Radiosity, RoomsAgreeWithPaths) {
   std::printf("%d rooms: worst %.2f %%\n", rooms, 100 * worst);
 }
 
+// However many small triangles a scene has, its walls are cut.
+TEST(Radiosity, CutsLargeTrianglesBesideManySmallOnes) {
+  Scene scene = closed_box(0.5f, false);
+  for (int k = 0; k < 20; ++k) scene.meshes.push_back(ball_mesh({0, 0, 0}, 0.1f, 0, 48, 24));
+  const radiosity::Patches patches(scene, 20'000);
+  EXPECT_GT(patches.side_count() / 2, scene.triangle_count() + 5'000);
+  EXPECT_LT(patches.side_count() / 2, scene.triangle_count() + 12'000);
+  for (std::uint32_t side = 0; side < 24; side += 2) EXPECT_LT(patches.site(side).step, 0.1f) << "the first patches are those of a wall";
+  // The sixteen places of a patch lie in it, and their mean is its middle.
+  for (std::uint32_t side = 0; side < 2000; side += 2) {
+    const radiosity::Patches::Site middle = patches.site(side);
+    float u = 0, v = 0;
+    for (std::size_t k = 0; k < 16; ++k) {
+      const radiosity::Patches::Site at = patches.place_in(side, k);
+      EXPECT_EQ(patches.side_at(at.mesh, at.triangle, at.u, at.v, true), side) << k;
+      u += at.u / 16;
+      v += at.v / 16;
+    }
+    EXPECT_NEAR(u, middle.u, 1e-6f);
+    EXPECT_NEAR(v, middle.v, 1e-6f);
+  }
+}
+
+// A narrow beam lights a circle as large as seven patches of a wall. Patches at its border take a part of its light.
+TEST(Radiosity, PatchesAtABorderOfLightTakeItsMean) {
+  Scene scene = closed_box(0.5f, false);
+  PunctualLight beam;
+  beam.kind = PunctualKind::spot;
+  beam.position = {0.2, 0, -0.3};
+  beam.direction = {0, -1, 0};
+  beam.intensity = {1, 1, 1};
+  beam.cos_inner = std::cos(0.08);
+  beam.cos_outer = std::cos(0.0801);
+  scene.punctual_lights = {beam};
+  RenderOptions options = options_for(32, 1);
+  const double ours = mean_luminance(render(scene, options));
+  options.method = "sampled";
+  options.spp = 256;
+  const double paths = mean_luminance(render(scene, options));
+  // The mean of 32 x 32 x 256 paths has a standard error of 0.3 %. A circle of radius 5.8 in units of places has 105 of them, within 5.
+  EXPECT_NEAR(ours / paths, 1, 0.06);
+}
+
 }  // namespace steradian::radiosity_test

@@ -55,7 +55,10 @@ void PassedRays::look_through(const SurfaceTile& tile, Ways& ways) const {
     }
     const Vec3f position = get(tile.position, i), view = get(tile.view, i), normal = get(tile.geometric_normal, i);
     const auto past = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(position)));
-    Ray ray{position - normal * past, -view, {1, 1, 1}, ways.bent[i] != 0 ? ways.length[i] + length(position - get(ways.origin, i)) : ways.behind[i]};
+    Ray ray{position - normal * past,
+            -view,
+            {1, 1, 1},
+            ways.bent[i] != 0 ? ways.length[i] + length(position - get(ways.origin, i)) : ways.behind[i]};
     if (solid) {
       ray.origin = position + view * (4 * past);  // the first face is met again, to know its side
       pass_solid(ray);
@@ -95,13 +98,15 @@ void PassedRays::pass_solid(Ray& ray) const {
     ray.length += hit.ray.tfar;
     if (rest < 0) {
       ray.direction = normalized(ray.direction + s.normal * (2 * cosine));
-      if (!(dot(ray.direction, s.geometric_normal) > 0)) ray.direction = normalized(ray.direction - s.geometric_normal * (2 * dot(ray.direction, s.geometric_normal)));
+      if (!(dot(ray.direction, s.geometric_normal) > 0))
+        ray.direction = normalized(ray.direction - s.geometric_normal * (2 * dot(ray.direction, s.geometric_normal)));
       ray.origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(s.geometric_normal)));
       if (within.empty() && !enters) within.push_back(&m);
       continue;
     }
     const Vec3f bent = normalized(ray.direction * eta + s.normal * (eta * cosine - std::sqrt(rest)));
-    if (dot(bent, s.geometric_normal) < 0) ray.direction = bent;  // a smooth normal may bend it out of its triangle: then it goes straight on
+    if (dot(bent, s.geometric_normal) < 0)
+      ray.direction = bent;  // a smooth normal may bend it out of its triangle: then it goes straight on
     ray.origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(-s.geometric_normal)));
     if (enters)
       within.push_back(&m);

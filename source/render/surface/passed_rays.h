@@ -1,5 +1,5 @@
-// PassedRays: the ways of a tile's camera rays beyond surfaces that let light through. Thin walls and blended surfaces leave a ray straight;
-// solids bend it where it enters and where it leaves.
+// PassedRays: the ways of a tile's camera rays beyond surfaces that let light through. Thin walls and blended surfaces leave a ray
+// straight; solids bend it where it enters and where it leaves.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ class PassedRays {
 
   // Rays of one tile.
   struct Ways {
-    TileVector shares;                               // fraction of the light that reaches the camera
-    TilePlane behind;                                // of straight rays: distance that they have passed; 0: none goes on
-    std::array<std::uint8_t, kTilePixels> bent{};    // 1: the ray no longer is that of the camera
-    TileVector origin, direction;                    // of bent rays
-    TilePlane length;                                // of bent rays: way from the camera to the origin
+    TileVector shares;                             // fraction of the light that reaches the camera
+    TilePlane behind;                              // of straight rays: distance that they have passed; 0: none goes on
+    std::array<std::uint8_t, kTilePixels> bent{};  // 1: the ray no longer is that of the camera
+    TileVector origin, direction;                  // of bent rays
+    TilePlane length;                              // of bent rays: way from the camera to the origin
   };
   // The camera's rays up to their first surfaces.
   static void begin(const TilePlane& distances, Ways& ways);
