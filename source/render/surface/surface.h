@@ -59,11 +59,12 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
 Material sheen_of(const Surface& surface);
 
 // The lobes of a surface in the form that scalar integrators take: diffuse, specular or its override, coat. Skips lobes of zero weight.
+// fitted: a table in the place of GGX; null: GGX.
 struct SurfaceLobe {
   Material material;
   Vec3f normal;
   bool diffuse = false;
 };
-std::vector<SurfaceLobe> lobes_of(const Surface& surface);
+std::vector<SurfaceLobe> lobes_of(const Surface& surface, const ClassicTable* fitted = nullptr);
 
 }  // namespace steradian
