@@ -27,7 +27,8 @@ Material material_by(const ClassicTable& table, double alpha) {
   Material m;
   m.brdf = Brdf::ggx;
   m.alpha_x = m.alpha_y = alpha;
-  m.f0 = {0.3, 0.3, 0.3};  // a profiled light's mean is that of the brightest channel
+  m.f0 = {0.3, 0.5, 0.04};
+  m.f90 = {1, 0.9, 1};
   m.fitted = &table;
   return m;
 }
