@@ -36,6 +36,7 @@ ROOT = Path(__file__).resolve().parent.parent
 MANIFEST = ROOT / "tools" / "figures.json"
 PICTURE_BOUND = "rmse=0.002"  # rays of another instruction set may fall on the other side of an outline (./dev demo)
 MOST_BYTES = 300_000
+MOST_SENTENCES = 20  # printed of a figure
 NUMBER = re.compile(r"(?<![#\w.])[-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?(?!\w)")
 TIMES = re.compile(r"\b(ns|us|ms|s|time|times|gain|light)\b")
 RULE = re.compile(r"\|[-:| ]+\|$")
@@ -107,10 +108,12 @@ def compare_tables(made, stored, bound, some_rows=False):
             wrong.append(f"the page has no table '{heading[:80]}'")
             continue
         timed = times_of(heading)
-        rows = rows_in(rows, page[heading]) if some_rows else rows
-        if len(rows) != len(page[heading]):
+        if len(rows) != len(page[heading]) and not some_rows:
             wrong.append(f"'{heading[:60]}' has {len(page[heading])} rows, made were {len(rows)}")
-        for new, old in zip(rows, page[heading]):
+        found = rows_in(rows, page[heading])
+        if len(found) != len(page[heading]):
+            wrong.append(f"'{heading[:60]}': the command printed no row '{cells(page[heading][len(found)])[0]}'")
+        for new, old in zip(found, page[heading]):
             for name, is_time, x, y in zip(cells(heading), timed, cells(new), cells(old)):
                 if not is_time and numbers_differ(x, y, bound):
                     wrong.append(f"{cells(new)[0]}, {name}: made {x}, stored {y}")
@@ -242,8 +245,10 @@ def main():
         wrong = figures.check(entry)
         failed += bool(wrong)
         print(f"{title}: {'differs' if wrong else 'as stored'} ({time.time() - start:.0f} s)", flush=True)
-        for sentence in wrong:
+        for sentence in wrong[:MOST_SENTENCES]:
             print("    " + sentence, flush=True)
+        if len(wrong) > MOST_SENTENCES:
+            print(f"    and {len(wrong) - MOST_SENTENCES} more", flush=True)
     if failed:
         print(f"{failed} figures differ from those that are stored; --write puts the new ones in place", file=sys.stderr)
     return 1 if failed else 0
