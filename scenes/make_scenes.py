@@ -213,6 +213,28 @@ def tubes():
     return g
 
 
+def lobes():
+    """Four strips of floor with lobes of their own, from left to right Phong, Phong sharper, Beckmann, GGX brushed across, before a star and two
+    ellipsoids of light."""
+    g = Gltf()
+    kinds = (("phong 60", {"brdf": "phong", "exponent": 60, "albedo": 0.7}),
+             ("phong 1000", {"brdf": "phong", "exponent": 1000, "albedo": 0.7}),
+             ("beckmann", {"brdf": "beckmann", "alpha": 0.2}),
+             ("brushed ggx", {"brdf": "ggx", "alpha_x": 0.4, "alpha_y": 0.06, "tangent": [1, 0, 0], "f0": 0.8}))
+    for i, (name, lobe) in enumerate(kinds):
+        x = -3.2 + 1.6 * i
+        material = g.diffuse(name, (0.05, 0.05, 0.05))
+        g.json["materials"][material]["extras"] = {"steradian": lobe}
+        g.node(name, mesh=g.mesh(name, plate((x, 0, 3), (x + 1.58, 0, 3), (x + 1.58, 0, -2), (x, 0, -2)), material))
+    g.node("star", mesh=g.mesh("star", star(5, 0.75, 0.3), g.material("star", (0.0, 0.0, 0.0), specular=0.0, emission=(6.0, 4.2, 2.0))), translation=[-1.6, 0.95, -1.6])
+    g.area_light("egg", {"type": "sphere", "color": [0.5, 0.75, 1.0], "intensity": 6.0, "size": 1.0}, translation=[0.75, 0.85, -1.4],
+                 scale=[0.5, 1.1, 0.5])
+    g.area_light("disc", {"type": "sphere", "color": [0.7, 1.0, 0.6], "intensity": 6.0, "size": 1.0}, translation=[2.4, 0.75, -1.4],
+                 scale=[1.1, 0.35, 0.6])
+    g.camera("main", [0.0, 2.0, 6.2], [0.0, 0.35, -0.6], 0.6)
+    return g
+
+
 def ring():
     g = Gltf()
     g.node("floor", mesh=g.mesh("floor", plate((-9, 0, 6), (9, 0, 6), (9, 0, -9), (-9, 0, -9)), g.diffuse("floor", (0.7, 0.68, 0.65))))
@@ -557,7 +579,7 @@ def stadium():
     return g
 
 
-SCENES = {"glass": glass, "room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes,
+SCENES = {"glass": glass, "room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes, "lobes": lobes,
           "ring": ring, "arcade": arcade, "hall": hall, "stadium": stadium}
 
 

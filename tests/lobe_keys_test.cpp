@@ -41,7 +41,9 @@ std::optional<Material> by_scene(const json& lobe) {
 bool same(const Material& a, const Material& b) {
   return a.brdf == b.brdf && a.albedo == b.albedo && a.exponent == b.exponent && a.alpha_x == b.alpha_x && a.alpha_y == b.alpha_y &&
          a.tangent == b.tangent && a.f0 == b.f0 && a.f90 == b.f90 && a.shadowing == b.shadowing && a.axis == b.axis &&
-         a.foreshortening == b.foreshortening && a.axis_exponent == b.axis_exponent && a.multiple_scattering == b.multiple_scattering;
+         a.foreshortening == b.foreshortening && a.axis_exponent == b.axis_exponent && a.multiple_scattering == b.multiple_scattering &&
+         std::equal(a.factors.begin(), a.factors.end(), b.factors.begin(), b.factors.end(),
+                    [](const AxisPower& x, const AxisPower& y) { return x.axis == y.axis && x.exponent == y.exponent; });
 }
 
 // Values that a key of a kind may have, and invalid ones.
@@ -52,6 +54,22 @@ std::vector<json> values_of(const lobes::Key& key) {
     case KeyKind::colour: return {0.5, {0.25, 0.5, 1}, -1, {0, 1}, "red"};
     case KeyKind::direction: return {{0, 3, 4}, {0, 0, 0}, 1};
     case KeyKind::flag: return {true, false, 1};
+    case KeyKind::factors: {
+      const json one = {{"axis", {0, 3, 4}}, {"exponent", 5}}, bare = {{"axis", {0, 0, 1}}}, zero = {{"axis", {0, 0, 0}}, {"exponent", 5}},
+                 negative = {{"axis", {0, 0, 1}}, {"exponent", -1}};
+      json more = one;
+      more["width"] = 1;
+      return {json::array(),
+              json::array({one}),
+              json::array({one, one}),
+              json::array({bare}),
+              json::array({zero}),
+              json::array({negative}),
+              json::array({more}),
+              json::array({3}),
+              one,
+              "many"};
+    }
     case KeyKind::word: return {"smith", "none", "some", 1};
   }
   return {};

@@ -59,6 +59,11 @@ add_test(NAME Layers.NoInclusionRunsUpward COMMAND ${layers})
 add_test(NAME Layers.AnInclusionUpwardIsFound COMMAND ${layers} --test)
 add_test(NAME Layers.ThePictureIsCurrent COMMAND ${layers} --check ${PROJECT_SOURCE_DIR}/docs/images/layers.svg)
 
+# Every picture and measured table of docs/ is in the manifest of ./dev figures, which finds differences.
+set(figures Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/figures.py)
+add_test(NAME Figures.EveryOneIsInTheManifest COMMAND ${figures} --manifest)
+add_test(NAME Figures.DifferencesAndGapsAreFound COMMAND ${figures} --test)
+
 # Instructions of shaders, as docs/measured/performance.md has them: a shader made up is counted rightly, and every pipeline has its loops.
 set(shader_counts Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/shader_counts.py)
 add_test(NAME Shaders.InstructionsAreCounted COMMAND ${shader_counts} --test)

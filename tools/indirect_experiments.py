@@ -109,7 +109,7 @@ def truth(bench):
 
 def pictures(bench):
     """What is looked at: without the bounce, with it, by path tracing; two more scenes without and with."""
-    draw = lambda name, *more: bench.picture(bench.named(name), "320x180", *more, suffix=".png")[0]  # noqa: E731
+    draw = lambda name, *more: bench.picture(bench.named(name), "320x180", "--exposure", EXPOSURE[name], *more, suffix=".png")[0]  # noqa: E731
     bench.sheet("indirect-ring", [[draw("ring", "--aa", "4"), draw("ring", "--indirect", "ltc", "--indirect-shadows", "4"),
                                    draw("ring", "--indirect", "path", "--spp", "256")]])
     bench.sheet("indirect-scenes", [[draw(n), draw(n, "--indirect", "ltc")] for n in ("gallery", "arcade")])
@@ -129,7 +129,7 @@ def modes(bench):
     bench.sheet("indirect-modes", rows)
 
 
-EXPOSURE = {"ring": "0", "hall": "1", "arcade": "0"}
+EXPOSURE = {"ring": "0", "gallery": "1.5", "hall": "1", "arcade": "0"}
 
 
 def difference_of(bench, a, b, times):

@@ -39,6 +39,8 @@ class Bench:
         """A picture's path, and the milliseconds of its light."""
         self.made += 1
         path = os.path.join(self.folder, "%d%s" % (self.made, suffix))
+        if suffix == ".png" and "--exposure" not in more:
+            more = (*more, "--exposure", "0")  # the same in all parts of a sheet
         shadows = () if "--shadows" in more else ("--shadows", "off")  # the figures are of the integrals
         subprocess.run([self.program, "render", scene, "-o", path, "--size", size, "--method", method, "--stats", path + ".json",
                         *shadows, *more], check=True)
@@ -115,7 +117,8 @@ def horizon(bench):
     for method in ("ltc", "ltc-compact", "ltc-clipless", "representative-point"):
         print("| `%s` | %s |" % (method, percent(bench.error(bench.render(scene, size, method)[0], references))))
     for method in ("ltc", "ltc-clipless", "reference"):
-        sheet.append(bench.render(scene, "240x135", method, "--target-error", "0.005", "--exposure", "-0.5", suffix=".png")[0])
+        target = ("--target-error", "0.005") if method == "reference" else ()
+        sheet.append(bench.render(scene, "240x135", method, *target, "--exposure", "-0.5", suffix=".png")[0])
     bench.sheet("ltc-horizon", [sheet])
 
 

@@ -18,7 +18,7 @@ namespace {
 using namespace fit;
 
 struct FitArguments {
-  std::string lobe = "ggx", samples, layout = "classic", output, picture, normalisation = "middle";
+  std::string lobe = "ggx", samples, layout = "classic", output, picture, normalisation = "middle", search = "bobyqa";
   bool report = false, fresnel_lobe = false;
   CompactSizes compact;
   FitOptions fit;
@@ -75,6 +75,8 @@ void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const FitArg
 
 void run(const FitArguments& options) {
   if (options.output.empty() && !options.report) throw WrongOption("-o or --report", "one of them is required");
+  if (options.search != "bobyqa" && !options.output.empty())
+    throw WrongOption("--search", "nelder-mead is a baseline to measure; use it with --report, without -o");
   if (options.fresnel_lobe && options.layout == "compact")
     throw WrongOption("--fresnel-lobe", "the compact layout has too few nodes for this lobe; use --layout classic");
   if (!options.samples.empty() && options.layout == "compact")
@@ -92,8 +94,10 @@ void run(const FitArguments& options) {
   }
   if (!options.samples.empty())
     fmt::print("albedo       {:.4f} {:.4f} {:.4f} along the normal\n", samples.albedo.x, samples.albedo.y, samples.albedo.z);
+  FitOptions fit = options.fit;
+  fit.search = options.search == "bobyqa" ? FitSearch::bobyqa : FitSearch::nelder_mead;
   const auto start = std::chrono::steady_clock::now();
-  const LtcTable table = fit_with_progress(family, options.fit);
+  const LtcTable table = fit_with_progress(family, fit);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.report) fmt::print("fit          {} x {} in {:.1f} s\n", table.size, table.size, seconds);
   if (!options.output.empty()) write_table(table, options, options.output);
@@ -102,7 +106,7 @@ void run(const FitArguments& options) {
     LobeFamily fresnel = family;
     fresnel.name += "-fresnel";
     fresnel.at = [&family](double roughness, double cosine) { return with_grazing_fresnel(family.at(roughness, cosine)); };
-    const LtcTable fitted = fit_with_progress(fresnel, options.fit, fit_table_from_both_sides);
+    const LtcTable fitted = fit_with_progress(fresnel, fit, fit_table_from_both_sides);
     write_table(fitted, options, with_suffix(options.output, "_fresnel"));
     if (options.report) report_fresnel(table, fitted, options);
   }
@@ -138,6 +142,7 @@ void add_fit(CommandLine& line) {
   verb.add_flag("--report", options->report, "measure the error on lights and between nodes");
   verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").writes(Writes::picture).needs("--report");
   verb.add("--normalisation", options->normalisation, "element 1 of the classic matrix").words({"middle", "last"});
+  verb.add("--search", options->search, "search for the minimum").words({"bobyqa", "nelder-mead"});
   verb.add("--threads", options->fit.threads, "number of threads (0: all)").range(0, 4096);
   verb.add_limits(options->limits);
   verb.callback([options] { run(*options); });

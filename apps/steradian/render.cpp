@@ -110,7 +110,7 @@ std::string identity_of(const RenderArguments& options, const Scene& scene) {
   return fmt::format(
              "steradian {} {} | files {} | lights {} {} {} | environment {} {} {} | camera {} | method {} {} | shadows {} {} | scattering "
              "{}",
-             version(), name_of(active_simd()), fingerprint({options.scene, load.environment}, scene), load.max_lights.value_or(0),
+             version(), name_of(active_simd()), fingerprint({options.scene, load.environment, r.table}, scene), load.max_lights.value_or(0),
              fmt::join(options.lights, ","), words::name_of(load.light_units), load.environment, load.environment_rotation,
              words::name_of(r.background), r.camera, r.method, words::name_of(r.quality), words::name_of(r.shadows),
              words::name_of(r.terminator), options.multiple_scattering) +
@@ -143,6 +143,9 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
       {{"--spp", samples, "--method sampled or --indirect path"},
        {"--target-error", r.method == "reference", "--method reference"},
        {"--terminator", r.shadows != Shadows::off, "--shadows on or exact"},
+       {"--peak-form", r.method == "lorentzian" || r.method == "pearson" || r.method == "ellipsoid",
+        "--method lorentzian, pearson or ellipsoid"},
+       {"--early-stop", r.method == "arvo", "--method arvo"},
        {"--light-error", r.lights != LightSum::all, "--lights auto or tree"},
        {"--device", options.render.backend == Backend::vulkan, "--backend vulkan"},
        {"--resume", (samples || r.method == "reference") && options.frames.empty(), "--method reference or sampled, or --indirect path"},
@@ -169,13 +172,11 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  verb.refuse({"--quality",        "--table",          "--terminator",       "--multiple-scattering",
-               "--indirect",       "--vpls",           "--indirect-shadows", "--indirect-pairs",
-               "--indirect-quads", "--indirect-clamp", "--max-lights",       "--light",
-               "--lights",         "--light-error",    "--environment",      "--environment-rotation",
-               "--background",     "--light-units",    "--camera",           "--target-error",
-               "--resume",         "--animation",      "--time-limit",       "--bounce-error",
-               "--reflections",    "--shadow-error"},
+  verb.refuse({"--quality",    "--table",        "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
+               "--indirect",   "--vpls",         "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
+               "--max-lights", "--light",        "--lights",           "--light-error",    "--environment",    "--environment-rotation",
+               "--background", "--light-units",  "--camera",           "--target-error",   "--resume",         "--animation",
+               "--time-limit", "--bounce-error", "--reflections",      "--shadow-error"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -339,7 +340,9 @@ void add_render(CommandLine& line) {
       .suggests(method_names())
       .group("Light");
   verb.add_word("--quality", r.quality, "accuracy of the method").group("Light");
-  verb.add("--table", r.table, "LTC table for area lights (.json of `steradian fit`), not the built-in").group("Light");
+  verb.add_word("--peak-form", r.peak_form, "f of lorentzian, pearson and ellipsoid").group("Light");
+  verb.add("--early-stop", r.early_stop, "arvo: fraction of an edge's sum to leave out (0: none)").range(0.0, 1.0).group("Light");
+  verb.add("--table", r.table, "a fitted lobe instead of GGX (.json of `steradian fit`)").group("Light");
   verb.add_flag("--multiple-scattering", options->multiple_scattering, "add the energy that single scattering by GGX loses").group("Light");
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   verb.add("--shadow-error", r.shadow_error, "fraction of a pixel's light within which shadows are estimated; 0: exact")

@@ -51,13 +51,28 @@ class Exporter:
         self.materials.add(gltf2_material, blender_material)
 
 
+@contextlib.contextmanager
+def among_enabled():
+    """While it lasts, the add-on is among the preferences' add-ons. Blender's exporter looks for hooks there, and `--addons` does not enter it."""
+    addons = bpy.context.preferences.addons
+    if __package__ in addons:
+        yield
+        return
+    entry = addons.new()
+    entry.module = __package__
+    try:
+        yield
+    finally:
+        addons.remove(entry)
+
+
 def export(path):
     """Writes what is rendered to a .glb. The exporter asks for an active object, which a render from a shell has only in a window."""
     global _engine
     windows = bpy.context.window_manager.windows
     _engine = gathered = EngineExport()
     try:
-        with bpy.context.temp_override(window=windows[0]) if windows else contextlib.nullcontext():
+        with among_enabled(), bpy.context.temp_override(window=windows[0]) if windows else contextlib.nullcontext():
             bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", export_lights=True, export_cameras=True, use_renderable=True,
                                       export_animations=False, export_apply=True, export_tangents=True,
                                       convert_lighting_mode="COMPAT")

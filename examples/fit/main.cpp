@@ -1,7 +1,7 @@
 // A lobe of one's own in a table: Minnaert's, a dusty surface that is darker, or brighter, towards its edge.
 //
 //   example minnaert.json
-//   steradian render SCENE.glb -o picture.png --method ltc --shadows off --table minnaert.json
+//   steradian render SCENE.glb -o picture.png --method ltc --table minnaert.json
 #include <steradian/steradian.h>
 
 #include <cmath>

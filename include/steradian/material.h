@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "steradian/shading_point.h"
 #include "steradian/vector.h"
 
 namespace steradian {
 
-// charlie: the sheen of glTF. lobe_product: two Phong lobes, one about the mirrored view, the other about `axis`.
+struct ClassicTable;
+
+// charlie: the sheen of glTF. lobe_product: two Phong lobes, one about the mirrored view, the other about `axis`, and any number more.
 enum class Brdf { lambert, phong, ggx, blinn_phong, beckmann, charlie, lobe_product };
 
 // Smallest width of a distribution of half vectors: below, float cannot distinguish it from a mirror.
@@ -16,6 +19,12 @@ inline constexpr double kSmallestAlpha = 1e-4;
 
 // Width of a perceptual roughness: its square.
 constexpr double alpha_from_roughness(double roughness) { return std::max(roughness * roughness, kSmallestAlpha); }
+
+// A factor of a product: a power of the cosine to an axis.
+struct AxisPower {
+  Vec3d axis;  // unit
+  double exponent = 1;
+};
 
 struct Material {
   Brdf brdf = Brdf::lambert;
@@ -31,7 +40,10 @@ struct Material {
   bool foreshortening = false;       // phong: times the cosine of the light
   Vec3d axis{0, 0, 0};               // lobe_product: axis of its second lobe; zero: the normal
   double axis_exponent = 1;          // lobe_product: exponent of its second lobe, n >= 0
+  std::vector<AxisPower> factors{};  // lobe_product: its third lobe and all further ones
   bool multiple_scattering = false;  // ggx: restores the light that is lost between the facets, see albedo.h
+  // ggx, isotropic: a fitted table (fit.h) in the place of the lobe, for `reference`, `sampled` and `ltc`. Must outlive the material.
+  const ClassicTable* fitted = nullptr;
 };
 
 // The name in the command line, in JSON and in messages: "lambert", "blinn-phong", ...

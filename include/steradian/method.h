@@ -43,4 +43,12 @@ enum class Precision { double_, float_ };
 const char* name_of(Method method);
 std::optional<Method> method_of(std::string_view name);
 
+// The peak fits' f in their integrand (f - x^m)/(1 - x^2): docs/theory/moments.md, "The published fits".
+enum class PeakForm {
+  best,       // the one that is closer, for each fit
+  one,        // f = 1
+  x,          // f = x
+  by_parity,  // f = x for even n, 1 for all others: as published, and not continuous in n
+};
+
 }  // namespace steradian

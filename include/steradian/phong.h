@@ -16,14 +16,6 @@
 
 namespace steradian {
 
-// The peak fits' f in their integrand (f - x^m)/(1 - x^2): docs/theory/moments.md, "The published fits".
-enum class PeakForm {
-  best,       // the one that is closer, for each fit
-  one,        // f = 1
-  x,          // f = x
-  by_parity,  // f = x for even n, 1 for all others: as published, and not continuous in n
-};
-
 // method: exact (boundary integral by quadrature: 1e-10 of the full lobe in double, any n >= 0), arvo (Arvo's recurrence,
 // O(n): exact, integer n), lorentzian, pearson, ellipsoid (the published peak fits, errors of 1e-2, for comparison), series
 // (the matched ellipsoid's cosine series, O(1): 1e-3 of the full lobe at worst, 2e-4 on the average).

@@ -33,6 +33,8 @@ struct RadianceOptions {
   int spp = 256;                                // for sampled: pairs of a light sample and a lobe sample
   std::uint64_t seed = 1;                       // for sampled
   std::shared_ptr<const ClassicTable> table{};  // for ltc: a fitted table instead of GGX's; null: GGX's
+  PeakForm peak_form = PeakForm::best;          // for lorentzian, pearson and ellipsoid
+  double early_stop = 0;                        // for arvo: an edge's sum stops when the rest is below this fraction; 0: never
 };
 
 struct RadianceResult {

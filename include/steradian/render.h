@@ -34,10 +34,12 @@ enum class Backend { cpu, vulkan };
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  std::string camera;                 // name; empty: the first
-  std::string method = "auto";        // for the specular lobe: a name of `render --help`
-  std::string table;                  // for method ltc: a file of fit's instead of the shipped table of GGX; empty: the shipped one
-  Quality quality = Quality::normal;  // see method.h
+  std::string camera;                   // name; empty: the first
+  std::string method = "auto";          // for the specular lobe: a name of `render --help`
+  std::string table;                    // for methods ltc, sampled, reference: a file of fit's in the place of GGX; empty: GGX
+  Quality quality = Quality::normal;    // see method.h
+  PeakForm peak_form = PeakForm::best;  // as RadianceOptions, and so is early_stop
+  double early_stop = 0;
   Shadows shadows = Shadows::off;
   Terminator terminator = Terminator::smooth;  // of shadows; without them it has no effect
   // Shadows of a tile's dimmest area lights may be estimated by a few rays, if together they send at most this fraction of each pixel's

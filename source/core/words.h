@@ -33,6 +33,9 @@ template <>
 inline constexpr auto kTable<Precision> = std::to_array<OptionWord<Precision>>({{Precision::double_, "double"},
                                                                                 {Precision::float_, "float"}});
 template <>
+inline constexpr auto kTable<PeakForm> = std::to_array<OptionWord<PeakForm>>(
+    {{PeakForm::best, "best"}, {PeakForm::one, "one"}, {PeakForm::x, "x"}, {PeakForm::by_parity, "published"}});
+template <>
 inline constexpr auto kTable<Shadows> =
     std::to_array<OptionWord<Shadows>>({{Shadows::off, "off"}, {Shadows::on, "on"}, {Shadows::exact, "exact"}});
 template <>

@@ -166,7 +166,7 @@ LtcCell fit_cell(const LobeFamily& family, double roughness, double cos_theta, c
                             true_radiance(lobe, lights, options.light_directions)};
   std::vector<double> x = objective.variables(start);
   const auto minimise = [&](auto function, double step, int evaluations) {
-    nlopt::opt opt(nlopt::LN_BOBYQA, 4);
+    nlopt::opt opt(options.search == FitSearch::bobyqa ? nlopt::LN_BOBYQA : nlopt::LN_NELDERMEAD, 4);
     opt.set_min_objective(
         [](unsigned, const double* v, double*, void* data) {
           const double value = (*static_cast<decltype(function)*>(data))(v);

@@ -34,9 +34,13 @@ struct LtcCell {
 // Distance that the optimiser minimises: |difference| to the power 1, 2 or 3. docs/theory/ltc.md compares them.
 enum class FitNorm { l1 = 1, l2 = 2, l3 = 3 };
 
+// Search for the minimum. The literature's is Nelder and Mead's simplex.
+enum class FitSearch { bobyqa, nelder_mead };
+
 struct FitOptions {
   int size = 64;  // nodes along roughness and along sqrt(1 - cos theta)
   FitNorm norm = FitNorm::l1;
+  FitSearch search = FitSearch::bobyqa;
   int nodes = 32;                      // quadrature nodes: nodes^2 on half of the hemisphere, in the lobe's own coordinates
   int magnitude_directions = 1 << 14;  // quadrature points for albedo and grazing
   int lights = 64;                     // random rectangles of the second pass; 0: none

@@ -10,7 +10,9 @@
 #include "integrals/tables/ggx_tables.h"
 #include "integrals/tables/table.h"
 #include "paths.h"
+#include "scene/table_file.h"
 #include "steradian/error.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::fit::table_files_test {
 namespace {
@@ -101,6 +103,33 @@ TEST(LtcFiles, EveryNormalisationIsTheSameLobes) {
   }
   const std::string header = classic_files(classic_table(fit, ClassicNormalisation::last), "ggx", "x.h")[0].bytes;
   EXPECT_NE(header.find("--normalisation last"), std::string::npos);
+}
+
+// `render --table` and `eval` read both; four roundings of floats are between them.
+TEST(LtcFiles, BothNormalisationsAreReadAsOneTable) {
+  FitOptions options;
+  options.size = 4;
+  options.nodes = 12;
+  options.lights = 8;
+  options.light_directions = options.magnitude_directions = 256;
+  const LtcTable fit = fit_table(lobe_family("ggx"), options);
+  const auto read = [&](ClassicNormalisation normalisation) {
+    const std::string path = scene::test_path("normalisations.json");
+    write_files(classic_files(classic_table(fit, normalisation), "ggx", path));
+    return scene::read_classic_table(path);
+  };
+  const ClassicTable middle = read(ClassicNormalisation::middle), last = read(ClassicNormalisation::last);
+  EXPECT_EQ(last.normalisation, ClassicNormalisation::middle);
+  EXPECT_EQ(middle.magnitude, last.magnitude);
+  for (std::size_t k = 0; k < 16; ++k)
+    for (std::size_t c = 0; c < 4; ++c)
+      EXPECT_NEAR(last.matrix[k][c], middle.matrix[k][c], 3e-7f * std::fabs(middle.matrix[k][c])) << k << " " << c;
+  // A table that says otherwise is refused.
+  const std::string path = scene::test_path("normalisations.json");
+  auto files = classic_files(classic_table(fit, ClassicNormalisation::last), "ggx", path);
+  files[0].bytes.replace(files[0].bytes.find("\"last\""), 6, "\"first\"");
+  write_files(files);
+  EXPECT_THROW(scene::read_classic_table(path), Error);
 }
 
 TEST(LtcFiles, UnknownEndingsAreRefused) {

@@ -20,6 +20,7 @@ struct TexturedErrorRow {
   double distance = 0;        // of the light's centre, in its sides
   std::vector<double> error;  // relative L2 of the radiance over all setups, by texture
   std::vector<double> mean;   // error of the light's mean radiance instead of the look-up
+  std::vector<double> level;  // error of the published look-up: one round Gaussian, whose width follows the distance under M^-1
   std::vector<double> bias;   // ratio of the sums, minus 1
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "integrals/curved_light.h"
 #include "integrals/ggx/charlie.h"
@@ -49,7 +51,7 @@ Vec3d lambert(S irradiance, Vec3d radiance, Vec3d albedo) {
 
 template <Method method>
 RadianceResult phong(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, const RadianceOptions& options) {
-  const PhongOptions o{method, options.quality};
+  const PhongOptions o{method, options.quality, options.early_stop, options.peak_form};
   return answer(method,
                 options.precision == Precision::float_ ? Vec3d(phong_radiance_float(light, at, m, o)) : phong_radiance(light, at, m, o));
 }
@@ -107,9 +109,11 @@ RadianceResult cubature(const PreparedPolygon& light, const ShadingPoint& at, co
 template <class S>
 double matched_lobe_radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, Quality quality) {
   const Frame frame = Frame::from_normal(at.normal);
-  const Vec3d axis = m.axis == Vec3d{} ? Vec3d{0, 0, 1} : normalized(frame.to_local(m.axis));
   using integrals::to_kernel;
-  integrals::MatchedLobe<S> integral(m.exponent, m.axis_exponent, to_kernel<S>(axis), quality);
+  const auto in_frame = [&](Vec3d axis) { return to_kernel<S>(axis == Vec3d{} ? Vec3d{0, 0, 1} : normalized(frame.to_local(axis))); };
+  std::vector<lobes::ProductFactor<S>> axes = {{in_frame(m.axis), m.axis_exponent}};
+  for (const AxisPower& f : m.factors) axes.push_back({in_frame(f.axis), f.exponent});
+  integrals::MatchedLobe<S> integral(m.exponent, std::move(axes), quality);
   const auto shading = integrals::shading_from<S>(shapes::lit_side(light, at.position), to_kernel<S>(frame.to_local(at.view)));
   return static_cast<double>(integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral).x.v);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "steradian/material.h"
 
@@ -16,6 +17,7 @@ enum class KeyKind {
   colour,        // a number or [r,g,b], not negative
   direction,     // [x,y,z], not zero; made unit
   flag,          // true or false
+  factors,       // a list of {"axis": direction, "exponent": not_negative}
   word           // one of Key::words
 };
 
@@ -25,6 +27,7 @@ struct KeyValue {
   Vec3d vector;  // also holds a colour
   bool flag = false;
   std::string word;
+  std::vector<AxisPower> factors;
 };
 
 // A material while it is read. The width may be given in three ways; which of them were used is checked at the end.

@@ -7,7 +7,7 @@
 namespace steradian::lobes {
 namespace {
 
-constexpr std::size_t kKinds = std::variant_size_v<Lobe::Kind>;
+constexpr std::size_t kKinds = std::variant_size_v<Lobe::Kind> - 1;  // with a name; Fitted has none
 template <std::size_t I>
 using KindAt = std::variant_alternative_t<I, Lobe::Kind>;
 
@@ -38,12 +38,15 @@ LobeAxis axis_and_width(const Material& material, const ShadingPoint& at, std::i
   return kAxis[static_cast<std::size_t>(material.brdf)](material, at);
 }
 
+bool is_fitted(const Material& material) { return material.brdf == Brdf::ggx && material.fitted != nullptr; }
+
 double largest_component(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
 }  // namespace
 
 Lobe::Lobe(const Material& material, Vec3d view)
-    : kind_(seen(material, view, std::make_index_sequence<kKinds>())),
+    : kind_(is_fitted(material) ? Kind(std::in_place_type<Fitted>, material, view)
+                                : seen(material, view, std::make_index_sequence<kKinds>())),
       view_(view),
       colours_(std::visit([](const auto& kind) { return kind.colours; }, kind_)) {}
 
@@ -78,6 +81,7 @@ Material in_frame(const Material& material, const Frame& frame) {
   Material local = material;
   local.tangent = frame.to_local(material.tangent);
   local.axis = frame.to_local(material.axis);
+  for (AxisPower& f : local.factors) f.axis = frame.to_local(f.axis);
   return local;
 }
 
@@ -103,6 +107,7 @@ namespace steradian {
 const char* name_of(Brdf brdf) { return lobes::row_of(brdf).name; }
 
 LobeAxis lobe_axis(const Material& material, const ShadingPoint& at) {
+  if (lobes::is_fitted(material)) return lobes::Fitted::axis_and_width(material, at);
   return lobes::axis_and_width(material, at, std::make_index_sequence<lobes::kKinds>());
 }
 

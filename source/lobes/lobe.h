@@ -9,7 +9,8 @@
 //   evaluate(l), sample(u, v), pdf(l)    l and view are above the surface in evaluate
 //   shape(), sensitivity(), ending_planes(), and the colours plain and fresnel
 //
-// and stands in the list of Lobe::Kind. Directions are unit and in the shading frame: z the normal, x the tangent of the widths.
+// and stands in the list of Lobe::Kind. Fitted stands last: it has no name, and takes the place of GGX. Directions are unit and in the
+// shading frame: z the normal, x the tangent of the widths.
 #pragma once
 
 #include <array>
@@ -19,6 +20,7 @@
 #include "lobes/beckmann.h"
 #include "lobes/blinn_phong.h"
 #include "lobes/charlie.h"
+#include "lobes/fitted.h"
 #include "lobes/ggx.h"
 #include "lobes/lambert.h"
 #include "lobes/lobe_product.h"
@@ -28,7 +30,7 @@ namespace steradian::lobes {
 
 class Lobe {
  public:
-  using Kind = std::variant<Lambert, Phong, Ggx, BlinnPhong, Beckmann, Charlie, LobeProduct>;
+  using Kind = std::variant<Lambert, Phong, Ggx, BlinnPhong, Beckmann, Charlie, LobeProduct, Fitted>;
 
   Lobe(const Material& material, Vec3d view);
 

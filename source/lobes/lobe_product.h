@@ -1,15 +1,53 @@
-// The product of two Phong lobes: a power of the cosine about the mirrored view times one about an axis of the surface.
+// The product of two and more Phong lobes: a power of the cosine about the mirrored view times powers about axes of the surface.
 //
-//   (n1 + n2 + 1)/(2 pi) max(l.r, 0)^n1 max(l.a, 0)^n2
+//   (n1 + n2 + ... + 1)/(2 pi) max(l.r, 0)^n1 max(l.a, 0)^n2 ...
 //
-// There is no foreshortening. With equal axes the product is a Phong lobe of exponent n1 + n2, which the factor normalises. The further
+// There is no foreshortening. With equal axes the product is a Phong lobe of the exponents' sum, which the factor normalises. The further
 // apart the axes are, the less remains.
 #pragma once
+
+#include <vector>
 
 #include "lobes/lobe_parts.h"
 #include "lobes/samplers.h"
 
 namespace steradian::lobes {
+
+// A factor of the product in the numbers of a kernel.
+template <class S>
+struct ProductFactor {
+  typename Kernels<S>::vec3 axis;
+  Real<S> exponent;
+};
+
+// The product's sums about a direction.
+template <class S>
+typename Kernels<S>::LobeProduct product_about(const typename Kernels<S>::vec3& direction, const std::vector<ProductFactor<S>>& factors) {
+  Kernels<S> k;
+  auto product = k.lobe_product_begin(direction);
+  for (const ProductFactor<S>& f : factors) product = k.lobe_product_add(product, f.axis, f.exponent);
+  return product;
+}
+
+// The direction of the product's maximum: in closed form for two factors, by Newton's steps from the mean axis for more. Without an
+// exponent the first axis.
+template <class S>
+typename Kernels<S>::vec3 product_peak(const std::vector<ProductFactor<S>>& factors) {
+  Kernels<S> k;
+  Real<S> total(0.0);
+  typename Kernels<S>::vec3 mean(0.0, 0.0, 0.0);
+  for (const ProductFactor<S>& f : factors) {
+    total = total + f.exponent;
+    mean = mean + f.axis * f.exponent;
+  }
+  const Real<S> square = dot(mean, mean);
+  if (!any_lane(total > Real<S>(0.0)) || !any_lane(square > Real<S>(1e-12))) return factors.front().axis;
+  if (factors.size() == 2) return k.lobe_product_peak_of_two(factors[0].axis, factors[0].exponent, factors[1].axis, factors[1].exponent);
+  constexpr int kSteps = 4;  // three leave 2e-7 degrees for lobes within 50 degrees (LobeProduct.NewtonFindsThePeak)
+  auto peak = mean * (Real<S>(1.0) / sqrt(square));
+  for (int i = 0; i < kSteps; ++i) peak = k.lobe_product_newton(product_about<S>(peak, factors));
+  return peak;
+}
 
 struct LobeProduct {
   static constexpr Brdf kBrdf = Brdf::lobe_product;
@@ -18,45 +56,56 @@ struct LobeProduct {
       kExponent,
       {"axis_exponent", KeyKind::not_negative, [](Draft& d, const KeyValue& v) { d.material.axis_exponent = v.number; }, true},
       {"axis", KeyKind::direction, [](Draft& d, const KeyValue& v) { d.material.axis = v.vector; }},
+      {"factors", KeyKind::factors, [](Draft& d, const KeyValue& v) { d.material.factors = v.factors; }},
       kAlbedo};
   static LobeAxis axis_and_width(const Material& m, const ShadingPoint& at) {
-    return {peak_of(mirrored(at), m.exponent, axis_of(m, at.normal), m.axis_exponent), width_of(m)};
+    const auto all = factors_of(m, mirrored(at), at.normal);
+    return {from_kernel(product_peak(all)), 1 / std::sqrt(sum_of(all) + 1)};
   }
 
   LobeProduct(const Material& m, Vec3d view)
       : colours{m.albedo},
-        n1(m.exponent),
-        n2(m.axis_exponent),
-        mirror(from_kernel(Kernels<double>().phong_mirror(to_kernel(view)))),
-        axis(axis_of(m, {0, 0, 1})),
-        frame(Frame::from_normal(peak_of(mirror, n1, axis, n2))) {}
+        factors(factors_of(m, from_kernel(Kernels<double>().phong_mirror(to_kernel(view))), {0, 0, 1})),
+        n(sum_of(factors)),
+        frame(Frame::from_normal(from_kernel(product_peak(factors)))) {}
 
   LobeValue evaluate(Vec3d l) const {
-    const double along_mirror = dot(l, mirror), along_axis = dot(l, axis);
-    if (!(along_mirror > 0) || !(along_axis > 0)) return {};
     Kernels<double> k;
-    return {(n1 + n2 + 1) / (2 * std::numbers::pi) * (k.phong_power(along_mirror, n1) * k.phong_power(along_axis, n2)).v, 0};
+    double product = 1;
+    for (const ProductFactor<double>& f : factors) {
+      const double along = dot(l, from_kernel(f.axis));
+      if (!(along > 0)) return {};
+      product *= k.phong_power(along, f.exponent).v;
+    }
+    return {(n + 1) / (2 * std::numbers::pi) * product, 0};
   }
 
-  // Samples the power n1 + n2 about the product's peak, which bounds the product: the arithmetic mean is above the geometric one.
-  Vec3d sample(double u, double v) const { return frame.to_world(sample_cosine_power(n1 + n2, u, v)); }
-  double pdf(Vec3d l) const { return pdf_cosine_power(n1 + n2, dot(l, frame.z)); }
+  // Samples the power of the exponents' sum about the product's peak, which bounds the product: the arithmetic mean is above the geometric
+  // one.
+  Vec3d sample(double u, double v) const { return frame.to_world(sample_cosine_power(n, u, v)); }
+  double pdf(Vec3d l) const { return pdf_cosine_power(n, dot(l, frame.z)); }
 
-  LobeShape shape() const { return shape_about(frame.z, 1 / std::sqrt(n1 + n2 + 1)); }
-  double sensitivity() const { return 1 + n1 + n2; }
-  std::array<Vec3d, 2> ending_planes() const { return {mirror, axis}; }
+  LobeShape shape() const { return shape_about(frame.z, 1 / std::sqrt(n + 1)); }
+  double sensitivity() const { return 1 + n; }
+  // At the planes of further factors the quadrature subdivides.
+  std::array<Vec3d, 2> ending_planes() const { return {from_kernel(factors[0].axis), from_kernel(factors[1].axis)}; }
 
   Colours colours;
-  double n1, n2;
-  Vec3d mirror, axis;
+  std::vector<ProductFactor<double>> factors;
+  double n;     // sum of the exponents
   Frame frame;  // about the peak
 
  private:
-  static Vec3d axis_of(const Material& m, Vec3d normal) { return m.axis == Vec3d{} ? normal : normalized(m.axis); }
-  static double width_of(const Material& m) { return 1 / std::sqrt(m.exponent + m.axis_exponent + 1); }
-  static Vec3d peak_of(Vec3d r1, double n1, Vec3d r2, double n2) {
-    if (!(n1 + n2 > 0)) return r1;
-    return from_kernel(Kernels<double>().lobe_product_peak_of_two(to_kernel(r1), n1, to_kernel(r2), n2));
+  static std::vector<ProductFactor<double>> factors_of(const Material& m, Vec3d mirror, Vec3d normal) {
+    std::vector<ProductFactor<double>> all = {{to_kernel(mirror), m.exponent},
+                                              {to_kernel(m.axis == Vec3d{} ? normal : normalized(m.axis)), m.axis_exponent}};
+    for (const AxisPower& f : m.factors) all.push_back({to_kernel(normalized(f.axis)), f.exponent});
+    return all;
+  }
+  static double sum_of(const std::vector<ProductFactor<double>>& all) {
+    double sum = 0;
+    for (const ProductFactor<double>& f : all) sum += f.exponent.v;
+    return sum;
   }
 };
 

@@ -35,12 +35,13 @@ class OwnScenes : public testing::Test {
 };
 
 TEST_F(OwnScenes, AreWhatTheirScriptMakes) {
-  for (const std::string name : {"gallery", "morph", "plane", "ring", "hall", "diffuse_floor", "glossy_floor", "textured_floor", "tubes"}) {
+  for (const std::string name :
+       {"gallery", "morph", "plane", "ring", "hall", "diffuse_floor", "glossy_floor", "textured_floor", "tubes", "lobes"}) {
     const std::string checked_in = bytes_of(scenes() + "/" + name + ".glb");
     EXPECT_FALSE(checked_in.empty()) << name;
     EXPECT_LT(checked_in.size(), 1'000'000u) << name;
     EXPECT_TRUE(checked_in == bytes_of(folder_ + "/" + name + ".glb"))
-        << name << ": run scenes/make_scenes.py scenes gallery morph plane ring hall diffuse_floor glossy_floor textured_floor tubes";
+        << name << ": run scenes/make_scenes.py scenes gallery morph plane ring hall diffuse_floor glossy_floor textured_floor tubes lobes";
   }
 }
 
@@ -54,6 +55,17 @@ TEST_F(OwnScenes, HaveTheLightsAndSizesTheyAreMadeFor) {
   const AreaLight& star = gallery.area_lights[3];
   EXPECT_EQ(star.name, "star");
   EXPECT_EQ(std::get<Polygon>(star.shape).vertices.size(), 10u) << "ten triangles are merged into one polygon";
+
+  const Scene lobes = made("lobes");
+  ASSERT_EQ(lobes.area_lights.size(), 3u);
+  EXPECT_EQ(std::ranges::count_if(lobes.area_lights, is(Ellipsoid{})), 2);
+  const auto has = [&](Brdf brdf) {
+    return std::ranges::count_if(
+        lobes.materials, [&](const SurfaceMaterial& m) { return !m.specular_override.empty() && m.specular_override[0].brdf == brdf; });
+  };
+  EXPECT_EQ(has(Brdf::phong), 2);
+  EXPECT_EQ(has(Brdf::beckmann), 1);
+  EXPECT_EQ(has(Brdf::ggx), 1);
 
   const Scene plane = made("plane");
   ASSERT_EQ(plane.area_lights.size(), 1u);

@@ -1,5 +1,6 @@
 #include "scene/table_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -36,6 +37,16 @@ std::vector<std::array<float, 4>> read_nodes(const nlohmann::json& table, const 
   return result;
 }
 
+// Divides the matrices whose last element is 1 by their middle one. At the nodes they are the same lobes. Between the nodes, the entries of
+// this form are interpolated.
+void make_middle_1(ClassicTable& table, const std::string& path) {
+  for (std::array<float, 4>& m : table.matrix) {
+    m = {m[0] / m[3], m[1] / m[3], m[2] / m[3], 1 / m[3]};
+    if (!std::all_of(m.begin(), m.end(), [](float x) { return static_cast<double>(std::fabs(x)) < kLargestValue; }))
+      throw Error(path, "\"matrix\" has a node whose middle element is 0");
+  }
+}
+
 }  // namespace
 
 ClassicTable read_classic_table(const std::string& path) {
@@ -46,12 +57,16 @@ ClassicTable read_classic_table(const std::string& path) {
   if (table.is_discarded() || !table.is_object()) throw Error(path, "is no table in JSON", hint);
   const auto layout = table.find("layout"), size = table.find("size");
   if (layout == table.end() || *layout != "classic") throw Error(path, "is no table of the classic layout", hint);
-  if (const auto one = table.find("normalisation"); one != table.end() && *one != "middle")
-    throw Error(path, "its matrices have another element that is 1 than the middle one", "write it without --normalisation last");
   if (size == table.end() || !size->is_number_integer() || *size < 2 || *size > kLargestSize)
     throw Error(path, "\"size\" is no number from 2 to " + std::to_string(kLargestSize), hint);
   const int n = size->get<int>();
-  return {n, read_nodes(table, "matrix", n, path), read_nodes(table, "magnitude", n, path), ClassicNormalisation::middle};
+  ClassicTable read = {n, read_nodes(table, "matrix", n, path), read_nodes(table, "magnitude", n, path), ClassicNormalisation::middle};
+  const auto one = table.find("normalisation");
+  if (one != table.end() && *one == "last")
+    make_middle_1(read, path);
+  else if (one != table.end() && *one != "middle")
+    throw Error(path, "\"normalisation\" is neither \"middle\" nor \"last\"", hint);
+  return read;
 }
 
 }  // namespace steradian::scene

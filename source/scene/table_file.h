@@ -7,7 +7,8 @@
 
 namespace steradian::scene {
 
-// Throws Error with the path if the file is no complete table of finite numbers.
+// The table with the middle element 1, whatever the file's normalisation. Throws Error with the path if the file is no complete table of
+// finite numbers.
 ClassicTable read_classic_table(const std::string& path);
 
 }  // namespace steradian::scene

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bench/phong_plane.h"
+#include "bench/studies/phong_baselines.h"
 #include "bench/studies/line_plot.h"
 #include "bench/studies/table2.h"
 #include "core/files.h"
@@ -119,34 +120,68 @@ LinePlot fits_plot(double n, double c, double highest, int pieces) {
   return plot;
 }
 
-// Rows: lights; columns: the exact picture, then errors of the methods, enlarged.
-Picture error_picture(Simd simd, int n, double enlarged) {
-  constexpr int kWidth = 240, kHeight = 135;
-  const PhongPlane plane = make_phong_plane(kWidth, kHeight);
-  const std::vector<Method> methods = {Method::lorentzian, Method::pearson, Method::ellipsoid, Method::series};
-  const std::vector<NamedLight> lights = comparison_lights();
-  Picture picture(kWidth * static_cast<int>(methods.size() + 1), kHeight * static_cast<int>(lights.size()));
-  const Material material = phong(n);
-  for (std::size_t l = 0; l < lights.size(); ++l) {
-    std::vector<double> exact(plane.count);
-    for (std::size_t i = 0; i < plane.count; ++i) exact[i] = phong_radiance(lights[l].light, plane.at(i), material, {Method::exact}).x;
+constexpr int kWidth = 240, kHeight = 135;  // of a part of a sheet
+
+// A sheet of small pictures of the plane, a row for each light.
+struct Sheet {
+  PhongPlane plane = make_phong_plane(kWidth, kHeight);
+  std::vector<NamedLight> lights = comparison_lights();
+  Picture picture;
+
+  explicit Sheet(std::size_t columns) : picture(kWidth * static_cast<int>(columns), kHeight * static_cast<int>(lights.size())) {}
+  void put(std::size_t column, std::size_t row, std::size_t pixel, double value) {
+    const float v = static_cast<float>(value);
+    picture.at(static_cast<int>(column) * kWidth + plane.pixels[pixel] % kWidth,
+               static_cast<int>(row) * kHeight + plane.pixels[pixel] / kWidth) = {v, v, v};
+  }
+  std::vector<double> exact(std::size_t row, int n) const {
+    std::vector<double> values(plane.count);
+    for (std::size_t i = 0; i < plane.count; ++i) values[i] = phong_radiance(lights[row].light, plane.at(i), phong(n), {Method::exact}).x;
+    return values;
+  }
+};
+
+// Columns: the exact picture, then the pictures of the published substitutes and of the series.
+Picture substitutes_picture(int n) {
+  std::vector<Baseline> shown;
+  for (const Baseline& b : phong_baselines())
+    if (b.name.find("table") == std::string::npos) shown.push_back(b);
+  shown.push_back({"series", [](const PreparedPolygon& light, const ShadingPoint& at, double exponent) {
+                     return phong_radiance(light, at, phong(exponent), {Method::series}).x;
+                   }});
+  Sheet sheet(shown.size() + 1);
+  for (std::size_t l = 0; l < sheet.lights.size(); ++l) {
+    const std::vector<double> exact = sheet.exact(l, n);
     const double brightest = *std::max_element(exact.begin(), exact.end());
-    const auto put = [&](std::size_t column, std::size_t i, double value) {
-      const float v = static_cast<float>(value);
-      picture.at(static_cast<int>(column) * kWidth + plane.pixels[i] % kWidth, static_cast<int>(l) * kHeight + plane.pixels[i] / kWidth) = {
-          v, v, v};
-    };
-    for (std::size_t i = 0; i < plane.count; ++i) put(0, i, 0.8 * exact[i] / brightest);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      sheet.put(0, l, i, 0.8 * exact[i] / brightest);
+      for (std::size_t b = 0; b < shown.size(); ++b)
+        sheet.put(b + 1, l, i, 0.8 * shown[b].radiance(sheet.lights[l].light, sheet.plane.at(i), n) / brightest);
+    }
+  }
+  return sheet.picture;
+}
+
+// Columns: the exact picture, then errors of the methods, enlarged.
+Picture error_picture(Simd simd, int n, double enlarged) {
+  const std::vector<Method> methods = {Method::lorentzian, Method::pearson, Method::ellipsoid, Method::series};
+  Sheet sheet(methods.size() + 1);
+  const PhongPlane& plane = sheet.plane;
+  const Material material = phong(n);
+  for (std::size_t l = 0; l < sheet.lights.size(); ++l) {
+    const std::vector<double> exact = sheet.exact(l, n);
+    const double brightest = *std::max_element(exact.begin(), exact.end());
+    for (std::size_t i = 0; i < plane.count; ++i) sheet.put(0, l, i, 0.8 * exact[i] / brightest);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const FlushDenormals flush;
       std::vector<float> result(plane.x.size());
-      lobe_packs_for(simd)[methods::Procedure::phong_lobe](prepare_light(lights[l].light), plane.points(), {material, {methods[m]}},
+      lobe_packs_for(simd)[methods::Procedure::phong_lobe](prepare_light(sheet.lights[l].light), plane.points(), {material, {methods[m]}},
                                                            {result.data()});
       for (std::size_t i = 0; i < plane.count; ++i)
-        put(m + 1, i, enlarged * std::fabs(static_cast<double>(result[i]) - exact[i]) / brightest);
+        sheet.put(m + 1, l, i, enlarged * std::fabs(static_cast<double>(result[i]) - exact[i]) / brightest);
     }
   }
-  return picture;
+  return sheet.picture;
 }
 
 }  // namespace
@@ -165,6 +200,8 @@ std::vector<std::string> write_table2_figures(const std::string& folder, Simd si
     for (const double c : {0.5, 0.9, 0.99, 0.9999}) sheet.push_back(fits_plot(n, c, 0.1, 60));
   files.push_back(folder + "/phong_fits_sheet.svg");
   write_file(files.back(), sheet_to_svg(sheet, 4));
+  files.push_back(folder + "/phong_substitutes.png");
+  write_picture(substitutes_picture(100), files.back());
   for (const int n : {100, 5000}) {
     files.push_back(folder + "/phong_errors_" + std::to_string(n) + ".png");
     write_picture(error_picture(simd, n, 50), files.back());

@@ -188,7 +188,8 @@ ByChannel by_normal_past_occluders(const Query& query) {
 Answer evaluate(const Query& query) {
   const ShadingPoint at = {query.position, query.normal, query.view.value_or(query.normal)};
   check_derivatives(query);
-  RadianceOptions options = {query.method, query.quality, query.precision, query.spp, query.seed, query.table};
+  RadianceOptions options = {query.method, query.quality, query.precision, query.spp,
+                             query.seed,   query.table,   query.peak_form, query.early_stop};
   Sum sum;
   for (const Light& light : query.lights) {
     add_light(sum, query, light, at, options);

@@ -73,6 +73,30 @@ TEST(EvalQueries, AListOfLightsAdds) {
 }
 
 // The samples of two lights are independent: the standard error is the root of the summed squares.
+// docs/theory/moments.md, "The published fits": f = x for even exponents, f = 1 for all others.
+TEST(EvalQueries, ThePublishedFormOfAPeakFollowsTheParity) {
+  const auto by = [&](int exponent, const std::string& form) {
+    return radiance(query(light(kRect), R"({"brdf":"phong","exponent":)" + std::to_string(exponent) + "}",
+                          R"(,"method":"ellipsoid","peak_form":")" + form + "\""));
+  };
+  EXPECT_EQ(by(100, "published"), by(100, "x"));
+  EXPECT_EQ(by(101, "published"), by(101, "one"));
+  EXPECT_EQ(by(100, "best"), by(100, "one"));
+  EXPECT_NE(by(100, "x"), by(100, "one"));
+  EXPECT_NE(answer_text(query(light(kRect), kLambert, R"(,"peak_form":"round")")).find("published"), std::string::npos);
+}
+
+// The rest of an edge's sum is at most that fraction of it, so the answer is at most that much too small.
+TEST(EvalQueries, AnEarlyStopLeavesOutNoMoreThanItsFraction) {
+  const auto by = [&](const std::string& stop) {
+    return radiance(query(light(kRect), R"({"brdf":"phong","exponent":4000})", R"(,"method":"arvo","early_stop":)" + stop)).x;
+  };
+  const double whole = by("0"), rough = by("0.1");
+  ASSERT_GT(whole, 0);
+  EXPECT_NEAR(by("1e-12"), whole, 1e-9 * whole);
+  EXPECT_NE(rough, whole);
+}
+
 TEST(EvalQueries, AListOfLightsAddsVariances) {
   const std::string sampled = R"(,"method":"sampled","spp":4000)";
   const auto of = [&](const std::string& lights) {

@@ -186,6 +186,31 @@ using lobes::Key;
 using lobes::KeyKind;
 using lobes::KeyValue;
 
+namespace {
+
+constexpr Field<AxisPower> kFactorFields[] = {{"axis", into<read_direction, &AxisPower::axis>, true},
+                                              {"exponent", into<read_not_negative, &AxisPower::exponent>, true}};
+
+std::vector<AxisPower> read_factors(Problems& problems, const Place& place, Json value) {
+  std::vector<AxisPower> factors;
+  simdjson::dom::array list;
+  if (value.get(list) != simdjson::SUCCESS) {
+    wrong_type(problems, place, "a list of {axis, exponent}", value);
+    return factors;
+  }
+  for (const Json one : list) {
+    const Place at = place.at(factors.size());
+    AxisPower& factor = factors.emplace_back();
+    if (one.is_object())
+      read_fields(problems, at, one, {}, std::span<const Field<AxisPower>>(kFactorFields), factor);
+    else
+      wrong_type(problems, at, "an object with axis and exponent", one);
+  }
+  return factors;
+}
+
+}  // namespace
+
 // The read_key of Field is the other overload; read_fields finds both by the namespace of their arguments.
 static void read_key(Problems& p, const Place& at, Json v, const Key& key, Draft& draft) {
   KeyValue value;
@@ -198,6 +223,7 @@ static void read_key(Problems& p, const Place& at, Json v, const Key& key, Draft
     case KeyKind::colour: value.vector = read_colour(p, at, v); break;
     case KeyKind::direction: value.vector = read_direction(p, at, v); break;
     case KeyKind::flag: value.flag = read_bool(p, at, v); break;
+    case KeyKind::factors: value.factors = read_factors(p, at, v); break;
     case KeyKind::word:
       value.word = read_string(p, at, v);
       if (v.is_string() && !words::contains(key.words, value.word))
@@ -354,6 +380,8 @@ constexpr Field<Query> kQueryFields[] = {
     {"seed", [](Problems& p, const Place& at, Json v,
                 Query& q) { q.seed = static_cast<std::uint64_t>(read_integer(p, at, v, 0, std::numeric_limits<std::int64_t>::max())); }},
     {"table", read_table},
+    {"peak_form", into<read_word<PeakForm>, &Query::peak_form>},
+    {"early_stop", into<read_not_negative, &Query::early_stop>},
     {"occluders", read_occluders},
     {"geometric_normal", into<read_direction, &Query::geometric_normal>},
     {"derivatives", into<read_bool, &Query::derivatives>},
@@ -398,9 +426,14 @@ Query QueryReader::read(std::string_view line) {
         problems.add(top.in("view"), "missing", std::string("brdf ") + name_of(m.brdf) + " depends on it");
         break;
       }
-  if (query.table != nullptr && query.method != Method::ltc)
-    problems.add(top.in("table"), "only the method ltc reads one", "add \"method\": \"ltc\"");
+  if (query.table != nullptr && query.method != Method::ltc && query.method != Method::reference && query.method != Method::sampled)
+    problems.add(top.in("table"), "only the methods ltc, reference and sampled read one", "add \"method\": \"ltc\"");
   if (query.table != nullptr && query.derivatives) problems.add(top.in("table"), "has no derivatives", "leave one of the keys out");
+  for (Material& m : query.materials) {
+    if (query.table == nullptr || m.brdf != Brdf::ggx) continue;
+    if (m.alpha_x != m.alpha_y) problems.add(top.in("table"), "serves isotropic ggx", "give the material one width");
+    m.fitted = query.table.get();
+  }
   if (problems.any()) problems.raise();
   return query;
 }

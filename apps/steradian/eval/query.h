@@ -32,6 +32,8 @@ struct Query {
   int spp = 256;
   std::uint64_t seed = 1;
   std::shared_ptr<const ClassicTable> table;           // table for ltc, instead of GGX's
+  PeakForm peak_form = PeakForm::best;                 // for lorentzian, pearson and ellipsoid
+  double early_stop = 0;                               // for arvo
   bool derivatives = false;                            // radiance by the light's vertices, its radiance and the lobe's parameters
   std::shared_ptr<const shadow::Occluders> occluders;  // none: nothing is occluded
   bool occluders_are_listed = false;                   // listed by the query itself, not by the name of a scene

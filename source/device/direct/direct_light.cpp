@@ -147,8 +147,7 @@ DirectLight::Kept::Kept(const Device& d)
   radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
 }
 
-DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::string& table,
-                         const std::vector<PackLight>& lights)
+DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::vector<PackLight>& lights)
     : kept_(kept),
       method_(method),
       specular_(methods::procedure_of(method.ggx, Brdf::ggx)),
@@ -160,7 +159,7 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
   for (const LightRecord& light : records_.lights)
     if (light.edges <= kMostEdges) most_edges_ = std::max(most_edges_, light.edges);
 
-  const LtcPackTables tables = tables_of(method, table);
+  const LtcPackTables tables = tables_of(method);
   std::vector<float> nodes;
   for (const PackTable* t : {&tables.matrix, &tables.magnitude, &tables.fresnel_matrix, &tables.fresnel_magnitude})
     nodes.insert(nodes.end(), t->nodes.begin(), t->nodes.end());

@@ -30,8 +30,8 @@ class DirectLight {
     KeptBuffer surfaces, radiance, tables, details, lights, vertices, lists, means;
   };
 
-  // table: as RenderOptions::table. `kept`, the scene and the lights must outlive this object.
-  DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::string& table, const std::vector<PackLight>& lights);
+  // `kept`, the scene and the lights must outlive this object.
+  DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::vector<PackLight>& lights);
 
   // Returns true if the shaders have this light, without shadows.
   bool has(const PackLight& light) const;

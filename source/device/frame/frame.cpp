@@ -46,6 +46,7 @@ std::string first_lack(const Scene& scene, const RenderOptions& options, const D
     if (light.profiled != nullptr) return "it has no shader for the profiled light '" + light.area->name + "'";
     if (light.textured != nullptr && options.shadows != steradian::Shadows::off)
       return "it has no shadows under the textured light '" + light.area->name + "'";
+    if (light.textured != nullptr && !options.table.empty()) return "it has no --table under the textured light '" + light.area->name + "'";
     if (!direct.has(light))
       return (light.area == nullptr ? std::string("a profiled point light") : "the textured light '" + light.area->name + "'") +
              " exceeds its buffers";
@@ -110,10 +111,10 @@ struct Frame::Parts {
         kept(kept_of(std::move(d), o.device, cache)),
         device(kept->device),
         parts(parts_of(s, o, cache)),
-        surfaces(s, o, parts),
+        surfaces(s, o, parts, method.table.get()),
         lights(prepare_lights(s, surfaces.environment_spots())),
         host(s, o, method, lights, parts, nullptr),
-        direct(kept->direct, s, method, o.table, lights),
+        direct(kept->direct, s, method, lights),
         arena(threads) {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
     lacks = first_lack(s, o, device->info(), lights, direct);

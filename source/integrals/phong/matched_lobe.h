@@ -1,12 +1,15 @@
-// The product of two Phong lobes as one lobe of the product's place, height and curvature: an approximation.
+// The product of two and more Phong lobes as one lobe of the product's place, height and curvature: an approximation.
 //
 // The one lobe is not round. A linear map makes it round, and polygons stay polygons: the moment of the stretched outline, by the cosine
 // series, is the integral (kernels/lobe/lobe_product.glsl).
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "integrals/phong/phong.h"
+#include "lobes/lobe_product.h"
 
 STERADIAN_BEGIN_ISA
 namespace integrals {
@@ -20,22 +23,24 @@ class MatchedLobe {
   using K = Kernels<S>;
   using vec3 = typename K::vec3;
 
-  // axis: axis of the second lobe, unit, in the shading frame.
-  MatchedLobe(double exponent, double axis_exponent, const vec3& axis, Quality quality)
-      : n1_(exponent),
-        n2_(axis_exponent),
-        small_(small_light_of_power<S>(exponent + axis_exponent, Kernels<double>().light_elements_series_bias())),
-        bends_(exponent < 2 || axis_exponent < 2),
-        axis_(axis),
-        peaked_(exponent + axis_exponent > 0),
-        quality_(quality) {}
+  using Factor = lobes::ProductFactor<S>;
+
+  // axes: the lobes about axes of the surface, unit, in the shading frame.
+  MatchedLobe(double exponent, std::vector<Factor> axes, Quality quality) : factors_(std::move(axes)), quality_(quality) {
+    factors_.insert(factors_.begin(), Factor{{}, exponent});
+    double sum = 0;
+    for (const Factor& f : factors_) {
+      sum += static_cast<double>(f.exponent.v);
+      bends_ = bends_ || static_cast<double>(f.exponent.v) < 2;
+    }
+    sum_of_exponents_ = sum;
+    small_ = small_light_of_power<S>(sum, Kernels<double>().light_elements_series_bias());
+  }
 
   Mask<S> begin(const Shading<S>& shading) {
     K k;
-    mirror_ = k.phong_mirror(shading.view);
-    auto product = k.lobe_product_begin(peaked_ ? k.lobe_product_peak_of_two(mirror_, n1_, axis_, n2_) : mirror_);
-    product = k.lobe_product_add(k.lobe_product_add(product, mirror_, n1_), axis_, n2_);
-    lobe_ = k.lobe_product_anisotropic(product);
+    factors_.front().axis = k.phong_mirror(shading.view);
+    lobe_ = k.lobe_product_anisotropic(lobes::product_about<S>(lobes::product_peak<S>(factors_), factors_));
     round_.emplace(static_cast<double>(lobe_.exponent.v));
     sum_ = 0.0;
     return shading.lit && shading.view.z > Real<S>(0.0);
@@ -47,8 +52,8 @@ class MatchedLobe {
                                       : round_->template share<Method::series, Quality::normal>(p, q, z);
   }
   Part<S> finish(Mask<S> reversed) {
-    // The factor belongs to n1 + n2; the moment's factor belongs to the matched exponent.
-    const Real<S> scale = lobe_.scale * ((n1_ + n2_ + 1.0) / (lobe_.exponent + 1.0));
+    // The factor belongs to the sum of exponents; the moment's factor belongs to the matched exponent.
+    const Real<S> scale = lobe_.scale * ((sum_of_exponents_ + 1.0) / (lobe_.exponent + 1.0));
     return {scale * K().moment_phong_radiance(sum_, reversed), Real<S>(0.0)};
   }
 
@@ -61,9 +66,13 @@ class MatchedLobe {
   }
   Part<S> at(const vec3& u) const {
     K k;
-    const Real<S> zero(0.0), c1 = dot(u, mirror_), c2 = dot(u, axis_);
-    const Real<S> product = k.phong_power(max(c1, zero), n1_) * k.phong_power(max(c2, zero), n2_);
-    return {select(c1 > zero && c2 > zero, (n1_ + n2_ + 1.0) * k.inverse_two_pi() * product, zero), zero};
+    const Real<S> zero(0.0);
+    Real<S> product = (sum_of_exponents_ + 1.0) * k.inverse_two_pi();
+    for (const Factor& f : factors_) {
+      const Real<S> cosine = dot(u, f.axis);
+      product = select(cosine > zero, product * k.phong_power(max(cosine, zero), f.exponent), zero);
+    }
+    return {product, zero};
   }
 
  private:
@@ -72,11 +81,10 @@ class MatchedLobe {
     return k.polygon_direction(k.lobe_product_stretch(lobe_, u));
   }
 
-  Real<S> n1_, n2_;
-  SmallLight<S> small_;
-  bool bends_;  // where a factor ends
-  vec3 axis_, mirror_;
-  bool peaked_;
+  std::vector<Factor> factors_;  // the first about the mirrored view
+  Real<S> sum_of_exponents_{0.0};
+  SmallLight<S> small_{};
+  bool bends_ = false;  // where a factor ends
   Quality quality_;
   typename K::StretchedLobe lobe_;
   std::optional<PhongLobe<S>> round_;

@@ -1,9 +1,12 @@
 #include "integrals/tables/table.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include "integrals/tables/ggx_tables.h"
 #include "integrals/tables/table_lookup.h"
+#include "lobes/fitted.h"
 #include "steradian/material.h"  // alpha_from_roughness
 
 namespace steradian {
@@ -54,3 +57,12 @@ LtcValue CompactTable::look_up(double roughness, double cos_theta) const {
 }
 
 }  // namespace steradian
+
+namespace steradian::lobes {
+
+FittedEntry read_fitted(const ClassicTable& table, double alpha, double cosine) {
+  const auto lobe = classic_lobe<double>(table, std::max(alpha, kSmallestAlpha), cosine);
+  return {lobe.matrix, lobe.n_a.v, lobe.f_a.v};
+}
+
+}  // namespace steradian::lobes

@@ -195,9 +195,9 @@ Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, d
   const Grid cells = visible != nullptr ? Grid::along_axes : grid();
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
-  const lobes::LobeValue factors = lobe.largest_factors();
   const LobeAxis axis = lobe_axis(material, at);
-  double seen = 0, weight = 0, least = kInfinity, most = 0;
+  lobes::LobeValue seen, weight;
+  double least = kInfinity, most = 0;
   Cells(*this, cells, axis, at.position, visible).visit(static_cast<std::size_t>(most_cells), [&](const Cell& cell) {
     const double share = visible != nullptr ? visible_share(*visible, cell) : 1;
     if (share == 0) return;
@@ -206,19 +206,20 @@ Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, d
     for (const Node& nu : kGauss)
       for (const Node& nv : kGauss) {
         const Sent s = sent(cells, u + half_u * nu.x, v + half_v * nv.x, lobe, frame, at.position);
-        const double w =
-            share * (s.lobe.plain * factors.plain + s.lobe.fresnel * factors.fresnel) * nu.weight * nv.weight * half_u * half_v;
-        if (!(w > 0) || !(s.even > 0)) continue;
+        const lobes::LobeValue w = s.lobe * (share * nu.weight * nv.weight * half_u * half_v);
+        if (!(w.plain > 0) || !(s.even > 0)) continue;
         seen += w * s.intensity;
         weight += w * s.even;
         least = std::min(least, s.intensity / s.even);
         most = std::max(most, s.intensity / s.even);
       }
   });
-  if (!(weight > 0)) return mean_;
-  double mean = seen / weight;
+  const InBrightestChannel sums(lobe, seen, weight);
+  if (!(sums.weight > 0)) return mean_;
+  double mean = sums.seen / sums.weight;
   const double peak = visible == nullptr || sees_peak(axis, at.position, *visible) ? radiance_of_peak(axis, at.position) : 0;
-  if (peak > 0 && integral > 0) mean = std::clamp(peak + (seen - peak * weight) / integral, std::min(least, peak), std::max(most, peak));
+  if (peak > 0 && integral > 0)
+    mean = std::clamp(peak + (sums.seen - peak * sums.weight) / integral, std::min(least, peak), std::max(most, peak));
   return radiance_of(mean);
 }
 

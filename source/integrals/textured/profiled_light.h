@@ -75,6 +75,16 @@ class ProfiledLight {
     lobes::LobeValue lobe;   // over distance squared, times the area
   };
   class Cells;
+  // Sums of the lobe in the channel where it sends the most light, which is that of `integral`.
+  struct InBrightestChannel {
+    double seen, weight;
+    InBrightestChannel(const lobes::Lobe& lobe, lobes::LobeValue s, lobes::LobeValue w) {
+      const Vec3d light = lobe.radiance(s), all = lobe.radiance(w);
+      const bool x = all.x >= all.y && all.x >= all.z, y = !x && all.y >= all.z;
+      seen = x ? light.x : y ? light.y : light.z;
+      weight = x ? all.x : y ? all.y : all.z;
+    }
+  };
 
   // Polar coordinates of a disk, else coordinates along x and y.
   enum class Grid { polar, along_axes };

@@ -67,9 +67,8 @@ Vec3d ProfiledLight::seen_in_part(const Material& material, const ShadingPoint& 
 
   const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
   const lobes::Lobe lobe(lobes::in_frame(material, frame), frame.to_local(at.view));
-  const lobes::LobeValue factors = lobe.largest_factors();
   const double step_u = (box.high.x - box.low.x) / strips, step_v = (box.high.y - box.low.y) / across;
-  double seen = 0, weight = 0;
+  lobes::LobeValue seen, weight;
   thread_local PlaneRegion row;
   for (int k = 0; k < across; ++k) {
     const double low_v = box.low.y + k * step_v;
@@ -83,9 +82,8 @@ Vec3d ProfiledLight::seen_in_part(const Material& material, const ShadingPoint& 
       const double distance2 = dot(to, to), distance = std::sqrt(distance2);
       const Vec3d l = to / distance;
       const lobes::LobeValue value = lobe.evaluate(frame.to_local(l));
-      const double w =
-          std::fabs(area) * length(cross(x_, y_)) / distance2 * (value.plain * factors.plain + value.fresnel * factors.fresnel);
-      if (!(w > 0)) continue;
+      const lobes::LobeValue w = value * (std::fabs(area) * length(cross(x_, y_)) / distance2);
+      if (!(w.plain > 0)) continue;
       // d t = height rho d rho / (4 t r^3), with rho the distance from the normal; the two sides of a cell add as deviations do.
       const double x = -dot(to, emission_.axes.x), y = -dot(to, emission_.axes.y), beside_here = std::sqrt(x * x + y * y);
       const double t = half_sine(height, beside_here), rate = height / (4 * std::max(t, 1e-6) * distance2 * distance);
@@ -99,13 +97,14 @@ Vec3d ProfiledLight::seen_in_part(const Material& material, const ShadingPoint& 
       weight += w * cosine;
     }
   }
-  if (!(weight > 0)) return mean_;
+  const InBrightestChannel sums(lobe, seen, weight);
+  if (!(sums.weight > 0)) return mean_;
   const auto [t0, t1] = extent(at.position);
   const auto [least, most] = table_->range(t0, t1);
-  double mean = seen / weight;
+  double mean = sums.seen / sums.weight;
   const double peak = sees_peak(axis, at.position, visible) ? radiance_of_peak(axis, at.position) : 0;
   if (peak > 0 && integral > 0)
-    mean = std::clamp(peak + (seen - peak * weight) / integral, static_cast<double>(least), static_cast<double>(most));
+    mean = std::clamp(peak + (sums.seen - peak * sums.weight) / integral, static_cast<double>(least), static_cast<double>(most));
   return radiance_of(mean);
 }
 

@@ -155,7 +155,8 @@ Vec3f TexturedLight::diffuse(const ShadingPoint& at, TextureWay way, const Plane
               visible);
 }
 
-Vec3f TexturedLight::ggx(const ShadingPoint& at, double alpha, TextureWay way, const PlaneRegion* visible) const {
+Vec3f TexturedLight::ggx(const ShadingPoint& at, double alpha, TextureWay way, const PlaneRegion* visible,
+                         const ClassicTable* fitted) const {
   K k;
   const double cosine = dot(at.normal, at.view);
   if (!(cosine > 0)) return texture_.mean();
@@ -163,6 +164,8 @@ Vec3f TexturedLight::ggx(const ShadingPoint& at, double alpha, TextureWay way, c
   auto view = transform_transposed(frame, integrals::to_kernel<double>(at.view));
   view.y = 0.0;
   const double width = std::max(alpha, kSmallestAlpha);
+  if (fitted != nullptr)
+    return seen(polygon_, texture_, tree_, at, {frame, classic_lobe<double>(*fitted, width, cosine).matrix}, way, visible);
   const auto lobe = compact_lobe<double>(ggx_compact_table(), width, cosine, view);
   const auto ggx = K().ggx_view(view, width, width);
   return seen(polygon_, texture_, tree_, at, {frame, lobe.matrix, &ggx}, way, visible);
@@ -172,9 +175,11 @@ Vec3f TexturedLight::seen_by_diffuse(const ShadingPoint& at, TextureWay way) con
 Vec3f TexturedLight::seen_by_diffuse(const ShadingPoint& at, const PlaneRegion& visible) const {
   return diffuse(at, TextureWay::either, &visible);
 }
-Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way) const { return ggx(at, alpha, way, nullptr); }
-Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha, const PlaneRegion& visible) const {
-  return ggx(at, alpha, TextureWay::either, &visible);
+Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way, const ClassicTable* fitted) const {
+  return ggx(at, alpha, way, nullptr, fitted);
+}
+Vec3f TexturedLight::seen_by_ggx(const ShadingPoint& at, double alpha, const PlaneRegion& visible, const ClassicTable* fitted) const {
+  return ggx(at, alpha, TextureWay::either, &visible, fitted);
 }
 
 }  // namespace steradian

@@ -27,21 +27,21 @@ class TexturedLight {
       : polygon_(polygon), texture_(light, polygon, images), tree_(texture_.finest()) {}
 
   // The mean over the light's visible part, weighted with the lobe. Times the lobe's integral over a light of radiance 1, it is the
-  // radiance. If the light sends nothing, it is the light's plain mean.
+  // radiance. If the light sends nothing, it is the light's plain mean. fitted: a table in the place of GGX; null: GGX.
   Vec3f seen_by_diffuse(const ShadingPoint& at, TextureWay way = TextureWay::either) const;
-  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way = TextureWay::either) const;
+  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, TextureWay way = TextureWay::either, const ClassicTable* fitted = nullptr) const;
 
   // The same past occluders: the mean over the visible part of the light, in coordinates of the texture's axes, exact up to the smallest
   // cells. Where the lobe sees less than those, the mean over the whole light.
   Vec3f seen_by_diffuse(const ShadingPoint& at, const PlaneRegion& visible) const;
-  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, const PlaneRegion& visible) const;
+  Vec3f seen_by_ggx(const ShadingPoint& at, double alpha, const PlaneRegion& visible, const ClassicTable* fitted = nullptr) const;
 
   const FilteredTexture& texture() const { return texture_; }
   const TextureTree& tree() const { return tree_; }
 
  private:
   Vec3f diffuse(const ShadingPoint& at, TextureWay way, const PlaneRegion* visible) const;
-  Vec3f ggx(const ShadingPoint& at, double alpha, TextureWay way, const PlaneRegion* visible) const;
+  Vec3f ggx(const ShadingPoint& at, double alpha, TextureWay way, const PlaneRegion* visible, const ClassicTable* fitted) const;
 
   PreparedPolygon polygon_;
   FilteredTexture texture_;

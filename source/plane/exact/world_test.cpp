@@ -274,6 +274,38 @@ TEST(PlanePar, IsExactForDisjointConvexBodies) {
   }
 }
 
+namespace {
+
+// The fraction of the turn that `par` finds for a lamp seen from above, past one box. The lamp's near face is from (40, 22) to (60, 22).
+double par_past(const PlaneBody& occluder) {
+  return world_of({lit(box(40, 20, 20, 2)), occluder}).query({50, 90}, PlaneMethod::par).radiance.x;
+}
+double turns(double from, double to, double distance) {
+  return (std::atan2(to - 50, distance) - std::atan2(from - 50, distance)) / (2 * pi);
+}
+
+}  // namespace
+
+// The three cases of the published depth test, each with a box that occludes and one that does not. The angles are those of the tangent
+// vertices.
+TEST(PlanePar, IntervalsThatDoNotMeetLeaveTheLight) {
+  EXPECT_NEAR(par_past(box(75, 50, 10, 5)), turns(40, 60, 68), 1e-14) << "nearer than the lamp";
+  EXPECT_NEAR(par_past(box(90, 5, 5, 5)), turns(40, 60, 68), 1e-14) << "farther";
+}
+
+TEST(PlanePar, AKeyRayThatCrossesTheChordIsOccluded) {
+  EXPECT_NEAR(par_past(box(20, 48, 30, 2)), turns(50, 60, 68), 1e-14) << "the intervals overlap in part";
+  EXPECT_NEAR(par_past(box(20, 48, 60, 2)), 0, 1e-14) << "the lamp's interval is within the box's";
+  // The key rays end at the lamp: behind it they cross nothing.
+  EXPECT_NEAR(par_past(box(20, 5, 30, 2)), turns(40, 60, 68), 1e-14);
+  EXPECT_NEAR(par_past(box(0, 5, 100, 2)), turns(40, 60, 68), 1e-14);
+}
+
+TEST(PlanePar, ABoxWithinTheLightsIntervalIsJudgedByItsOwnKeyRays) {
+  EXPECT_NEAR(par_past(box(48, 48, 4, 2)), turns(40, 60, 68) - turns(48, 52, 40), 1e-14);
+  EXPECT_NEAR(par_past(box(48, 5, 4, 2)), turns(40, 60, 68), 1e-14) << "its key rays cross the lamp's chord: it is behind";
+}
+
 // The error of the published heuristic. It was measured on other random scenes of the same kind: the size is the same, not the digits.
 TEST(PlanePar, ErrsWhereItsAssumptionsFail) {
   std::printf("%s", plane_error_table(12, 120).c_str());

@@ -94,7 +94,7 @@ std::optional<PackMethod> pack_method(const Question& q) {
     return {};
   const auto shines = [&](Vec3d factor) { return static_cast<Vec3f>(q.light.radiance * factor); };
   PackMethod method = {lobe_packs_for(active_simd())[procedure],
-                       {m, {by, q.options.quality}},
+                       {m, {by, q.options.quality, q.options.early_stop, q.options.peak_form}},
                        ltc_pack_tables(by, q.options.quality, q.options.table.get()),
                        shines(m.albedo)};
   if (m.brdf == Brdf::lambert) method.of_plain = shines(m.albedo * std::numbers::inv_pi);

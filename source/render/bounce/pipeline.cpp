@@ -158,6 +158,7 @@ void Pipeline::add_sum(Picture& picture) {
     return make_sets(map, lobes, set);
   });
   const Layout layout(options_.width, options_.height, side);
+  if (o.filter && side > 1) widen_over_pattern(surfaces_, side);
   if (device_ != nullptr) {
     const VectorArray radiance = timed("device", [&] {
       return device_->radiance(surfaces_, sets, layout, {o.mode, o.quads, o.filter && side > 1});

@@ -68,6 +68,14 @@ struct LobesHere {
   STERADIAN_INLINE Lobe fresnel() const { return look(tables.fresnel_matrix, tables.fresnel_magnitude); }
 };
 
+// About where a round light's corners gather: the mirrored view and GGX's width, or peak and width of a table's own lobe (lobes/fitted.h).
+STERADIAN_INLINE AboutLobe about(const Lobe& lobe, const PackVec3& view, const PackReal& roughness, bool fitted) {
+  if (!fitted) return {PackVec3(-view.x, PackReal(0.0), view.z), PackReal(2.0) * roughness * roughness, 12};
+  const auto& m = lobe.matrix;
+  const PackReal minor = m.xx * m.zz - m.xz * m.zx, over = inversesqrt(max(m.xz * m.xz + m.xx * m.xx, PackReal(1e-30)));
+  return {PackVec3(-m.xz * over, PackReal(0.0), m.xx * over), min(minor * over * min(over, PackReal(1.0) / m.yy), PackReal(1.0)), 12};
+}
+
 template <bool with_diffuse, class Decode>
 __attribute__((flatten, noinline)) void run(const PackLight& light, const Points& points, const LtcPackTables& tables,
                                             const LobeRadiance& result, const Decode& decode) {
@@ -79,16 +87,16 @@ __attribute__((flatten, noinline)) void run(const PackLight& light, const Points
 
     Both both = {PackVec3(0.0, 0.0, 0.0), {PackReal(0.0), PackReal(0.0)}};
     if (any_lane(seen.lit)) {
-      const AboutLobe about = {PackVec3(-view.x, PackReal(0.0), view.z), PackReal(2.0) * here.roughness * here.roughness, 12};
+      const AboutLobe about_lobe = about(lobe, view, here.roughness, tables.fitted);
       const PolygonOutline polygon = {{seen, frame, p}};
-      both = light.is_round()    ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about)
+      both = light.is_round()    ? integrate_round<with_diffuse>(seen, frame, p, view, lobe, about_lobe)
              : light.is_pieces() ? integrate_pieces<with_diffuse>(seen, frame, view, lobe)
              : polygon.may_be_small(PackKernels().light_elements_transformed().least_distance2)
                  ? integrate_polygon<with_diffuse>(polygon, view, lobe)
                  : integrate_polygon<with_diffuse>(PolygonEdges{seen, frame, p}, view, lobe);
       if (here.any_fresnel()) {
         const Lobe fresnel = here.fresnel();
-        both.specular.y = (light.is_round()    ? integrate_round<false>(seen, frame, p, view, fresnel, about)
+        both.specular.y = (light.is_round()    ? integrate_round<false>(seen, frame, p, view, fresnel, about_lobe)
                            : light.is_pieces() ? integrate_pieces<false>(seen, frame, view, fresnel)
                                                : integrate_polygon<false>(polygon, view, fresnel))
                               .specular.x;

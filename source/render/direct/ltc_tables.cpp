@@ -21,7 +21,12 @@ PackTable padded(const float* values, int size, int components) {
 LtcPackTables ltc_pack_tables(Method method, Quality quality, const ClassicTable* fitted) {
   const LtcTableView t = ltc_ggx_tables();
   if (method == Method::ltc && fitted != nullptr)
-    return {padded(fitted->matrix.front().data(), fitted->size, 4), padded(fitted->magnitude.front().data(), fitted->size, 4)};
+    return {padded(fitted->matrix.front().data(), fitted->size, 4),
+            padded(fitted->magnitude.front().data(), fitted->size, 4),
+            {},
+            {},
+            false,
+            true};
   const std::optional<LtcMethod> form = methods::ltc_method(method, quality);
   if (!form) return {};
   switch (*form) {

@@ -20,6 +20,7 @@ struct LtcPackTables {
   PackTable matrix, magnitude;
   PackTable fresnel_matrix = {}, fresnel_magnitude = {};
   bool compact = false;
+  bool fitted = false;  // the lobe's place and width are the table's own
 };
 
 // The table by which a method integrates GGX: the shipped one, or for `ltc` the fitted one if it is not null. Empty if the method has none.

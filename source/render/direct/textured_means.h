@@ -21,7 +21,7 @@ struct TexturedMeansTable {
   // Mean radiance of the light as each point's lobe sees it (TexturedLight::seen_by_diffuse, seen_by_ggx), where wanted > 0. A pack of
   // points splits the same cells, until its last point has its mean.
   void (*diffuse)(const TexturedLight& light, const Points& points, const float* wanted, const TexturedMeans& means);
-  // tables: ltc_pack_tables(Method::ltc_compact); any widths.
+  // tables: ltc_pack_tables(Method::ltc_compact), for GGX itself of any widths; or a fitted table, for its lobe.
   void (*ggx)(const TexturedLight& light, const Points& points, const LtcPackTables& tables, const float* wanted,
               const TexturedMeans& means);
 };

@@ -53,8 +53,9 @@ void ggx(const TexturedLight& light, const Points& points, const LtcPackTables& 
     const PackReal cosine = dot(n, v);
     const PackVec3 to_eye(dot(frame.c0, v), PackReal(0.0), cosine);
     const auto at = k.ltc_coordinates(sqrt(width), cosine);
-    return Lobe{frame, k.ltc_from_compact(look_up(tables.matrix.nodes.data(), tables.matrix.size, at.x, at.y), width, to_eye), 1,
-                k.ggx_view(to_eye, width, width)};
+    const auto entry = look_up(tables.matrix.nodes.data(), tables.matrix.size, at.x, at.y);
+    if (!tables.compact) return Lobe{frame, k.ltc_from_classic(entry), 0, {}};
+    return Lobe{frame, k.ltc_from_compact(entry, width, to_eye), 1, k.ggx_view(to_eye, width, width)};
   });
 }
 

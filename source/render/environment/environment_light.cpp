@@ -75,14 +75,15 @@ Vec3f LobeCones::sum() const {
   return all;
 }
 
-EnvironmentLight::EnvironmentLight(const Scene& scene)
-    : EnvironmentLight(scene, DirectionGrid::averaged(scene.environment->map, kMostColumns)) {}
+EnvironmentLight::EnvironmentLight(const Scene& scene, const ClassicTable* fitted)
+    : EnvironmentLight(scene, fitted, DirectionGrid::averaged(scene.environment->map, kMostColumns)) {}
 
-EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid)
-    : EnvironmentLight(scene, grid, scene.environment->irradiance ? SplitMap{grid, {}, 0} : split_bright_spots(grid)) {}
+EnvironmentLight::EnvironmentLight(const Scene& scene, const ClassicTable* fitted, const DirectionGrid& grid)
+    : EnvironmentLight(scene, fitted, grid, scene.environment->irradiance ? SplitMap{grid, {}, 0} : split_bright_spots(grid)) {}
 
-EnvironmentLight::EnvironmentLight(const Scene& scene, const DirectionGrid& grid, const SplitMap& split)
+EnvironmentLight::EnvironmentLight(const Scene& scene, const ClassicTable* fitted, const DirectionGrid& grid, const SplitMap& split)
     : environment_(*scene.environment),
+      fitted_(fitted),
       spots_(lights_of(scene, split.spots)),
       share_(split.share),
       harmonics_(split.rest),
@@ -193,7 +194,7 @@ LobeCones EnvironmentLight::cones_of(const SurfaceLobe& of, const Surface& surfa
   const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(of.normal)), tangent);
   const Vec3d local_view = normalized(frame.to_local(normalized(static_cast<Vec3d>(to_view))));
   if (!(local_view.z > 0)) return result;
-  if (material.brdf == Brdf::ggx && material.shadowing && !material.multiple_scattering) {
+  if (material.brdf == Brdf::ggx && material.shadowing && !material.multiple_scattering && material.fitted == nullptr) {
     const Vec3f f0 = static_cast<Vec3f>(material.f0), f90 = static_cast<Vec3f>(material.f90);
     each_ggx_cone(frame, static_cast<Vec3f>(local_view), static_cast<float>(material.alpha_x), static_cast<float>(material.alpha_y), count,
                   turn,
@@ -219,7 +220,7 @@ LobeCones EnvironmentLight::cones_of(const SurfaceLobe& of, const Surface& surfa
 
 Vec3f EnvironmentLight::reflected(const Surface& surface, Vec3f view) const {
   Vec3f sum{};
-  for (const SurfaceLobe& lobe : lobes_of(surface))
+  for (const SurfaceLobe& lobe : lobes_of(surface, fitted_))
     sum += lobe.material.brdf == Brdf::lambert ? diffuse(lobe, view) : cones_of(lobe, surface, view, LobeCones::kFew, 0).sum();
   return sum;
 }

@@ -30,7 +30,9 @@ struct LobeCones {
 
 class EnvironmentLight {
  public:
-  explicit EnvironmentLight(const Scene& scene);  // scene.environment must exist and outlive this object
+  // scene.environment must exist, and outlive this object as the table must. fitted: as lobes_of.
+  explicit EnvironmentLight(const Scene& scene, const ClassicTable* fitted = nullptr);
+  const ClassicTable* fitted() const { return fitted_; }
 
   const std::vector<AreaLight>& spots() const { return spots_; }
   double share_of_spots() const { return share_; }
@@ -54,13 +56,14 @@ class EnvironmentLight {
   LobeCones cones_of(const SurfaceLobe& lobe, const Surface& surface, Vec3f view, int count, double turn) const;
 
  private:
-  EnvironmentLight(const Scene& scene, const DirectionGrid& grid);
-  EnvironmentLight(const Scene& scene, const DirectionGrid& grid, const SplitMap& split);
+  EnvironmentLight(const Scene& scene, const ClassicTable* fitted, const DirectionGrid& grid);
+  EnvironmentLight(const Scene& scene, const ClassicTable* fitted, const DirectionGrid& grid, const SplitMap& split);
   template <class Use>
   void each_ggx_cone(const Frame& frame, Vec3f view, float ax, float ay, int count, double turn, Use use) const;
   double measured_residual(const DirectionGrid& whole, const DirectionGrid& rest) const;
 
   const Environment& environment_;
+  const ClassicTable* fitted_;
   std::vector<AreaLight> spots_;
   double share_ = 0, specular_residual_ = 0;
   HarmonicIrradiance harmonics_;

@@ -153,7 +153,7 @@ std::array<Vec3f, EnvironmentShadows::kLanes> EnvironmentShadows::reflected(cons
     const Surface& surface = surfaces.surface[i];
     origins.position[i] = rays_.off_surface(static_cast<Vec3d>(surface.position), static_cast<Vec3d>(surface.geometric_normal));
     if (terminator_ == Terminator::strict) origins.horizon[i] = surface.geometric_normal;
-    lobes[i] = lobes_of(surface);
+    lobes[i] = lobes_of(surface, light_.fitted());
     most_lobes = std::max(most_lobes, lobes[i].size());
     for (const SurfaceLobe& lobe : lobes[i]) diffuse |= static_cast<std::uint32_t>(lobe.material.brdf == Brdf::lambert) << i;
   });

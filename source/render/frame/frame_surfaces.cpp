@@ -4,12 +4,13 @@
 #include <utility>
 
 namespace steradian {
-FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts)
+
+FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts, const ClassicTable* fitted)
     : scene_(scene),
       options_(options),
       camera_(find_camera(scene, options.camera), options.width, options.height),
       rays_(parts.rays),
-      environment_(prepare_environment()),
+      environment_(prepare_environment(fitted)),
       environment_shadows_(environment_ != nullptr && options.shadows != Shadows::off
                                ? std::make_unique<const environment::EnvironmentShadows>(*environment_, *rays_, options)
                                : nullptr),
@@ -22,10 +23,10 @@ FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, c
   halves_of_rays_.resize(static_cast<std::size_t>(tile_count()));
 }
 
-std::unique_ptr<const environment::EnvironmentLight> FrameSurfaces::prepare_environment() {
+std::unique_ptr<const environment::EnvironmentLight> FrameSurfaces::prepare_environment(const ClassicTable* fitted) {
   if (!scene_.environment) return nullptr;
   const auto start = Clock::now();
-  auto light = std::make_unique<const environment::EnvironmentLight>(scene_);
+  auto light = std::make_unique<const environment::EnvironmentLight>(scene_, fitted);
   environment_build_ms_ = ms_since(start);
   return light;
 }

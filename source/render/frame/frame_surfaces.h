@@ -21,8 +21,8 @@ inline constexpr int kMostLayers = 8;  // layers of surfaces that let light pass
 
 class FrameSurfaces {
  public:
-  // Scene and options must outlive this object.
-  FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts);
+  // Scene, options and table must outlive this object. fitted: as lobes_of.
+  FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts, const ClassicTable* fitted = nullptr);
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
   int tiles_across() const { return tiles_x_; }
@@ -61,7 +61,7 @@ class FrameSurfaces {
   PassTime environment_time(int threads) const { return environment_clock_.time(threads); }
 
  private:
-  std::unique_ptr<const environment::EnvironmentLight> prepare_environment();
+  std::unique_ptr<const environment::EnvironmentLight> prepare_environment(const ClassicTable* fitted);
   void show_background(const TileVector& directions, SurfaceTile& tile, const TilePlane* behind) const;
 
   const Scene& scene_;

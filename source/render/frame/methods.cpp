@@ -87,17 +87,28 @@ DirectMethod chosen(const std::vector<SpecularLobe>& lobes, const std::string& n
   return method;
 }
 
+// A table has one width. The method ltc refuses other lobes by itself.
+void refuse_anisotropic(const std::vector<SpecularLobe>& lobes) {
+  for (const SpecularLobe& l : lobes)
+    if (l.lobe.brdf == Brdf::ggx && l.lobe.alpha_x != l.lobe.alpha_y)
+      throw UsageError("--table", "does not serve the " + describe(l), "use another material, or leave --table out");
+}
+
 }  // namespace
 
 const methods::Row& DirectMethod::row_for(const Material& lobe) const {
   return methods::resolve(method_for(asked_for, lobe), lobe, Precision::float_, quality);
 }
 
-LtcPackTables tables_of(const DirectMethod& method, const std::string& table) {
-  if (table.empty()) return ltc_pack_tables(method.ggx, method.quality);
-  const ClassicTable fitted = scene::read_classic_table(table);
-  return ltc_pack_tables(method.ggx, method.quality, &fitted);
+RadianceOptions DirectMethod::options_for(Method by, Precision precision) const {
+  RadianceOptions options = {by, quality, precision};
+  options.table = table;
+  options.peak_form = peak_form;
+  options.early_stop = early_stop;
+  return options;
 }
+
+LtcPackTables tables_of(const DirectMethod& method) { return ltc_pack_tables(method.ggx, method.quality, method.table.get()); }
 
 std::vector<std::string> lobes_under_means(const Scene& scene, const DirectMethod& method) {
   std::vector<std::string> sentences;
@@ -127,8 +138,16 @@ DirectMethod choose_method(const Scene& scene, const RenderOptions& options) {
     method = chosen(lobes, options.method, options.quality);
   }
   method.quality = options.quality;
-  if (!options.table.empty() && (options.method != "ltc" || options.shadows != Shadows::off))
-    throw UsageError("--table", "only --method ltc without shadows reads a table", "add --method ltc --shadows off");
+  method.peak_form = options.peak_form;
+  method.early_stop = options.early_stop;
+  if (options.table.empty()) return method;
+  if (!method.estimates() && options.method != "ltc")
+    throw UsageError("--table", "only the methods ltc, sampled and reference read a table", "add --method ltc");
+  if (options.indirect.mode != IndirectMode::off) throw UsageError("--table", "--indirect has GGX's lobe alone", "leave one of them out");
+  if (options.bounces != 0 && !method.estimates())
+    throw UsageError("--table", "--bounces has GGX's albedo alone", "add --method reference, or leave one of them out");
+  refuse_anisotropic(lobes);
+  method.table = std::make_shared<const ClassicTable>(scene::read_classic_table(options.table));
   return method;
 }
 

@@ -48,13 +48,14 @@ class Renderer {
         threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
         method_(choose_method(scene, options)),
         parts_(cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted())),
-        surfaces_(scene, options, parts_),
+        surfaces_(scene, options, parts_, method_.table.get()),
         lights_(prepare_lights(scene, surfaces_.environment_spots())),
         many_lights_(prepare_many_lights()),
         lighting_(scene, options, method_, lights_, parts_, many_lights_.get()),
         samplers_([this] {
           return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &surfaces_.rays() : nullptr,
-                                                 environment() != nullptr ? &environment()->sampler() : nullptr, options_.terminator);
+                                                 environment() != nullptr ? &environment()->sampler() : nullptr, options_.terminator,
+                                                 method_.table.get());
         }),
         arena_(threads_) {
     if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, surfaces_.rays(), options_, threads_);

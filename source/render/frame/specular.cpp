@@ -89,11 +89,11 @@ PreparedPolygon polygon_at(const PackLight& light, std::size_t slot, const Shadi
 double width(double alpha_x, double alpha_y) { return std::sqrt(alpha_x * alpha_y); }
 
 // Radiance of one lobe at one point under an area light of its mean radiance, by the library's float functions.
-Vec3d point_radiance_of_mean(const methods::Row& row, Quality quality, const PackLight& light, std::size_t slot, const ShadingPoint& at,
-                             const Material& material) {
-  const PreparedPolygon polygon = polygon_at(light, slot, at, material, quality);
+Vec3d point_radiance_of_mean(const methods::Row& row, const DirectMethod& method, const PackLight& light, std::size_t slot,
+                             const ShadingPoint& at, const Material& material) {
+  const PreparedPolygon polygon = polygon_at(light, slot, at, material, method.quality);
   if (polygon.vertices.empty()) return {};
-  return row.polygon(polygon, at, material, {row.method, quality, Precision::float_}).radiance;
+  return row.polygon(polygon, at, material, method.options_for(row.method, Precision::float_)).radiance;
 }
 
 double largest_of(Vec3d v) { return std::max({v.x, v.y, v.z}); }
@@ -106,22 +106,23 @@ Vec3d seen_by(const PackLight& light, std::size_t slot, const Material& material
               TextureWay way = TextureWay::either) {
   const double alpha = width(material.alpha_x, material.alpha_y);
   const bool textured = light.textured != nullptr && material.brdf == Brdf::ggx;
+  const auto by_texture = [&](auto... how) { return static_cast<Vec3d>(light.textured->seen_by_ggx(at, alpha, how..., material.fitted)); };
   if (light.profiled != nullptr)
     if (const std::optional<Vec3d> even_light = light.profiled->even_radiance(at.position)) return *even_light;
   if (light.is_pieces() && (light.profiled != nullptr || textured)) {
     const PlaneRegion visible = visible_region(light, slot, at.position);
-    if (textured) return static_cast<Vec3d>(light.textured->seen_by_ggx(at, alpha, visible));
+    if (textured) return by_texture(visible);
     return light.profiled->seen_in_part(material, at, largest_of(even), visible);
   }
   if (light.profiled != nullptr) return light.profiled->seen_by(material, at, largest_of(even));
-  if (textured) return static_cast<Vec3d>(light.textured->seen_by_ggx(at, alpha, way));
+  if (textured) return by_texture(way);
   return static_cast<Vec3d>(light.radiance);
 }
 
 // The same, with the textured or profiled light as the lobe sees it.
-Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& light, std::size_t slot, const ShadingPoint& at,
+Vec3d point_radiance(const methods::Row& row, const DirectMethod& method, const PackLight& light, std::size_t slot, const ShadingPoint& at,
                      const Material& material) {
-  const Vec3d r = point_radiance_of_mean(row, quality, light, slot, at, material);
+  const Vec3d r = point_radiance_of_mean(row, method, light, slot, at, material);
   if (light.is_even() || r == Vec3d{}) return r;
   const Vec3d mean = static_cast<Vec3d>(light.radiance);
   const auto shares = [](Vec3d a, Vec3d b) { return Vec3d{b.x > 0 ? a.x / b.x : 0, b.y > 0 ? a.y / b.y : 0, b.z > 0 ? a.z / b.z : 0}; };
@@ -130,21 +131,22 @@ Vec3d point_radiance(const methods::Row& row, Quality quality, const PackLight& 
 }
 
 // The same under a punctual light: the lobe is evaluated in one direction.
-Vec3d point_radiance_punctual(const methods::Row& row, Quality quality, const PackLight& light, const ShadingPoint& at,
+Vec3d point_radiance_punctual(const methods::Row& row, const DirectMethod& method, const PackLight& light, const ShadingPoint& at,
                               const Material& material) {
   const auto incident = shapes::incident<double>(*std::get_if<packed::Punctual>(&light.shape), shapes::to_kernel<double>(at.position));
   const Vec3d to = {incident.direction.x.v, incident.direction.y.v, incident.direction.z.v};
-  return methods::lobe_towards(to, at, material, row, {row.method, quality}) * static_cast<Vec3d>(light.radiance) * incident.irradiance.v;
+  return methods::lobe_towards(to, at, material, row, method.options_for(row.method, Precision::double_)) *
+         static_cast<Vec3d>(light.radiance) * incident.irradiance.v;
 }
 
 }  // namespace
 
-SpecularPass::SpecularPass(const DirectMethod& method, const std::string& table)
+SpecularPass::SpecularPass(const DirectMethod& method)
     : method_(method),
       procedure_(methods::procedure_of(method.ggx, Brdf::ggx)),
       packs_(lobe_packs_for(active_simd())),
       elements_(elements_of(procedure_, active_simd())),
-      tables_(tables_of(method, table)),
+      tables_(tables_of(method)),
       compact_tables_(ltc_pack_tables(Method::ltc_compact)) {}
 
 bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& light) const {
@@ -152,7 +154,7 @@ bool SpecularPass::brings_diffuse(const SurfaceTile& tile, const PackLight& ligh
          light.is_even();
 }
 
-Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i) {
+Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i) const {
   Material m;
   m.brdf = Brdf::ggx;
   m.alpha_x = static_cast<double>(lobe.alpha_x[i]);
@@ -160,6 +162,7 @@ Material SpecularPass::ggx_material(const Lobe& lobe, const SurfaceTile& tile, s
   m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
   m.f0 = static_cast<Vec3d>(get(lobe.f0, i));
   m.f90 = static_cast<Vec3d>(get(lobe.f90, i));
+  m.fitted = method_.table.get();
   return m;
 }
 
@@ -201,11 +204,14 @@ void SpecularPass::add_ggx(SurfaceTile& tile, const Lobe& lobe, const std::vecto
     alignas(64) TilePlane found, wanted, candela;
     for (std::size_t i = 0; i < kTilePixels; ++i) wanted[i] = std::max(plain[i], fresnel[i]);
     found.fill(0);
-    const bool on_packs = light->profiled != nullptr && light->profiled->table() != nullptr && !light->is_pieces();
+    // The packs of profiles have GGX alone.
+    const bool on_packs =
+        light->profiled != nullptr && light->profiled->table() != nullptr && !light->is_pieces() && method_.table == nullptr;
     if (on_packs) find_profiled_means(*light->profiled, points, lobe, {plain.data(), fresnel.data()}, {candela.data(), found.data()});
     if (light->textured != nullptr && !light->is_pieces())
       textured_means_table_for(active_simd())
-          .ggx(*light->textured, points, compact_tables_, wanted.data(), {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
+          .ggx(*light->textured, points, method_.table != nullptr ? tables_ : compact_tables_, wanted.data(),
+               {seen.x.data(), seen.y.data(), seen.z.data(), found.data()});
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       if (!(wanted[i] > 0)) continue;
       const Vec3f f0 = get(lobe.f0, i), f90 = get(lobe.f90, i);
@@ -300,7 +306,7 @@ void SpecularPass::add_sheen(SurfaceTile& tile, const std::vector<const PackLigh
       const Vec3f color = get(tile.sheen, i);
       if (!(color.x + color.y + color.z > 0)) continue;
       const Material m = sheen_of(surface_in(tile, i));
-      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance_punctual(row, method_.quality, *light, shading_point(tile, i), m)));
+      add_to(tile.radiance, i, static_cast<Vec3f>(point_radiance_punctual(row, method_, *light, shading_point(tile, i), m)));
     }
   }
 }
@@ -342,7 +348,8 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
       for (const PackLight* light : lights) {
         if (light->is_area() && on_packs) {
           alignas(64) TilePlane result;
-          packs_[procedure](*light, points_of(tile), {material, {row.method, method_.quality}}, {result.data()});
+          packs_[procedure](*light, points_of(tile), {material, {row.method, method_.quality, method_.early_stop, method_.peak_form}},
+                            {result.data()});
           const auto factor = material.brdf == Brdf::phong ? static_cast<Vec3f>(material.albedo) : Vec3f{1, 1, 1};
           for (std::size_t i = 0; i < kTilePixels; ++i) {
             if (tile.material[i] != surface || !(result[i] > 0)) continue;
@@ -359,8 +366,9 @@ void SpecularPass::add_overrides(SurfaceTile& tile, const std::vector<const Pack
           const ShadingPoint at = shading_point(tile, i);
           Material m = material;
           if (m.tangent == Vec3d{}) m.tangent = static_cast<Vec3d>(get(tile.tangent, i));
-          const Vec3d r = light->is_area() ? point_radiance(row, method_.quality, *light, i, at, m)
-                                           : point_radiance_punctual(row, method_.quality, *light, at, m);
+          if (m.brdf == Brdf::ggx) m.fitted = method_.table.get();
+          const Vec3d r =
+              light->is_area() ? point_radiance(row, method_, *light, i, at, m) : point_radiance_punctual(row, method_, *light, at, m);
           add_to(tile.radiance, i, static_cast<Vec3f>(r));
         }
       }

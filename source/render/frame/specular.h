@@ -22,8 +22,7 @@ struct ProfiledMeans;
 // by point in float.
 class SpecularPass {
  public:
-  // table: as RenderOptions::table.
-  SpecularPass(const DirectMethod& method, const std::string& table);
+  explicit SpecularPass(const DirectMethod& method);
 
   // True if add() also adds the diffuse light of a light: one walk along a polygon serves both lobes.
   bool brings_diffuse(const SurfaceTile& tile, const PackLight& light) const;
@@ -48,7 +47,7 @@ class SpecularPass {
   bool add_ggx_override(SurfaceTile& tile, const SurfaceMaterial& surface, const Material& m,
                         const std::vector<const PackLight*>& lights) const;
   void add_overrides(SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
-  static Material ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i);
+  Material ggx_material(const Lobe& lobe, const SurfaceTile& tile, std::size_t i) const;
   void integrate_ggx(const PackLight& light, const Points& points, const LobeRadiance& result) const;
 
   const DirectMethod method_;

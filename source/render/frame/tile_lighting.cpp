@@ -76,7 +76,7 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
       method_(method),
       many_lights_(many_lights),
       packs_(lobe_packs_for(active_simd())),
-      specular_(method, options.table),
+      specular_(method),
       rays_(parts.rays),
       work_([] { return std::make_shared<Work>(); }) {
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);

@@ -62,8 +62,8 @@ struct DirectSampler::Scratch {
 };
 
 DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around,
-                             Terminator terminator)
-    : scene_(scene), shadows_(shadows), around_(around), terminator_(terminator), scratch_(std::make_unique<Scratch>()) {
+                             Terminator terminator, const ClassicTable* fitted)
+    : scene_(scene), shadows_(shadows), around_(around), terminator_(terminator), fitted_(fitted), scratch_(std::make_unique<Scratch>()) {
   for (const AreaLight& area : scene.area_lights) {
     Light light{&area, std::nullopt};
     if (std::holds_alternative<Line>(area.shape)) continue;
@@ -78,7 +78,7 @@ DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const 
 DirectSampler::~DirectSampler() = default;
 
 Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp, reference::Random& random) {
-  std::vector<SurfaceLobe> rest = lobes_of(surface);
+  std::vector<SurfaceLobe> rest = lobes_of(surface, fitted_);
   if (choice == LobeChoice::specular) std::erase_if(rest, [](const SurfaceLobe& l) { return l.diffuse; });
   Estimate sum;
   while (!rest.empty()) {  // lobes about one normal share their samples; a coat may have a normal of its own

@@ -30,11 +30,14 @@ enum class LobeChoice { all, specular };
 
 class DirectSampler {
  public:
-  // shadows may be null (nothing occludes), and so may the environment. Keeps references to the scene, the rays and the environment.
+  // shadows may be null (nothing occludes), and so may the environment. Keeps references to the scene, the rays, the environment and the
+  // table (lobes_of).
   DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around = nullptr,
-                Terminator terminator = Terminator::strict);
+                Terminator terminator = Terminator::strict, const ClassicTable* fitted = nullptr);
   ~DirectSampler();
   DirectSampler(const DirectSampler&) = delete;
+
+  const ClassicTable* fitted() const { return fitted_; }
 
   // Light that the surface sends towards the viewer, without its emission. spp: sample pairs per light. Each thread needs its own object,
   // which keeps scratch memory.
@@ -52,6 +55,7 @@ class DirectSampler {
   const RayScene* shadows_;
   const environment::EnvironmentSampler* around_;
   const Terminator terminator_;
+  const ClassicTable* fitted_;
   std::vector<Light> lights_;
   std::unique_ptr<Scratch> scratch_;
 };

@@ -17,8 +17,8 @@ Vec3d wide(Vec3f v) { return static_cast<Vec3d>(v); }
 // The lobes of a surface for one view.
 class LobesAt {
  public:
-  LobesAt(const Surface& surface, Vec3f view) {
-    for (const SurfaceLobe& l : lobes_of(surface)) {
+  LobesAt(const PathScene& in, const Surface& surface, Vec3f view) {
+    for (const SurfaceLobe& l : lobes_of(surface, in.sampler.fitted())) {
       const Frame frame = Frame::from_normal_and_tangent(normalized(wide(l.normal)), wide(surface.tangent));
       const lobes::Lobe lobe(lobes::in_frame(l.material, frame), normalized(frame.to_local(wide(view))));
       if (lobe.above_surface()) lobes_.push_back({frame, lobe});
@@ -81,7 +81,7 @@ Vec3d follow(const PathScene& in, const Surface& receiver, Vec3f direction, int 
   for (int bounce = 1; surface && bounce <= most; ++bounce) {
     sum += throughput * in.sampler.estimate(*surface, -direction, LobeChoice::all, 1, random).mean;
     if (bounce == most) break;
-    const LobesAt lobes(*surface, -direction);
+    const LobesAt lobes(in, *surface, -direction);
     if (lobes.count() == 0) break;
     const auto number = std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(lobes.count())), lobes.count() - 1);
     const auto next = lobes.sample(number, random);
@@ -101,7 +101,7 @@ Vec3d follow(const PathScene& in, const Surface& receiver, Vec3f direction, int 
 }  // namespace
 
 Estimate trace_paths(const PathScene& scene, const Surface& receiver, Vec3f view, int bounces, int paths, reference::Random& random) {
-  const LobesAt lobes(receiver, view);
+  const LobesAt lobes(scene, receiver, view);
   Estimate result;
   if (lobes.count() == 0) return result;
   Vec3d squares{};

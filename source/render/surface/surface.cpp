@@ -268,7 +268,7 @@ Material sheen_of(const Surface& s) {
   return m;
 }
 
-std::vector<SurfaceLobe> lobes_of(const Surface& s) {
+std::vector<SurfaceLobe> lobes_of(const Surface& s, const ClassicTable* fitted) {
   std::vector<SurfaceLobe> lobes;
   if (s.material->unlit) return lobes;
   if (weighs(s.albedo)) {
@@ -290,6 +290,8 @@ std::vector<SurfaceLobe> lobes_of(const Surface& s) {
     m.f90 = Vec3d{1, 1, 1} * static_cast<double>(s.coat);
     lobes.push_back({m, s.coat_normal, false});
   }
+  for (SurfaceLobe& lobe : lobes)
+    if (lobe.material.brdf == Brdf::ggx) lobe.material.fitted = fitted;
   return lobes;
 }
 

@@ -64,11 +64,12 @@ inline bool light_passes(const Scene& scene, const Mesh& mesh) {
 }
 
 // The lobes of a surface in the form that scalar integrators take: diffuse, specular or its override, coat. Skips lobes of zero weight.
+// fitted: a table in the place of GGX; null: GGX.
 struct SurfaceLobe {
   Material material;
   Vec3f normal;
   bool diffuse = false;
 };
-std::vector<SurfaceLobe> lobes_of(const Surface& surface);
+std::vector<SurfaceLobe> lobes_of(const Surface& surface, const ClassicTable* fitted = nullptr);
 
 }  // namespace steradian

@@ -278,7 +278,7 @@ TEST(Framing, ABoxShowsItsFrontAndASideAndNeitherIsBlack) {
   scene.cameras = {framing_camera(scene, 1.5)};
   const Camera& camera = scene.cameras[0];
   EXPECT_NEAR(camera.z.x / camera.z.z, 0.6, 1e-12);
-  EXPECT_NEAR(camera.z.y / camera.z.z, 0.45, 1e-12);
+  EXPECT_GT(camera.z.y, 0.5) << "from 30 degrees up, the top is seen under half of its area";
   EXPECT_EQ(camera.x.y, 0) << "the horizon is level";
   EXPECT_NEAR(dot(cross(camera.x, camera.y), camera.z), 1, 1e-12);
   add_lights(scene, {AddedLight::standard});

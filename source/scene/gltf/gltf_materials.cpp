@@ -132,6 +132,25 @@ Vec3d grey_or_rgb(const JsonCursor& object, const char* key, Vec3d otherwise) {
   return static_cast<Vec3d>(color(object, key, otherwise, 1e30));
 }
 
+Vec3d read_direction(const JsonCursor& object, const std::string& key) {
+  const Vec3d v = normalized(object.vector(key, {}));
+  if (v == Vec3d{}) object.at(key).fail("the vector is zero", "it needs a direction");
+  return v;
+}
+
+std::vector<AxisPower> read_factors(const JsonCursor& list) {
+  if (!list.value().is_array()) list.fail("expected a list of {axis, exponent}");
+  std::vector<AxisPower> factors;
+  for (const JsonCursor& one : list.elements()) {
+    if (!one.value().is_object()) one.fail("expected an object with axis and exponent");
+    for (const auto& [key, value] : one.value().items())
+      if (key != "axis" && key != "exponent") one.fail("\"" + key + "\" is not a key of a factor", "known are axis exponent");
+    one.at("axis"), one.at("exponent");
+    factors.push_back({read_direction(one, "axis"), one.number("exponent", 0, 0, 1e30)});
+  }
+  return factors;
+}
+
 lobes::KeyValue read_key(const JsonCursor& lobe, const lobes::Key& key) {
   using lobes::KeyKind;
   const std::string name(key.name);
@@ -140,11 +159,9 @@ lobes::KeyValue read_key(const JsonCursor& lobe, const lobes::Key& key) {
     case KeyKind::not_negative: value.number = lobe.number(name, 0, 0, 1e30); break;
     case KeyKind::share: value.number = lobe.number(name, 0, 0, 1); break;
     case KeyKind::colour: value.vector = grey_or_rgb(lobe, name.c_str(), {1, 1, 1}); break;
-    case KeyKind::direction:
-      value.vector = normalized(lobe.vector(name, {}));
-      if (value.vector == Vec3d{}) lobe.at(name).fail("the vector is zero", "it needs a direction");
-      break;
+    case KeyKind::direction: value.vector = read_direction(lobe, name); break;
     case KeyKind::flag: value.flag = lobe.flag(name, false); break;
+    case KeyKind::factors: value.factors = read_factors(lobe.at(name)); break;
     case KeyKind::word:
       value.word = lobe.text(name, "");
       if (!words::contains(key.words, value.word))

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "core/box.h"
 
@@ -33,6 +35,27 @@ void copy(VectorArray& to, std::size_t i, const VectorArray& from, std::size_t k
 }
 
 }  // namespace
+
+void widen_over_pattern(FrameSurfaces& s, int side) {
+  constexpr float kMean = 1.0f / 3;     // of the squares from the middle of the pattern to its side, over that of the side
+  constexpr float kSameSurface = 0.8f;  // cosine: beyond 37 degrees it is another surface, or an edge
+  const FloatArray before = s.alpha;
+  const int reach = side / 2;
+  tbb::parallel_for(0, s.raster.height, [&](int y) {
+    for (int x = 0; x < s.raster.width; ++x) {
+      const std::size_t i = s.raster.at(x, y);
+      const Vec3f n = s.normal[i];
+      if (!(dot(n, n) > 0) || !(largest(s.f0[i]) + largest(s.f90[i]) > 0)) continue;
+      float turn2 = 0;
+      for (const auto& [dx, dy] : {std::pair{-reach, 0}, {reach, 0}, {0, -reach}, {0, reach}}) {
+        if (x + dx < 0 || x + dx >= s.raster.width || y + dy < 0 || y + dy >= s.raster.height) continue;
+        const float cosine = dot(n, s.normal[s.raster.at(x + dx, y + dy)]);
+        if (cosine > kSameSurface) turn2 = std::max(turn2, 2 - 2 * cosine);
+      }
+      s.alpha[i] = std::min(std::sqrt(before[i] * before[i] + turn2 * kMean), std::max(before[i], 1.0f));
+    }
+  });
+}
 
 Receivers interleave(const FrameSurfaces& s, const Layout& layout, IndirectMode mode) {
   Receivers r;

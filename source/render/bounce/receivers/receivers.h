@@ -71,6 +71,11 @@ struct Light {
   VectorArray diffuse, glossy;
 };
 
+// Widens glossy lobes by the angle through which their surface turns within a pattern, in the mean square. The pixels of a pattern share
+// the virtual lights. On metal that bends within the pattern, a lobe narrower than that would show a light in one pixel only, and the
+// filter would make a block of it.
+void widen_over_pattern(FrameSurfaces& surfaces, int side);
+
 Receivers interleave(const FrameSurfaces& surfaces, const Layout& layout, IndirectMode mode);
 
 // Restores the picture's order, as planes of a raster.
