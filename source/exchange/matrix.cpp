@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "exchange/far_pairs.h"
-#include "exchange/gauss_rules.h"
-#include "exchange/obstructed.h"
+#include "exchange/pairs/far_pairs.h"
+#include "exchange/pairs/gauss_rules.h"
+#include "exchange/obstacles/obstructed.h"
 #include "steradian/error.h"
 #include "steradian/view_factors.h"
 
@@ -188,6 +188,17 @@ void ViewFactors::sum_rows() {
   }
 }
 
+std::vector<std::pair<std::size_t, std::size_t>> rows_of_part(std::size_t rows, int part, int parts) {
+  // The blocks of a part are spread over the matrix: neighbours cost about the same.
+  std::vector<std::pair<std::size_t, std::size_t>> result;
+  std::size_t number = 0;
+  for (std::size_t b = 0; b < kBlocks; ++b) {
+    const std::size_t first = first_row_of(b, rows), end = first_row_of(b + 1, rows);
+    if (first < end && number++ % static_cast<std::size_t>(parts) + 1 == static_cast<std::size_t>(part)) result.push_back({first, end});
+  }
+  return result;
+}
+
 ViewFactors view_factors(const std::vector<ViewFactorFace>& faces, const ViewFactorOptions& options) {
   check_options(options);
   const std::vector<PlaneElement> elements = elements_of(faces);
@@ -198,22 +209,25 @@ ViewFactors view_factors(const std::vector<ViewFactorFace>& faces, const ViewFac
     result.names.push_back(faces[i].name);
     result.areas.push_back(elements[i].area);
   }
-  // The blocks of a part are spread over the matrix: neighbours cost about the same.
-  std::vector<std::size_t> mine;
-  for (std::size_t b = static_cast<std::size_t>(options.part - 1); b < kBlocks; b += static_cast<std::size_t>(options.parts))
-    if (first_row_of(b, faces.size()) < first_row_of(b + 1, faces.size())) mine.push_back(b);
+  const auto mine = rows_of_part(faces.size(), options.part, options.parts);
   result.blocks.resize(mine.size());
   tbb::parallel_for(std::size_t{0}, mine.size(), [&](std::size_t at) {
     // The last blocks have the longest rows; they come first.
     const std::size_t k = mine.size() - 1 - at;
+    const auto [first, end] = mine[k];
     ExchangeBlock& block = result.blocks[k];
-    block.first_row = first_row_of(mine[k], faces.size());
+    block.first_row = first;
+    if (options.known && options.known(block)) {
+      if (options.advanced) options.advanced((end * (end - 1) - first * (first - std::min<std::size_t>(first, 1))) / 2);
+      return;
+    }
     block.row_start.push_back(0);
     RowOfPairs pairs(elements, arrays, obstacles, options.eps);
-    for (std::size_t row = block.first_row; row < first_row_of(mine[k] + 1, faces.size()); ++row) {
+    for (std::size_t row = first; row < end; ++row) {
       pairs.add_to(block, row);
       if (options.advanced) options.advanced(row);
     }
+    if (options.finished) options.finished(block);
   });
   result.sum_rows();
   return result;

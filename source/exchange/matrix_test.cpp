@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/simd.h"
-#include "exchange/pair.h"
+#include "exchange/pairs/pair.h"
 #include "steradian/error.h"
 #include "steradian/view_factors.h"
 

@@ -1,4 +1,4 @@
-#include "exchange/shadow_events.h"
+#include "exchange/obstacles/shadow_events.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Exchange areas of pairs with triangles between them: the closed form less the integral of what the triangles hide.
+// Triangles that obstruct, and which of them may lie between two elements.
 #pragma once
 
 #include <array>
@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "core/box_tree.h"
-#include "exchange/pair.h"
+#include "exchange/pairs/plane_element.h"
 #include "scene/emitters/merge_polygons.h"
+#include "shadow/edges/edges.h"
 
 namespace steradian::exchange {
 
@@ -25,7 +26,10 @@ class Obstacles {
   std::vector<std::uint32_t> between(const PlaneElement& a, const PlaneElement& b) const;
   // True if the face of a triangle is convex and cuts all ways from one element to the other.
   bool covers(std::uint32_t triangle, const PlaneElement& a, const PlaneElement& b) const;
-  const ObstacleTriangle& triangle(std::uint32_t number) const { return triangles_[number]; }
+  // Triangles that may hide a part of an element from a point in front of it; the element lies above the point's horizon.
+  std::vector<std::uint32_t> before(Vec3d point, Vec3d normal, const PlaneElement& element) const;
+  // The edges of some triangles.
+  shadow::EdgeMesh mesh_of(const std::vector<std::uint32_t>& numbers) const;
 
  private:
   void drop_outer(const std::vector<PlaneElement>& elements);
@@ -36,17 +40,5 @@ class Obstacles {
   std::vector<std::vector<Vec3d>> faces_;  // outlines of faces without holes; empty: not one plane polygon
   BoxTree<Box3d> tree_;
 };
-
-// The visible exchange area of two elements: never below 0, never above the unobstructed one.
-struct VisibleExchange {
-  ExchangeArea visible;
-  ExchangeArea unobstructed;
-  bool is_obstructed = false;  // some triangle may lie between
-};
-// The hidden part is integrated over the first element; exchanging the elements is a check.
-VisibleExchange visible_exchange(const PlaneElement& a, const PlaneElement& b, const Obstacles& obstacles, double eps);
-// The same where the unobstructed exchange area is known.
-VisibleExchange visible_exchange(const PlaneElement& a, const PlaneElement& b, const Obstacles& obstacles, double eps,
-                                 const ExchangeArea& unobstructed);
 
 }  // namespace steradian::exchange

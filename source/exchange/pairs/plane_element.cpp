@@ -1,4 +1,4 @@
-#include "exchange/plane_element.h"
+#include "exchange/pairs/plane_element.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Exchange areas behind obstacles against exact constants, rays, and laws that hold for any pair.
-#include "exchange/obstructed.h"
+#include "exchange/obstacles/obstructed.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "exchange/hidden_part.h"
+#include "exchange/obstacles/hidden_part.h"
 #include "steradian/view_factors.h"
 
 namespace steradian::exchange::obstructed_test {
@@ -118,6 +118,43 @@ TEST(ObstructedExchange, RowsOfAnLShapedRoomAddUpToOne) {
       EXPECT_LE(f.between(1, 4), f.error_between(1, 4));
       EXPECT_NEAR(f.between(0, 6), f.between(0, 7), f.error_between(0, 6) + f.error_between(0, 7));
     }
+}
+
+TEST(ObstructedExchange, HasTheExactFactorsOfPinneyAndBeansRoom) {
+  // Test 4 of Pinney and Bean, "A set of analytical tests for internal longwave radiation and view factor calculations", 1988: 30-digit
+  // arithmetic. Walls 1 to 6, ceiling 7, floor 8.
+  struct Known {
+    std::size_t from, to;
+    double factor;
+  };
+  const Known known[] = {{1, 2, 0.11315441430358087},
+                         {1, 3, 0.378092897799350},
+                         {1, 4, 0.0274734057075117},
+                         {1, 5, 0.03289024756308787},
+                         {1, 6, 0.1823559036685958},
+                         {1, 7, 0.1330165654789368},
+                         {1, 8, 0.1330165654789368},
+                         {2, 1, 0.3394632429107423},
+                         {2, 3, 0.3189967014790500},
+                         {2, 4, 0},
+                         {2, 5, 0},
+                         {2, 6, 0.09867074268926361},
+                         {2, 7, 0.1214346564604720},
+                         {2, 8, 0.1214346564604720}};
+  for (const double eps : {1e-4, 1e-7, 1e-10}) {
+    ViewFactorOptions options;
+    options.eps = eps;
+    const ViewFactors f = view_factors(l_shaped_room(3), options);
+    for (const Known& k : known) {
+      const double area = f.areas[k.from - 1], factor = f.between(k.from - 1, k.to - 1) / area;
+      // The constants have 15 digits.
+      EXPECT_LE(std::fabs(factor - k.factor), f.error_between(k.from - 1, k.to - 1) / area + 1e-15)
+          << k.from << " to " << k.to << ", eps " << eps;
+      if (eps == 1e-10) {
+        EXPECT_NEAR(factor, k.factor, 1e-9 * 0.3) << k.from << " to " << k.to;
+      }
+    }
+  }
 }
 
 Vec3d random_place(std::mt19937& random) {

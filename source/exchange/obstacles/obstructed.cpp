@@ -1,31 +1,26 @@
-#include "exchange/obstructed.h"
+#include "exchange/obstacles/obstructed.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
-#include "exchange/gauss_rules.h"
-#include "exchange/hidden_part.h"
-#include "exchange/shadow_events.h"
-#include "steradian/error.h"
+#include "exchange/pairs/gauss_rules.h"
+#include "exchange/obstacles/hidden_part.h"
+#include "exchange/obstacles/shadow_events.h"
 
 namespace steradian::exchange {
 namespace {
 
-constexpr std::size_t kObstacleLeaf = 4;
-// Corners of a merged obstacle lie this near to its plane, as a fraction of its size and its distance from the origin.
-constexpr double kMergedPlane = 1e-14;
-// Triangles no further in front of an element's plane than this fraction of its size lie in the plane.
-constexpr double kInPlane = 1e-11;
 // An event shorter than this fraction of the element's size cuts off nothing that counts.
 constexpr double kShortEvent = 1e-9;
 // A piece may err by its part of the area, and the smallest ones by this part of the whole.
 constexpr double kLeastPart = 1e-3;
-// Outlines with more corners than this get no sides of the shaft: there are as many as the square of it.
-constexpr std::size_t kMostShaftCorners = 24;
 constexpr int kMostQuarterings = 14;
+// Obstacles with more edges than this have more events than pieces are worth. The rules then start this many quarterings late.
+constexpr std::size_t kMostEdges = 60;
+constexpr std::size_t kMostConvexCorners = 8;
+constexpr int kUncutQuarterings = kMostQuarterings - 5;
 constexpr std::size_t kMostEvaluations = 4'000'000;
 // The finder's own error, as a fraction of the whole factor: 16 cells of 2^-40 along a boundary of some half sizes.
 constexpr double kFinderError = 1e-10;
@@ -97,17 +92,24 @@ class HiddenIntegral {
         eps_(eps),
         tolerance_(tolerance),
         plane_{from.centroid, Frame::from_normal(from.normal)} {
+    // With many edges, sections would cost more than they save; then the rules adapt by themselves, and their error is an estimate.
+    if (mesh.edges.size() > kMostEdges) return;
+    is_cut_ = true;
     events_ = shadow_events(plane_, std::max(from.radius, 1e-300), target, mesh);
   }
 
-  ExchangeArea over_element() {
-    for (const PlaneElement& part : convex_parts()) {
+  // parts: convex, and together the element.
+  ExchangeArea over_parts(const std::vector<PlaneElement>& parts) {
+    for (const PlaneElement& part : parts) {
       FlatPolygon piece;
       for (const Vec3d& v : part.contours[0]) piece.push_back(plane_.to_plane(v));
       std::vector<EventSegment> inside;
       for (EventSegment e : events_)
         if (clip_to_polygon(e, piece, near())) inside.push_back(e);
-      integrate(piece, std::move(inside), 0);
+      if (is_cut_)
+        integrate(piece, std::move(inside), 0);
+      else
+        quarter(piece, kUncutQuarterings);
     }
     // Points whose hidden part is not known may be wrong by all that the target sends.
     if (unproven_ > 0) error_ += static_cast<double>(unproven_) / static_cast<double>(evaluations_) * from_.area;
@@ -115,17 +117,6 @@ class HiddenIntegral {
   }
 
  private:
-  std::vector<PlaneElement> convex_parts() const {
-    if (from_.contours.size() == 1) {
-      const std::vector<Vec3d>& v = from_.contours[0];
-      bool convex = true;
-      for (std::size_t i = 0; i < v.size(); ++i)
-        convex = convex && dot(cross(v[(i + 1) % v.size()] - v[i], v[(i + 2) % v.size()] - v[(i + 1) % v.size()]), from_.normal) >= 0;
-      if (convex && v.size() <= 8) return {from_};
-    }
-    return triangles_of_element(from_, "element");
-  }
-
   double near() const { return kShortEvent * from_.radius; }
 
   double hidden_at(Vec2d p) {
@@ -158,7 +149,7 @@ class HiddenIntegral {
     const double area = area_of(piece);
     if (piece.size() < 3 || !(area > kShortEvent * kShortEvent * from_.radius * from_.radius)) return;
     const double enough = tolerance_ * std::max(area / from_.area, kLeastPart);
-    if (events.empty()) {
+    if (is_cut_ && events.empty()) {
       // Nothing changes within: the piece is open, hidden or partly hidden as a whole.
       const Vec2d middle = middle_of_polygon(piece);
       const double hidden = hidden_at(middle);
@@ -177,7 +168,7 @@ class HiddenIntegral {
     if (evaluations_ > kMostEvaluations || quarterings > kMostQuarterings) {
       const double value = rule_over(piece, 3);
       sum_ += value;
-      error_ += std::max(std::fabs(value), area * 1e-3 * tolerance_ / from_.area);
+      error_ += std::max(std::fabs(value - rule_over(piece, 2)), enough);
       return;
     }
     if (events.empty()) {
@@ -216,7 +207,7 @@ class HiddenIntegral {
       const double value = rule_over(piece, n), difference = std::fabs(value - before);
       if (difference <= enough) {
         sum_ += value;
-        error_ += difference;
+        error_ += is_cut_ ? difference : difference + 0.5 * enough;
         return true;
       }
       if (difference > 0.1 * last) return false;
@@ -246,20 +237,30 @@ class HiddenIntegral {
   HiddenPart finder_;
   double eps_, tolerance_;
   ElementPlane plane_;
+  bool is_cut_ = false;
   std::vector<EventSegment> events_;
   double sum_ = 0, error_ = 0;
   std::size_t evaluations_ = 0, unproven_ = 0;
 };
 
-shadow::EdgeMesh mesh_of(const Obstacles& obstacles, const std::vector<std::uint32_t>& numbers) {
-  std::vector<Vec3d> positions;
-  std::vector<std::uint32_t> indices;
-  for (const std::uint32_t t : numbers)
-    for (const Vec3d& v : obstacles.triangle(t)) {
-      indices.push_back(static_cast<std::uint32_t>(positions.size()));
-      positions.push_back(v);
-    }
-  return shadow::build_edges(positions, indices);
+bool is_convex(const PlaneElement& e) {
+  if (e.contours.size() != 1 || e.contours[0].size() > kMostConvexCorners) return false;
+  const std::vector<Vec3d>& v = e.contours[0];
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vec3d a = v[(i + 1) % v.size()] - v[i], b = v[(i + 2) % v.size()] - v[(i + 1) % v.size()];
+    if (dot(cross(a, b), e.normal) < 0) return false;
+  }
+  return true;
+}
+
+// Convex parts of an element in front of a plane. It is cut into triangles first: the part of a concave outline may touch itself.
+std::vector<PlaneElement> convex_parts_in_front(const PlaneElement& element, const PlaneElement& plane) {
+  std::vector<PlaneElement> parts;
+  for (const PlaneElement& part : is_convex(element) ? std::vector{element} : triangles_of_element(element, "element")) {
+    PlaneElement front = in_front_of(part, plane);
+    if (!front.is_empty()) parts.push_back(std::move(front));
+  }
+  return parts;
 }
 
 VisibleExchange visible_from(const PlaneElement& first, const PlaneElement& second, const Obstacles& obstacles, double eps,
@@ -276,208 +277,16 @@ VisibleExchange visible_from(const PlaneElement& first, const PlaneElement& seco
     result.visible.value = result.visible.error = 0;
     return result;
   }
-  const shadow::EdgeMesh mesh = mesh_of(obstacles, between);
+  const shadow::EdgeMesh mesh = obstacles.mesh_of(between);
   const double all = result.unobstructed.value;
-  const ExchangeArea hidden = HiddenIntegral(a, b, mesh, eps, 0.5 * eps * all).over_element();
+  const ExchangeArea hidden = HiddenIntegral(a, b, mesh, eps, 0.5 * eps * all).over_parts(convex_parts_in_front(first, second));
   result.visible.value = std::clamp(all - hidden.value, 0.0, all);
   result.visible.error = std::min(result.unobstructed.error + hidden.error + kFinderError * hidden.value, all);
   result.visible.evaluations += hidden.evaluations;
   return result;
 }
 
-// Half spaces that contain the hull of two elements: in front of both, and through an edge of one and a corner of the other.
-class PairShaft {
- public:
-  PairShaft(const PlaneElement& a, const PlaneElement& b) : a_(a), b_(b) {
-    size_ = a.radius + b.radius + length(a.centroid - b.centroid);
-    for (const PlaneElement* e : {&a, &b})
-      for (const auto& loop : e->contours)
-        for (const Vec3d& v : loop) box_.add(v);
-  }
-
-  const Box3d& box() const { return box_; }
-  // False if no inner point of the triangle lies between the elements.
-  bool may_meet(const ObstacleTriangle& t) {
-    if (has_both_beside(t)) return false;
-    const auto lies_behind = [&](Vec3d normal, double offset) {
-      return std::all_of(t.begin(), t.end(), [&](Vec3d v) { return dot(normal, v) <= offset; });
-    };
-    for (const PlaneElement* e : {&a_, &b_})
-      if (lies_behind(e->normal, dot(e->normal, e->centroid) + kInPlane * size_)) return false;
-    if (!has_sides_) add_sides();
-    return std::none_of(sides_.begin(), sides_.end(), [&](const ShaftSide& side) { return lies_behind(side.normal, side.offset); });
-  }
-
- private:
-  struct ShaftSide {
-    Vec3d normal;
-    double offset;  // inside: dot(normal, x) > offset
-  };
-
-  // True if both elements lie on one side of the triangle's plane, as in any convex enclosure.
-  bool has_both_beside(const ObstacleTriangle& t) const {
-    const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
-    const double in_plane = kInPlane * size_ * length(n);
-    double low = 0, high = 0;
-    for (const PlaneElement* e : {&a_, &b_}) {
-      for (const auto& loop : e->contours)
-        for (const Vec3d& v : loop) {
-          const double h = dot(n, v - t[0]);
-          low = std::min(low, h);
-          high = std::max(high, h);
-        }
-      if (low < -in_plane && high > in_plane) return false;
-    }
-    return true;
-  }
-
-  void add_sides() {
-    has_sides_ = true;
-    std::vector<Vec3d> corners;
-    for (const PlaneElement* e : {&a_, &b_})
-      for (const auto& loop : e->contours) corners.insert(corners.end(), loop.begin(), loop.end());
-    if (corners.size() > kMostShaftCorners) return;
-    add_sides_through(a_, b_, corners);
-    add_sides_through(b_, a_, corners);
-  }
-
-  void add_sides_through(const PlaneElement& edges, const PlaneElement& points, const std::vector<Vec3d>& corners) {
-    for (const auto& loop : edges.contours)
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        for (const auto& other : points.contours)
-          for (const Vec3d& q : other) {
-            const Vec3d v = loop[i], w = loop[(i + 1) % loop.size()], n = cross(w - v, q - v);
-            const double l = length(n);
-            if (!(l > 1e-9 * size_ * length(w - v))) continue;
-            double low = 0, high = 0;
-            for (const Vec3d& c : corners) {
-              const double h = dot(n, c - v) / l;
-              low = std::min(low, h);
-              high = std::max(high, h);
-            }
-            const double near = 1e-12 * size_, sign = low >= -near ? 1 : high <= near ? -1 : 0;
-            if (sign != 0) sides_.push_back({n * (sign / l), dot(n, v) * (sign / l) + kInPlane * size_});
-          }
-  }
-
-  const PlaneElement &a_, &b_;
-  double size_ = 0;
-  Box3d box_;
-  bool has_sides_ = false;
-  std::vector<ShaftSide> sides_;
-};
-
-Box3d box_around(const ObstacleTriangle& t) {
-  Box3d box;
-  for (const Vec3d& v : t) box.add(v);
-  return box;
-}
-
 }  // namespace
-
-Obstacles::Obstacles(const std::vector<ObstacleTriangle>& triangles, const std::vector<PlaneElement>& between) {
-  const scene::MergedPolygons merged = scene::merge_coplanar(triangles, [](std::size_t, std::size_t) { return true; });
-  for (const scene::MergedPolygon& polygon : merged.polygons) add_face(polygon, triangles);
-  if (!between.empty()) drop_outer(between);
-  tree_ = BoxTree<Box3d>(
-      triangles_.size(), [this](std::uint32_t i) { return box_around(triangles_[i]); }, Halving{kObstacleLeaf});
-}
-
-void Obstacles::add_face(const scene::MergedPolygon& polygon, const std::vector<ObstacleTriangle>& triangles) {
-  const auto number = static_cast<std::uint32_t>(faces_.size());
-  const auto add = [&](const ObstacleTriangle& t) {
-    triangles_.push_back(t);
-    face_of_.push_back(number);
-  };
-  std::optional<std::vector<PlaneElement>> parts;
-  if (polygon.triangles.size() > 1) {
-    // The merger is made for lights, and takes triangles that are a little off the plane.
-    try {
-      const PlaneElement face = make_element(polygon.outline, polygon.holes, "obstacle");
-      const bool is_plane = std::all_of(polygon.triangles.begin(), polygon.triangles.end(), [&](std::size_t t) {
-        return std::all_of(triangles[t].begin(), triangles[t].end(), [&](Vec3d v) {
-          return std::fabs(dot(v - face.centroid, face.normal)) <= kMergedPlane * (face.radius + length(v));
-        });
-      });
-      if (is_plane) parts = triangles_of_element(face, "obstacle");
-    } catch (const Error&) {  // the triangles serve as they are
-    }
-  }
-  if (parts && polygon.holes.empty()) {
-    faces_.push_back(polygon.outline);
-  } else if (polygon.triangles.size() == 1) {
-    const ObstacleTriangle& t = triangles[polygon.triangles[0]];
-    faces_.push_back({t.begin(), t.end()});
-  } else {
-    faces_.emplace_back();
-  }
-  if (parts) {
-    for (const PlaneElement& part : *parts) add({part.contours[0][0], part.contours[0][1], part.contours[0][2]});
-  } else {
-    for (const std::size_t t : polygon.triangles) add(triangles[t]);
-  }
-}
-
-void Obstacles::drop_outer(const std::vector<PlaneElement>& elements) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    bool front = false, back = false;
-    for (std::size_t e = 0; e < elements.size() && !(front && back); ++e) {
-      const double in_plane = kInPlane * elements[e].radius;
-      const Vec3d n = normalized(cross(triangles_[i][1] - triangles_[i][0], triangles_[i][2] - triangles_[i][0]));
-      for (const auto& loop : elements[e].contours)
-        for (const Vec3d& v : loop) {
-          const double h = dot(n, v - triangles_[i][0]);
-          front = front || h > in_plane;
-          back = back || h < -in_plane;
-        }
-    }
-    if (!front || !back) continue;
-    triangles_[kept] = triangles_[i];
-    face_of_[kept++] = face_of_[i];
-  }
-  triangles_.resize(kept);
-  face_of_.resize(kept);
-}
-
-bool Obstacles::covers(std::uint32_t triangle, const PlaneElement& a, const PlaneElement& b) const {
-  const std::vector<Vec3d>& face = faces_[face_of_[triangle]];
-  if (face.size() < 3) return false;
-  const ObstacleTriangle& t = triangles_[triangle];
-  const Vec3d n = normalized(cross(t[1] - t[0], t[2] - t[0]));
-  const double side = dot(a.centroid - t[0], n) > 0 ? 1 : -1;
-  for (std::size_t i = 0; i < face.size(); ++i) {
-    const Vec3d turn = cross(face[(i + 1) % face.size()] - face[i], face[(i + 2) % face.size()] - face[(i + 1) % face.size()]);
-    if (dot(turn, n) < 0) return false;  // not convex
-  }
-  for (const auto& loop_a : a.contours)
-    for (const Vec3d& p : loop_a) {
-      const double above = side * dot(p - t[0], n);
-      if (!(above > 0)) return false;
-      for (const auto& loop_b : b.contours)
-        for (const Vec3d& q : loop_b) {
-          const double below = -side * dot(q - t[0], n);
-          if (!(below > 0)) return false;
-          const Vec3d x = p + (q - p) * (above / (above + below));
-          for (std::size_t i = 0; i < face.size(); ++i)
-            if (dot(cross(face[(i + 1) % face.size()] - face[i], x - face[i]), n) < 0) return false;
-        }
-    }
-  return true;
-}
-
-std::vector<std::uint32_t> Obstacles::between(const PlaneElement& a, const PlaneElement& b) const {
-  PairShaft shaft(a, b);
-  std::vector<std::uint32_t> result;
-  tree_.any_leaf([&](const auto& node) { return node.volume.meets(shaft.box()); },
-                 [&](std::uint32_t first, std::uint32_t last) {
-                   for (std::uint32_t i = first; i < last; ++i)
-                     if (shaft.may_meet(triangles_[tree_.order()[i]])) result.push_back(tree_.order()[i]);
-                   return false;
-                 });
-  std::sort(result.begin(), result.end());
-  return result;
-}
 
 VisibleExchange visible_exchange(const PlaneElement& a, const PlaneElement& b, const Obstacles& obstacles, double eps) {
   return visible_from(a, b, obstacles, eps, exchange_area(a, b, eps));

@@ -1,4 +1,4 @@
-#include "exchange/hidden_part.h"
+#include "exchange/obstacles/hidden_part.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +23,9 @@ constexpr double kSureSign = 0x1p35;
 
 // A sum of edges that is farther from 0 is no closed boundary; the point is then moved by this fraction of the target's size.
 constexpr double kClosed = 1e-9, kDisplacement = 1e-11;
+
+// Squares of clearances, in half boxes: with the first, no other trial is made; with the second, one ray is enough.
+constexpr double kFarEnough = 1e-3, kClearEnough = 1e-4;
 
 enum IdKind : std::uint64_t {
   kVertexId = 0,
@@ -225,15 +228,39 @@ void HiddenPart::collect() {
   }
 }
 
+// Bounds of all segments, apart from them, so that few are looked at closely.
+void HiddenPart::bound_segments() {
+  const std::size_t count = segments_.size();
+  for (std::vector<std::int64_t>* bounds : {&low_, &high_, &left_}) bounds->resize(count);
+  near_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const FineSegment& s = segments_[i];
+    low_[i] = std::min(s.a.y, s.b.y);
+    high_[i] = std::max(s.a.y, s.b.y);
+    left_[i] = std::min(s.a.x, s.b.x);
+  }
+}
+
+// Segments that e, or a ray to the left from its middle, may cross: their heights overlap, and they do not lie to its right.
+std::span<const std::uint32_t> HiddenPart::near(const FineSegment& e) {
+  const std::int64_t low = std::min(e.a.y, e.b.y), high = std::max(e.a.y, e.b.y), right = std::max(e.a.x, e.b.x);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < low_.size(); ++i) {
+    near_[found] = static_cast<std::uint32_t>(i);
+    found += static_cast<std::size_t>((low_[i] <= high) & (high_[i] >= low) & (left_[i] <= right));
+  }
+  return {near_.data(), found};
+}
+
 // The count on the side of -x of a segment's middle, from all that a ray to the left crosses.
-std::int32_t HiddenPart::count_left_of(const FineSegment& e, std::size_t own) const {
+std::int32_t HiddenPart::count_left_of(const FineSegment& e, std::size_t own, std::span<const std::uint32_t> near) const {
   const ScaledPlace m = twice_middle(e);
   std::int32_t count = kOutside;
   for (const LeftCrossing& c : crossings_) {
     const std::int64_t y = 2 * c.y;
     if (y < m.y || (y == m.y && 2 * std::int64_t{c.dy} < m.dy)) count += c.weight;
   }
-  for (std::size_t j = 0; j < segments_.size(); ++j) {
+  for (const std::uint32_t j : near) {
     if (j == own) continue;
     const FineSegment& f = segments_[j];
     const bool start_above = lies_above(f.a, m), end_above = lies_above(f.b, m);
@@ -263,12 +290,12 @@ std::int32_t HiddenPart::hits_towards(double x, double y) const {
 }
 
 // The count that means that nothing is in the way. The counts are right but for a constant, which one ray finds.
-std::int32_t HiddenPart::level_of_visible() const {
-  // The trial farthest from all segments, among places of Roberts' sequence (core/lattices.h).
+std::int32_t HiddenPart::level_of_visible() {
+  // A trial far from all segments, or the farthest one, among places of Roberts' sequence (core/lattices.h).
   struct Trial {
     double x = 0, y = 0, clearance = -1;
   } best, second;
-  for (int i = 1; i <= 12; ++i) {
+  for (int i = 1; i <= 12 && best.clearance < kFarEnough; ++i) {
     const auto part = [i](double step) {
       const double v = 0.5 + step * i;
       return 2 * (v - std::floor(v)) - 1;
@@ -295,12 +322,12 @@ std::int32_t HiddenPart::level_of_visible() const {
     FineSegment place;
     place.a = cell_at(trial.x, trial.y, std::numeric_limits<std::uint64_t>::max());
     place.b = place.a;
-    std::int32_t count = count_left_of(place, segments_.size());
+    std::int32_t count = count_left_of(place, segments_.size(), near(place));
     if (count > kOutside / 2) count -= kOutside;
     return count - hits_towards(trial.x, trial.y);
   };
   const std::int32_t first = level_by(best);
-  if (best.clearance > 1e-4 || second.clearance < 0) return first;
+  if (best.clearance > kClearEnough || second.clearance < 0) return first;
   // Near a silhouette a ray may miss; two must agree, or the lower one counts as in the shadow's finder.
   return std::min(first, level_by(second));
 }
@@ -312,6 +339,7 @@ double HiddenPart::edge_factor(double ax, double ay, double bx, double by, Vec3d
 }
 
 void HiddenPart::arrange(Vec3d normal) {
+  bound_segments();
   const std::int32_t visible = level_of_visible();
   const auto is_hidden = [visible](std::int32_t count) { return count > visible && count < kOutside / 2; };
   sum_ = 0;
@@ -322,11 +350,12 @@ void HiddenPart::arrange(Vec3d normal) {
     if (e.weight == 0 || (e.a.x == e.b.x && e.a.y == e.b.y)) continue;
     crossed.clear();
     CrossedAt at{};
-    for (std::size_t j = 0; j < segments_.size(); ++j)
+    const std::span<const std::uint32_t> beside = near(e);
+    for (const std::uint32_t j : beside)
       if (j != i && segments_[j].weight != 0 && crosses(e, segments_[j], at)) crossed.push_back(at);
     std::sort(crossed.begin(), crossed.end(),
               [](const CrossedAt& a, const CrossedAt& b) { return a.after_middle != b.after_middle ? b.after_middle : a.t < b.t; });
-    const std::int32_t count = count_left_of(e, i);
+    const std::int32_t count = count_left_of(e, i, beside);
     const bool up = e.b.y > e.a.y || (e.b.y == e.a.y && e.b.dy > e.a.dy);
     std::int32_t left = up ? count : count + e.weight;
     for (const CrossedAt& c : crossed)

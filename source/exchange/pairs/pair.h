@@ -1,7 +1,7 @@
 // The exchange area of two plane elements that nothing obstructs: H = A1 F12 = A2 F21, with a bound of its error.
 #pragma once
 
-#include "exchange/plane_element.h"
+#include "exchange/pairs/plane_element.h"
 
 namespace steradian::exchange {
 

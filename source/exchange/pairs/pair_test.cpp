@@ -1,5 +1,5 @@
 // Exchange areas of unobstructed pairs against published constants, the dilogarithm form and laws that hold for any pair.
-#include "exchange/pair.h"
+#include "exchange/pairs/pair.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "exchange/edge_pair.h"
-#include "exchange/gauss_rules.h"
+#include "exchange/pairs/edge_pair.h"
+#include "exchange/pairs/gauss_rules.h"
 #include "steradian/error.h"
 
 namespace steradian::exchange::pair_test {

@@ -1,4 +1,4 @@
-#include "exchange/gauss_rules.h"
+#include "exchange/pairs/gauss_rules.h"
 
 #include <array>
 #include <cmath>

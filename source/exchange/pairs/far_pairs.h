@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/simd.h"
-#include "exchange/plane_element.h"
+#include "exchange/pairs/plane_element.h"
 
 namespace steradian::exchange {
 

@@ -1,4 +1,4 @@
-#include "exchange/pair.h"
+#include "exchange/pairs/pair.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "exchange/edge_pair.h"
-#include "exchange/gauss_rules.h"
+#include "exchange/pairs/edge_pair.h"
+#include "exchange/pairs/gauss_rules.h"
 
 namespace steradian::exchange {
 namespace {

@@ -1,6 +1,6 @@
 // Far pairs on packs of doubles. A lane is a column of the matrix, so that the value of a pair depends on nothing else.
 #include "core/pack_double.h"
-#include "exchange/far_pairs.h"
+#include "exchange/pairs/far_pairs.h"
 
 STERADIAN_BEGIN_ISA
 namespace {

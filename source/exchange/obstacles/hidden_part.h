@@ -6,9 +6,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "exchange/plane_element.h"
+#include "exchange/pairs/plane_element.h"
 #include "shadow/edges/edges.h"
 
 namespace steradian::exchange {
@@ -55,9 +56,11 @@ class HiddenPart {
   void add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge, std::int32_t weight);
   void collect();
   void arrange(Vec3d normal);
-  std::int32_t count_left_of(const FineSegment& e, std::size_t own) const;
+  void bound_segments();
+  std::span<const std::uint32_t> near(const FineSegment& e);
+  std::int32_t count_left_of(const FineSegment& e, std::size_t own, std::span<const std::uint32_t> near) const;
   std::int32_t hits_towards(double x, double y) const;
-  std::int32_t level_of_visible() const;
+  std::int32_t level_of_visible();
   double edge_factor(double ax, double ay, double bx, double by, Vec3d normal) const;
 
   const shadow::EdgeMesh& mesh_;
@@ -76,6 +79,8 @@ class HiddenPart {
   Vec3d eye_;  // (x, y, -z) in the target's frame
   std::vector<FineSegment> segments_;
   std::vector<LeftCrossing> crossings_;
+  std::vector<std::int64_t> low_, high_, left_;
+  std::vector<std::uint32_t> near_;
   double sum_ = 0, closure_ = 0;
 };
 

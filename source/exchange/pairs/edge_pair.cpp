@@ -1,10 +1,10 @@
-#include "exchange/edge_pair.h"
+#include "exchange/pairs/edge_pair.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "exchange/gauss_rules.h"
+#include "exchange/pairs/gauss_rules.h"
 
 namespace steradian::exchange {
 namespace {
@@ -21,11 +21,11 @@ constexpr double kMeets = 1e-14, kLeastSine = 0.02;
 // x times ln(r2) / 2; 0 where both vanish.
 double times_log(double x, double r2) { return r2 > 0 ? 0.5 * x * std::log(r2) : 0.0; }
 
-struct Line {
+struct EdgeLine {
   Vec3d start, along;  // along: unit
   double length;
 };
-Line line_of(Vec3d a, Vec3d b) {
+EdgeLine line_of(Vec3d a, Vec3d b) {
   const double l = length(b - a);
   return {a, (b - a) / l, l};
 }
@@ -34,7 +34,7 @@ Line line_of(Vec3d a, Vec3d b) {
 struct Inner {
   double value, size;
 };
-Inner inner_integral(Vec3d at, const Line& q) {
+Inner inner_integral(Vec3d at, const EdgeLine& q) {
   const Vec3d w = at - q.start;
   const double foot = dot(w, q.along);
   const Vec3d off = w - q.along * foot;
@@ -58,7 +58,7 @@ double ellipse_through(const Pole& pole, double middle, double half) {
 
 class OuterIntegral {
  public:
-  OuterIntegral(const Line& p, const Line& q, double tolerance) : p_(p), q_(q), tolerance_(tolerance / p.length) {
+  OuterIntegral(const EdgeLine& p, const EdgeLine& q, double tolerance) : p_(p), q_(q), tolerance_(tolerance / p.length) {
     for (const Vec3d& end : {q.start, q.start + q.along * q.length}) {
       const Vec3d w = end - p.start;
       const double s = dot(w, p.along);
@@ -130,7 +130,7 @@ class OuterIntegral {
     evaluations_ += n;
   }
 
-  Line p_, q_;
+  EdgeLine p_, q_;
   double tolerance_;  // by length of P
   Pole poles_[3];
   int pole_count_ = 0;
@@ -153,7 +153,7 @@ bool lines_are_parallel(Vec3d p0, Vec3d p1, Vec3d q0, Vec3d q1) {
 }
 
 double parallel_log_integral(Vec3d p0, Vec3d p1, Vec3d q0, Vec3d q1) {
-  const Line p = line_of(p0, p1), q = line_of(q0, q1);
+  const EdgeLine p = line_of(p0, p1), q = line_of(q0, q1);
   const double same = dot(p.along, q.along) < 0 ? -1 : 1, a = p.length, b = q.length;
   const Vec3d w = p0 - q0;
   const double x0 = dot(w, p.along), h = length(w - p.along * x0);
@@ -162,14 +162,14 @@ double parallel_log_integral(Vec3d p0, Vec3d p1, Vec3d q0, Vec3d q1) {
 }
 
 bool lines_meet(Vec3d p0, Vec3d p1, Vec3d q0, Vec3d q1) {
-  const Line p = line_of(p0, p1), q = line_of(q0, q1);
+  const EdgeLine p = line_of(p0, p1), q = line_of(q0, q1);
   const Vec3d n = cross(p.along, q.along);
   const double sine = length(n), size = p.length + q.length + length(q0 - p0);
   return sine >= kLeastSine && std::fabs(dot(q0 - p0, n)) <= kMeets * size * sine;
 }
 
 double meeting_log_integral(Vec3d p0, Vec3d p1, Vec3d q0, Vec3d q1) {
-  const Line p = line_of(p0, p1), q = line_of(q0, q1);
+  const EdgeLine p = line_of(p0, p1), q = line_of(q0, q1);
   const Vec3d n = cross(p.along, q.along), w = q0 - p0;
   const double sine2 = dot(n, n), sine = std::sqrt(sine2), c = dot(p.along, q.along);
   // Places from the meeting point, along each line.
@@ -195,7 +195,7 @@ LogIntegral integrate_log(Vec3d p0, Vec3d p1, Vec3d q0, Vec3d q1, double toleran
     if (lines_are_parallel(p0, p1, q0, q1)) return {parallel_log_integral(p0, p1, q0, q1), 8 * kUnit * size2, 4};
     if (lines_meet(p0, p1, q0, q1)) {
       // The distance of the meeting point is known with a rounding of the size over the sine.
-      const Line p = line_of(p0, p1), q = line_of(q0, q1);
+      const EdgeLine p = line_of(p0, p1), q = line_of(q0, q1);
       const Vec3d n = cross(p.along, q.along), w = q0 - p0;
       const double sine2 = dot(n, n);
       const double far = size + std::fabs(dot(cross(w, q.along), n)) / sine2 + std::fabs(dot(cross(w, p.along), n)) / sine2;

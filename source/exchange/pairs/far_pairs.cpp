@@ -1,4 +1,4 @@
-#include "exchange/far_pairs.h"
+#include "exchange/pairs/far_pairs.h"
 
 #include <cmath>
 

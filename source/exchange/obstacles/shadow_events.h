@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "exchange/plane_element.h"
+#include "exchange/pairs/plane_element.h"
 #include "shadow/edges/edges.h"
 #include "steradian/vector2.h"
 

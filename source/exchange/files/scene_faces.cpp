@@ -1,0 +1,175 @@
+#include "exchange/files/scene_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/box.h"
+#include "exchange/pairs/plane_element.h"
+#include "scene/emitters/merge_polygons.h"
+#include "steradian/error.h"
+
+namespace steradian::exchange {
+namespace {
+
+// More elements than this ask for a matrix that no machine holds.
+constexpr double kMostElements = 4e6;
+
+ViewFactorFace face_of_element(const PlaneElement& e, std::string name) {
+  ViewFactorFace face{std::move(name), e.contours[0]};
+  face.holes.assign(e.contours.begin() + 1, e.contours.end());
+  return face;
+}
+
+std::string name_or(const std::string& name, const char* kind, std::size_t number) {
+  return name.empty() ? std::string(kind) + std::to_string(number) : name;
+}
+
+ViewFactorFace back_of(const ViewFactorFace& face) {
+  ViewFactorFace back = face;
+  back.name += " back";
+  std::reverse(back.outline.begin(), back.outline.end());
+  for (auto& hole : back.holes) std::reverse(hole.begin(), hole.end());
+  return back;
+}
+
+// The corners of a triangle from the least on, in their order around it.
+using TriangleKey = std::array<std::array<double, 3>, 3>;
+TriangleKey key_of(const scene::Triangle& t) {
+  TriangleKey key;
+  for (std::size_t c = 0; c < 3; ++c) key[c] = {t[c].x, t[c].y, t[c].z};
+  std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
+  return key;
+}
+
+int steps_of(double length, double size) { return std::max(1, static_cast<int>(std::ceil(length / size * (1 - 1e-9)))); }
+
+}  // namespace
+
+std::vector<ViewFactorFace> divided_face(const ViewFactorFace& face, double size, Budget& budget) {
+  const PlaneElement e = make_element(face.outline, face.holes, face.name);
+  const double across = 2 * e.radius / size;
+  if (!(across * across < kMostElements)) throw Error(face.name, "more than four million elements", "raise --divide");
+  std::vector<ViewFactorFace> result;
+  const auto name = [&] { return face.name + "." + std::to_string(result.size()); };
+  const auto take = [&](double count) { budget.take_memory(face.name, "the elements of a face", static_cast<std::uint64_t>(count * 400)); };
+  if (e.is_parallelogram()) {
+    const int k = steps_of(2 * length(e.half_a), size), l = steps_of(2 * length(e.half_b), size);
+    take(static_cast<double>(k) * l);
+    const std::vector<Vec3d>& v = e.contours[0];
+    // Corners of the outline are kept bit for bit, and neighbours share theirs.
+    const auto at = [&](int i, int j) {
+      const double s = static_cast<double>(i) / k, t = static_cast<double>(j) / l;
+      if ((i == 0 || i == k) && (j == 0 || j == l)) return v[i == 0 ? (j == 0 ? 0 : 3) : (j == 0 ? 1 : 2)];
+      return (v[0] * (1 - s) + v[1] * s) * (1 - t) + (v[3] * (1 - s) + v[2] * s) * t;
+    };
+    for (int i = 0; i < k; ++i)
+      for (int j = 0; j < l; ++j) result.push_back({name(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}});
+    return result;
+  }
+  // Along the longest edge.
+  Vec3d along{};
+  const std::vector<Vec3d>& loop = e.contours[0];
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec3d edge = loop[(i + 1) % loop.size()] - loop[i];
+    if (length(edge) > length(along)) along = edge;
+  }
+  const Frame axes = Frame::from_normal_and_tangent(e.normal, along);
+  Box3d box;
+  for (const Vec3d& v : loop) box.add(axes.to_local(v - e.centroid));
+  const int k = steps_of(box.size().x, size), l = steps_of(box.size().y, size);
+  take(static_cast<double>(k) * l);
+  const auto cut = [&](PlaneElement part, Vec3d axis, double low, double high) {
+    part = cut_element(part, e.centroid + axis * low, axis, 1);
+    return part.is_empty() ? part : cut_element(part, e.centroid + axis * high, axis, -1);
+  };
+  const double far = 4 * e.radius;
+  for (int i = 0; i < k; ++i) {
+    const auto step = [&](double low, double width, int at, int count) {
+      return at == 0 ? -far : at == count ? far : low + width * at / count;
+    };
+    const PlaneElement strip = k == 1 ? e : cut(e, axes.x, step(box.low.x, box.size().x, i, k), step(box.low.x, box.size().x, i + 1, k));
+    if (strip.is_empty()) continue;
+    for (int j = 0; j < l; ++j) {
+      const PlaneElement part =
+          l == 1 ? strip : cut(strip, axes.y, step(box.low.y, box.size().y, j, l), step(box.low.y, box.size().y, j + 1, l));
+      // Slivers of rounding are no elements.
+      if (!part.is_empty() && part.area > 1e-12 * size * size) result.push_back(face_of_element(part, name()));
+    }
+  }
+  return result;
+}
+
+SceneFaces faces_of_scene(const LoadedScene& loaded, const FaceOptions& options, Budget& budget) {
+  SceneFaces result;
+  std::map<std::string, std::size_t> group_of, numbered;
+  std::size_t without_area = 0, split = 0, repeated = 0;
+  std::string first_repeated;
+  std::set<TriangleKey> known;
+  for (std::size_t m = 0; m < loaded.scene.meshes.size(); ++m) {
+    const Mesh& mesh = loaded.scene.meshes[m];
+    if (mesh.is_light_shape) continue;
+    const std::string mesh_name = name_or(mesh.name, "mesh", m);
+    std::vector<scene::Triangle> triangles;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      scene::Triangle corners;
+      for (std::size_t c = 0; c < 3; ++c) corners[c] = static_cast<Vec3d>(mesh.positions[mesh.indices[3 * t + c]]);
+      // Two faces in one place would both receive everything.
+      if (known.insert(key_of(corners)).second) {
+        triangles.push_back(corners);
+      } else if (repeated++ == 0) {
+        first_repeated = mesh_name;
+      }
+    }
+    budget.take_memory(mesh_name, "the faces of a mesh", 300 * triangles.size());
+    const scene::MergedPolygons merged = scene::merge_coplanar(triangles, [](std::size_t, std::size_t) { return true; });
+    without_area += merged.without_area;
+    std::vector<ViewFactorFace> faces;
+    for (const scene::MergedPolygon& polygon : merged.polygons) {
+      // Meshes of one name count on.
+      const auto name = [&] { return mesh_name + "#" + std::to_string(numbered[mesh_name] + faces.size()); };
+      try {
+        make_element(polygon.outline, polygon.holes, name());
+        faces.push_back({name(), polygon.outline, polygon.holes});
+        continue;
+      } catch (const Error&) {
+        ++split;  // a face that is bent by more than an element may be
+      }
+      for (const std::size_t t : polygon.triangles) faces.push_back({name(), {triangles[t].begin(), triangles[t].end()}});
+    }
+    numbered[mesh_name] += faces.size();
+    std::size_t group = 0;
+    if (options.by != FacesBy::face && !faces.empty()) {
+      const auto material = static_cast<std::size_t>(mesh.material);
+      const std::string group_name =
+          options.by == FacesBy::node ? mesh_name : name_or(loaded.scene.materials[material].name, "material", material);
+      // Nodes of one name stay apart.
+      const std::string key =
+          options.by == FacesBy::node && m < loaded.mesh_nodes.size() ? std::to_string(loaded.mesh_nodes[m]) : group_name;
+      const auto [found, fresh] = group_of.emplace(key, result.group_names.size());
+      if (fresh) result.group_names.push_back(group_name);
+      group = found->second;
+    }
+    const auto add = [&](const ViewFactorFace& face) {
+      result.faces.push_back(face);
+      if (options.two_sided) result.faces.push_back(back_of(face));
+    };
+    for (const ViewFactorFace& face : faces) {
+      if (options.divide > 0) {
+        for (const ViewFactorFace& element : divided_face(face, options.divide, budget)) add(element);
+      } else {
+        add(face);
+      }
+    }
+    if (options.by != FacesBy::face) result.groups.resize(result.faces.size(), group);
+  }
+  if (without_area > 0) result.warnings.push_back(std::to_string(without_area) + " triangles without area dropped");
+  if (repeated > 0)
+    result.warnings.push_back(std::to_string(repeated) + " triangles that repeat another one dropped, the first in " + first_repeated);
+  if (split > 0) result.warnings.push_back(std::to_string(split) + " faces that are bent by more than 1e-6 of their size stay triangles");
+  return result;
+}
+
+}  // namespace steradian::exchange
