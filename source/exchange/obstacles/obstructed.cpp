@@ -14,13 +14,19 @@ namespace {
 
 // An event shorter than this fraction of the element's size cuts off nothing that counts.
 constexpr double kShortEvent = 1e-9;
+// The visible rest of a factor that is rounding.
+constexpr double kAllHidden = 1e-12;
 // A piece may err by its part of the area, and the smallest ones by this part of the whole.
 constexpr double kLeastPart = 1e-3;
 constexpr int kMostQuarterings = 14;
 // Obstacles with more edges than this have more events than pieces are worth. The rules then start this many quarterings late.
-constexpr std::size_t kMostEdges = 60;
+constexpr std::size_t kMostEdges = 60, kMostEdgesFine = 120;
+constexpr double kFineEps = 5e-5;
+// Without cuts, differences of rules miss narrow parts. In random scenes of two to six boxes the error was at most 2.2 times the
+// difference.
+constexpr double kUncutSafety = 4;
 constexpr std::size_t kMostConvexCorners = 8;
-constexpr int kUncutQuarterings = kMostQuarterings - 5;
+constexpr int kUncutQuarterings = kMostQuarterings - 6;
 constexpr std::size_t kMostEvaluations = 4'000'000;
 // The finder's own error, as a fraction of the whole factor: 16 cells of 2^-40 along a boundary of some half sizes.
 constexpr double kFinderError = 1e-10;
@@ -93,7 +99,7 @@ class HiddenIntegral {
         tolerance_(tolerance),
         plane_{from.centroid, Frame::from_normal(from.normal)} {
     // With many edges, sections would cost more than they save; then the rules adapt by themselves, and their error is an estimate.
-    if (mesh.edges.size() > kMostEdges) return;
+    if (mesh.edges.size() > (eps < kFineEps ? kMostEdgesFine : kMostEdges)) return;
     is_cut_ = true;
     events_ = shadow_events(plane_, std::max(from.radius, 1e-300), target, mesh);
   }
@@ -126,10 +132,27 @@ class HiddenIntegral {
     return hidden;
   }
 
-  // A rule with n nodes a side over a convex polygon, cut into quadrangles and one triangle about its first corner.
   double rule_over(const FlatPolygon& p, int n) {
-    const GaussRule& rule = gauss_rule(n);
     double sum = 0;
+    for_each_node(p, n, [&](Vec2d at, double weight) {
+      sum += weight * hidden_at(at);
+      return true;
+    });
+    return sum;
+  }
+
+  bool is_all_hidden(const FlatPolygon& piece) {
+    return for_each_node(piece, 4, [&](Vec2d at, double) {
+      const double hidden = hidden_at(at), whole = finder_.whole_factor(plane_.to_world(at), from_.normal);
+      return whole - hidden < kAllHidden * whole;
+    });
+  }
+
+  // A rule with n nodes a side over a convex polygon, cut into quadrangles and one triangle about its first corner.
+  // Calls use(place, weight) for the nodes, until it returns false. Returns true if it never did.
+  template <class Use>
+  bool for_each_node(const FlatPolygon& p, int n, Use use) {
+    const GaussRule& rule = gauss_rule(n);
     for (std::size_t i = 1; i + 1 < p.size(); i += 2) {
       const bool is_quad = i + 2 < p.size();
       const Vec2d a = p[0], b = p[i], c = p[i + 1], d = is_quad ? p[i + 2] : p[0];
@@ -139,10 +162,10 @@ class HiddenIntegral {
           // Bilinear; a triangle is a quadrangle with d = a.
           const Vec2d at = (a * (1 - s) + b * s) * (1 - t) + (d * (1 - s) + c * s) * t;
           const Vec2d along_s = (b - a) * (1 - t) + (c - d) * t, along_t = (d - a) * (1 - s) + (c - b) * s;
-          sum += rule.weight[j] * rule.weight[k] * cross2(along_s, along_t) * hidden_at(at);
+          if (!use(at, rule.weight[j] * rule.weight[k] * cross2(along_s, along_t))) return false;
         }
     }
-    return sum;
+    return true;
   }
 
   void integrate(const FlatPolygon& piece, std::vector<EventSegment> events, int quarterings) {
@@ -155,7 +178,9 @@ class HiddenIntegral {
       const double hidden = hidden_at(middle);
       if (hidden == 0) return;
       const double whole = finder_.whole_factor(plane_.to_world(middle), from_.normal);
-      if (whole - hidden < 1e-13 * whole) {
+      // All hidden: the closed form has no trouble at edges in contact. A gap between obstacles may still open within the piece, on a curve
+      // that is no event, so that the nodes of a rule are asked as well.
+      if (whole - hidden < kAllHidden * whole && is_all_hidden(piece)) {
         std::vector<Vec3d> corners;
         for (const Vec2d& v : piece) corners.push_back(plane_.to_world(v));
         const ExchangeArea all = exchange_area(part_of_element(std::move(corners), area), target_, std::max(0.1 * eps_, 1e-14));
@@ -164,6 +189,7 @@ class HiddenIntegral {
         return;
       }
     }
+    if (!is_cut_ && quarterings < kUncutQuarterings + 2) return quarter(piece, quarterings);
     if (events.empty() && try_rules(piece, enough)) return;
     if (evaluations_ > kMostEvaluations || quarterings > kMostQuarterings) {
       const double value = rule_over(piece, 3);
@@ -205,9 +231,11 @@ class HiddenIntegral {
     double before = rule_over(piece, 2), last = std::numeric_limits<double>::infinity();
     for (const int n : {3, 5, 8, 12}) {
       const double value = rule_over(piece, n), difference = std::fabs(value - before);
-      if (difference <= enough) {
+      // One agreement may be chance: the first counts five times, a later one with a part of the difference before.
+      const double error = (n == 3 ? 5 * difference : std::max(difference, 0.1 * last)) * (is_cut_ ? 1 : kUncutSafety);
+      if (error <= enough) {
         sum_ += value;
-        error_ += is_cut_ ? difference : difference + 0.5 * enough;
+        error_ += error;
         return true;
       }
       if (difference > 0.1 * last) return false;

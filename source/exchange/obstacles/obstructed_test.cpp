@@ -169,7 +169,7 @@ TEST(ObstructedExchange, BothDirectionsAgreeBehindRandomBoxes) {
                      ceiling = parallelogram({-0.2, 0.1, 1}, {0.3, 1, 0}, {1, 0, 0.2});
   for (int i = 0; i < 8; ++i) {
     std::vector<ObstacleTriangle> triangles;
-    for (int b = 0; b <= i % 2; ++b) {
+    for (int b = 0; b <= i % 3; ++b) {
       const Vec3d x = normalized(random_place(random)), y = normalized(cross(x, random_place(random))), z = cross(x, y);
       const Vec3d middle = Vec3d{0.5, 0.5, 0.5} + random_place(random) * 0.2;
       add_box(triangles, middle, x * 0.15, y * 0.1, z * 0.05);
