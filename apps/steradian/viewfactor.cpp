@@ -42,17 +42,17 @@ void warn(const std::string& path, const std::vector<std::string>& warnings) {
 }
 
 SceneFaces load_faces(const std::string& path, const ViewFactorArguments& arguments) {
-  LoadOptions load;
-  load.limits = arguments.limits;
-  load.max_lights = 1 << 20;
-  load.lights = {AddedLight::none};
-  const LoadedScene loaded = load_scene(path, load);
   FaceOptions options;
   options.by = arguments.by == "node" ? FacesBy::node : arguments.by == "material" ? FacesBy::material : FacesBy::face;
   options.divide = arguments.divide;
   options.two_sided = arguments.two_sided;
   Budget budget(arguments.limits);
-  SceneFaces faces = faces_of_scene(loaded, options, budget);
+  LoadOptions load;
+  load.limits = arguments.limits;
+  load.max_lights = 1 << 20;
+  load.lights = {AddedLight::none};
+  SceneFaces faces = is_mesh_file(path) ? faces_of_meshes(read_mesh_file(path, budget), options, budget)
+                                        : faces_of_scene(load_scene(path, load), options, budget);
   warn(path, faces.warnings);
   if (faces.faces.empty()) throw Error(path, "the scene has no faces", "export meshes with triangles");
   return faces;
@@ -327,7 +327,7 @@ void add_viewfactor(CommandLine& line) {
   auto a = std::make_shared<ViewFactorArguments>();
   Verb verb = line.verb("viewfactor", "Compute exact view factors between the faces of a scene, with an error for each");
   verb.group("View factors");
-  verb.add("SCENE", a->inputs, "scene (.gltf, .glb); or: points SCENE SENSORS; or: verify FILE.npz").required();
+  verb.add("SCENE", a->inputs, "scene (glTF, OBJ, STL, PLY), points SCENE SENSORS, or verify FILE").required();
   verb.add("-o,--output", a->output, "view factors (.npz, .mtx); points: factors of the sensors (.csv)").writes(Writes::file);
   verb.add("--eps", a->eps, "relative error of an entry").range(1e-14, 0.1);
   verb.add("--by", a->by, "rows of the matrix, columns of the points").words({"face", "node", "material"});

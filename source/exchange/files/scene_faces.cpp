@@ -102,61 +102,118 @@ std::vector<ViewFactorFace> divided_face(const ViewFactorFace& face, double size
   return result;
 }
 
-SceneFaces faces_of_scene(const LoadedScene& loaded, const FaceOptions& options, Budget& budget) {
-  SceneFaces result;
-  std::map<std::string, std::size_t> group_of, numbered;
-  std::size_t without_area = 0, split = 0, repeated = 0;
-  std::string first_repeated;
-  std::set<TriangleKey> known;
+namespace {
+
+// Faces of one mesh: polygons as they are, and triangles joined with their coplanar neighbours.
+class MeshFaces {
+ public:
+  explicit MeshFaces(Budget& budget) : budget_(budget) {}
+
+  std::vector<ViewFactorFace> take(const PolygonMesh& mesh, const std::string& name) {
+    std::vector<ViewFactorFace> faces;
+    // Meshes of one name count on.
+    std::size_t& number = numbered_[name];
+    const auto next_name = [&] { return name + "#" + std::to_string(number++); };
+    std::vector<scene::Triangle> triangles;
+    const auto add_triangle = [&](Vec3d a, Vec3d b, Vec3d c) {
+      // Two faces in one place would both receive everything.
+      if (known_.insert(key_of({a, b, c})).second)
+        triangles.push_back({a, b, c});
+      else if (repeated_++ == 0)
+        first_repeated_ = name;
+    };
+    for (const std::vector<Vec3d>& polygon : mesh.polygons) {
+      if (polygon.size() > 3 && known_.insert(key_of({polygon[0], polygon[1], polygon[2]})).second) {
+        try {
+          make_element(polygon, {}, name);
+          faces.push_back({next_name(), polygon});
+          continue;
+        } catch (const Error&) {
+          ++split_;  // bent by more than an element may be, or without area
+          known_.erase(key_of({polygon[0], polygon[1], polygon[2]}));
+        }
+      }
+      for (std::size_t i = 1; i + 1 < polygon.size(); ++i) add_triangle(polygon[0], polygon[i], polygon[i + 1]);
+    }
+    budget_.take_memory(name, "the faces of a mesh", 300 * (triangles.size() + faces.size()));
+    const scene::MergedPolygons merged = scene::merge_coplanar(triangles, [](std::size_t, std::size_t) { return true; });
+    without_area_ += merged.without_area;
+    for (const scene::MergedPolygon& polygon : merged.polygons) {
+      try {
+        make_element(polygon.outline, polygon.holes, name);
+        faces.push_back({next_name(), polygon.outline, polygon.holes});
+        continue;
+      } catch (const Error&) {
+        ++split_;
+      }
+      for (const std::size_t t : polygon.triangles) faces.push_back({next_name(), {triangles[t].begin(), triangles[t].end()}});
+    }
+    return faces;
+  }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> result;
+    if (without_area_ > 0) result.push_back(std::to_string(without_area_) + " triangles without area dropped");
+    if (repeated_ > 0)
+      result.push_back(std::to_string(repeated_) + " triangles that repeat another one dropped, the first in " + first_repeated_);
+    if (split_ > 0) result.push_back(std::to_string(split_) + " faces that are bent by more than 1e-6 of their size stay triangles");
+    return result;
+  }
+
+ private:
+  Budget& budget_;
+  std::map<std::string, std::size_t> numbered_;
+  std::set<TriangleKey> known_;
+  std::size_t without_area_ = 0, split_ = 0, repeated_ = 0;
+  std::string first_repeated_;
+};
+
+std::vector<PolygonMesh> meshes_of(const LoadedScene& loaded) {
+  std::vector<PolygonMesh> meshes;
   for (std::size_t m = 0; m < loaded.scene.meshes.size(); ++m) {
     const Mesh& mesh = loaded.scene.meshes[m];
     if (mesh.is_light_shape) continue;
-    const std::string mesh_name = name_or(mesh.name, "mesh", m);
-    std::vector<scene::Triangle> triangles;
+    const auto material = static_cast<std::size_t>(mesh.material);
+    PolygonMesh& result = meshes.emplace_back();
+    result.name = name_or(mesh.name, "mesh", m);
+    result.material = name_or(loaded.scene.materials[material].name, "material", material);
+    if (m < loaded.mesh_nodes.size()) result.node = std::to_string(loaded.mesh_nodes[m]);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-      scene::Triangle corners;
-      for (std::size_t c = 0; c < 3; ++c) corners[c] = static_cast<Vec3d>(mesh.positions[mesh.indices[3 * t + c]]);
-      // Two faces in one place would both receive everything.
-      if (known.insert(key_of(corners)).second) {
-        triangles.push_back(corners);
-      } else if (repeated++ == 0) {
-        first_repeated = mesh_name;
-      }
+      std::vector<Vec3d>& corners = result.polygons.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) corners.push_back(static_cast<Vec3d>(mesh.positions[mesh.indices[3 * t + c]]));
     }
-    budget.take_memory(mesh_name, "the faces of a mesh", 300 * triangles.size());
-    const scene::MergedPolygons merged = scene::merge_coplanar(triangles, [](std::size_t, std::size_t) { return true; });
-    without_area += merged.without_area;
-    std::vector<ViewFactorFace> faces;
-    for (const scene::MergedPolygon& polygon : merged.polygons) {
-      // Meshes of one name count on.
-      const auto name = [&] { return mesh_name + "#" + std::to_string(numbered[mesh_name] + faces.size()); };
-      try {
-        make_element(polygon.outline, polygon.holes, name());
-        faces.push_back({name(), polygon.outline, polygon.holes});
-        continue;
-      } catch (const Error&) {
-        ++split;  // a face that is bent by more than an element may be
-      }
-      for (const std::size_t t : polygon.triangles) faces.push_back({name(), {triangles[t].begin(), triangles[t].end()}});
-    }
-    numbered[mesh_name] += faces.size();
+  }
+  return meshes;
+}
+
+}  // namespace
+
+SceneFaces faces_of_scene(const LoadedScene& loaded, const FaceOptions& options, Budget& budget) {
+  return faces_of_meshes(meshes_of(loaded), options, budget);
+}
+
+SceneFaces faces_of_meshes(const std::vector<PolygonMesh>& meshes, const FaceOptions& options, Budget& budget) {
+  SceneFaces result;
+  std::map<std::string, std::size_t> group_of;
+  MeshFaces faces(budget);
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const PolygonMesh& mesh = meshes[m];
+    const std::string mesh_name = name_or(mesh.name, "mesh", m);
+    const std::vector<ViewFactorFace> of_mesh = faces.take(mesh, mesh_name);
     std::size_t group = 0;
-    if (options.by != FacesBy::face && !faces.empty()) {
-      const auto material = static_cast<std::size_t>(mesh.material);
-      const std::string group_name =
-          options.by == FacesBy::node ? mesh_name : name_or(loaded.scene.materials[material].name, "material", material);
+    if (options.by != FacesBy::face && !of_mesh.empty()) {
+      const std::string name = options.by == FacesBy::node ? mesh_name : name_or(mesh.material, "material", 0);
       // Nodes of one name stay apart.
-      const std::string key =
-          options.by == FacesBy::node && m < loaded.mesh_nodes.size() ? std::to_string(loaded.mesh_nodes[m]) : group_name;
+      const std::string key = options.by == FacesBy::node && !mesh.node.empty() ? mesh.node : name;
       const auto [found, fresh] = group_of.emplace(key, result.group_names.size());
-      if (fresh) result.group_names.push_back(group_name);
+      if (fresh) result.group_names.push_back(name);
       group = found->second;
     }
     const auto add = [&](const ViewFactorFace& face) {
       result.faces.push_back(face);
       if (options.two_sided) result.faces.push_back(back_of(face));
     };
-    for (const ViewFactorFace& face : faces) {
+    for (const ViewFactorFace& face : of_mesh) {
       if (options.divide > 0) {
         for (const ViewFactorFace& element : divided_face(face, options.divide, budget)) add(element);
       } else {
@@ -165,10 +222,7 @@ SceneFaces faces_of_scene(const LoadedScene& loaded, const FaceOptions& options,
     }
     if (options.by != FacesBy::face) result.groups.resize(result.faces.size(), group);
   }
-  if (without_area > 0) result.warnings.push_back(std::to_string(without_area) + " triangles without area dropped");
-  if (repeated > 0)
-    result.warnings.push_back(std::to_string(repeated) + " triangles that repeat another one dropped, the first in " + first_repeated);
-  if (split > 0) result.warnings.push_back(std::to_string(split) + " faces that are bent by more than 1e-6 of their size stay triangles");
+  result.warnings = faces.warnings();
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/budget.h"
+#include "exchange/files/mesh_files.h"
 #include "steradian/load_scene.h"
 #include "steradian/view_factors.h"
 
@@ -28,6 +29,8 @@ struct FaceOptions {
 
 // The shapes of lights are no surfaces and are left out. Face k of a mesh is called NAME#k, element j of it NAME#k.j, its back NAME#k back.
 SceneFaces faces_of_scene(const LoadedScene& loaded, const FaceOptions& options, Budget& budget);
+// The same for other meshes. Polygons of more than three corners stay faces; triangles are joined with their neighbours.
+SceneFaces faces_of_meshes(const std::vector<PolygonMesh>& meshes, const FaceOptions& options, Budget& budget);
 
 // Cuts a face into elements whose sides are at most `size` long: a parallelogram along its sides, any other face by a grid in its plane.
 std::vector<ViewFactorFace> divided_face(const ViewFactorFace& face, double size, Budget& budget);
