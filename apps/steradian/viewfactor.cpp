@@ -17,6 +17,7 @@
 #include "exchange/obstacles/point_factors.h"
 #include "exchange/files/scene_faces.h"
 #include "exchange/files/unfinished.h"
+#include "exchange/files/vs3.h"
 #include "steradian/error.h"
 #include "steradian/version.h"
 #include "steradian/view_factors.h"
@@ -51,8 +52,9 @@ SceneFaces load_faces(const std::string& path, const ViewFactorArguments& argume
   load.limits = arguments.limits;
   load.max_lights = 1 << 20;
   load.lights = {AddedLight::none};
-  SceneFaces faces = is_mesh_file(path) ? faces_of_meshes(read_mesh_file(path, budget), options, budget)
-                                        : faces_of_scene(load_scene(path, load), options, budget);
+  SceneFaces faces = is_vs3_file(path)    ? read_vs3(path, options, budget)
+                     : is_mesh_file(path) ? faces_of_meshes(read_mesh_file(path, budget), options, budget)
+                                          : faces_of_scene(load_scene(path, load), options, budget);
   warn(path, faces.warnings);
   if (faces.faces.empty()) throw Error(path, "the scene has no faces", "export meshes with triangles");
   return faces;
@@ -147,11 +149,13 @@ void compute(const ViewFactorArguments& arguments) {
   if (stored.run.parts > 1 && arguments.output.ends_with(".mtx")) throw WrongOption("-o", "a part is written as .npz");
   SceneFaces faces = load_faces(arguments.inputs[0], arguments);
   stored.faces = faces.faces;
+  stored.obstacles = faces.obstacles;
 
   const auto start = std::chrono::steady_clock::now();
   ViewFactorOptions options;
   options.eps = arguments.eps;
   options.obstruction = arguments.no_obstruction ? Obstruction::off : Obstruction::on;
+  options.obstacles = stored.obstacles;
   options.part = stored.run.part;
   options.parts = stored.run.parts;
   std::uint64_t pairs = 0;
@@ -219,6 +223,7 @@ void compute_points(const ViewFactorArguments& arguments) {
   const std::vector<Sensor> sensors = read_sensors(arguments.inputs[2], budget);
   std::vector<PlaneElement> elements;
   std::vector<ObstacleTriangle> triangles;
+  if (!arguments.no_obstruction) triangles = faces.obstacles;
   for (const ViewFactorFace& face : faces.faces) {
     elements.push_back(make_element(face.outline, face.holes, face.name));
     if (arguments.no_obstruction) continue;
@@ -259,6 +264,7 @@ void verify(const ViewFactorArguments& arguments, Exit& exit) {
   if (!stored.run.groups.empty()) throw Error(path, "is of groups", "verify a file by face");
   std::vector<PlaneElement> elements;
   std::vector<ObstacleTriangle> triangles;
+  if (stored.run.obstruction) triangles = stored.obstacles;
   for (const ViewFactorFace& face : stored.faces) {
     elements.push_back(make_element(face.outline, face.holes, face.name));
     if (!stored.run.obstruction) continue;
@@ -308,6 +314,7 @@ void merge(const MergeArguments& arguments) {
     if (parts.empty()) {
       all.run = part.run;
       all.faces = part.faces;
+      all.obstacles = part.obstacles;
     }
     if (part.run.version != all.run.version)
       throw Error(path, "was made by another version than " + arguments.parts[0], "compute the parts with one program");
@@ -327,7 +334,7 @@ void add_viewfactor(CommandLine& line) {
   auto a = std::make_shared<ViewFactorArguments>();
   Verb verb = line.verb("viewfactor", "Compute exact view factors between the faces of a scene, with an error for each");
   verb.group("View factors");
-  verb.add("SCENE", a->inputs, "scene (glTF, OBJ, STL, PLY), points SCENE SENSORS, or verify FILE").required();
+  verb.add("SCENE", a->inputs, "scene (glTF, OBJ, STL, PLY, VS3), points SCENE SENSORS, verify FILE").required();
   verb.add("-o,--output", a->output, "view factors (.npz, .mtx); points: factors of the sensors (.csv)").writes(Writes::file);
   verb.add("--eps", a->eps, "relative error of an entry").range(1e-14, 0.1);
   verb.add("--by", a->by, "rows of the matrix, columns of the points").words({"face", "node", "material"});

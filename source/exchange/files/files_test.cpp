@@ -10,6 +10,7 @@
 #include "exchange/files/npz.h"
 #include "exchange/files/scene_faces.h"
 #include "exchange/files/unfinished.h"
+#include "exchange/files/vs3.h"
 #include "exchange/pairs/plane_element.h"
 #include "steradian/error.h"
 #include "support/gltf_test_file.h"
@@ -28,6 +29,7 @@ StoredRun run_of(const std::vector<ViewFactorFace>& faces, int part = 1, int par
   StoredRun run;
   run.run = {"0.1.0", 1e-8, true, part, parts, {}};
   run.faces = faces;
+  run.obstacles = {{Vec3d{9, 9, 9}, {9, 8, 9}, {8, 9, 9}}};
   ViewFactorOptions options;
   options.eps = 1e-8;
   options.part = part;
@@ -59,6 +61,7 @@ TEST(FactorFiles, AMatrixComesBackWithItsFaces) {
     }
   ASSERT_EQ(read.faces.size(), 4u);
   EXPECT_EQ(read.faces[2].outline, run.faces[2].outline);
+  EXPECT_EQ(read.obstacles, run.obstacles);
 }
 
 TEST(FactorFiles, GroupsHaveADiagonal) {
@@ -208,6 +211,39 @@ TEST(MeshFiles, ReadTheFacesOfACube) {
       EXPECT_NE(std::string(e.what()).find("STERADIAN_ASSIMP=ON"), std::string::npos);  // a build without this part
     }
   }
+}
+
+TEST(Vs3Files, ReadSurfacesHolesObstructionsAndCombinations) {
+  // Two squares with a quarter of the middle plane in between, and beside them a wall with a window, in two parts.
+  const std::string head = "T squares\nC encl=0 eps=1.e-4\nF 3\n! a comment\n";
+  const std::string vertices =
+      "V 1 0 0 0\nV 2 1 0 0\nV 3 1 1 0\nV 4 0 1 0\nV 5 0 0 1\nV 6 1 0 1\nV 7 1 1 1\nV 8 0 1 1\nV 9 0 0 .5\nV 10 .5 0 .5\nV 11 .5 .5 .5\nV "
+      "12 0 .5 .5\n"
+      "V 21 .25 .25 0\nV 22 .75 .25 0\nV 23 .75 .75 0\nV 24 .25 .75 0\n";
+  const auto read = [&](const std::string& surfaces, FacesBy by = FacesBy::face) {
+    Budget budget;
+    FaceOptions options;
+    options.by = by;
+    return read_vs3(scene::write_test_file("case.vs3", head + vertices + surfaces + "End of data\nnothing here is read"), options, budget);
+  };
+  const SceneFaces squares = read("S 1 1 2 3 4 0 0 0.5 low ! name\nS 2 7 6 5 8 0 0 0.5 high\nO 3 9 10 11 12 0 0 0.5 screen\n");
+  ASSERT_EQ(squares.faces.size(), 2u);
+  EXPECT_EQ(squares.faces[1].name, "high");
+  ASSERT_EQ(squares.obstacles.size(), 2u);
+  ViewFactorOptions options;
+  options.eps = 1e-8;
+  options.obstacles = squares.obstacles;
+  EXPECT_NEAR(view_factors(squares.faces, options).between(0, 1), 0.75 * 0.1998248956983873830416, 1e-9);
+  // A window is a surface of its own, and a hole in its base; a null surface is only the hole.
+  const SceneFaces window = read("S 1 1 2 3 4 0 0 0.5 wall\nS 2 21 22 23 24 1 0 0.5 window\nS 3 7 6 5 8 0 1 0.5 other\n", FacesBy::node);
+  ASSERT_EQ(window.faces.size(), 3u);
+  EXPECT_EQ(window.faces[0].holes.size(), 1u);
+  EXPECT_EQ(window.groups, (std::vector<std::size_t>{0, 1, 0}));
+  EXPECT_EQ(read("S 1 1 2 3 4 0 0 0.5 wall\nN 2 21 24 23 22 1 0 0.5 nothing\n").faces.size(), 1u);
+  EXPECT_EQ(read("S 1 1 2 3 0 0 0 0.5 triangle\n").faces[0].outline.size(), 3u);
+  for (const char* bad : {"S 1 1 2 3 99 0 0 0.5 x\n", "S 1 1 2 3 4 7 0 0.5 x\n", "M 1 1 2 3 4 0 0 0.5 x\n", "S 1 1 2\n",
+                          "S 1 1 1 1 1 0 0 0.5 x\n", "F 3a\n", "Q\n", "V 1 0 0\n", "S 1 1 2 3 4 0 0 .5 x\nS 1 1 2 3 4 0 0 .5 x\n"})
+    EXPECT_THROW(read(bad), Error) << bad;
 }
 
 TEST(SceneFaces, DividedFacesCoverTheFace) {

@@ -175,6 +175,7 @@ void write_factors_npz(const std::string& path, const StoredRun& stored) {
                    {"corners", "<f8", {corners.size() / 3, 3}, {bytes_of(corners)}},
                    numbers("loops", loops, "<i8"),
                    numbers("face_loops", face_loops, "<i8"),
+                   {"obstacles", "<f8", {stored.obstacles.size(), 3, 3}, {bytes_of(stored.obstacles)}},
                    numbers("groups", groups, "<i8")});
 }
 
@@ -252,6 +253,12 @@ StoredRun read_factors_npz(const std::string& path, Budget& budget) {
       (face.outline.empty() ? face.outline : face.holes.emplace_back()) = std::move(loop);
     }
     stored.faces.push_back(std::move(face));
+  }
+  const std::vector<double> obstacles = file.values<double>("obstacles", "<f8");
+  if (obstacles.size() % 9 != 0) damaged("obstacles");
+  for (std::size_t i = 0; i < obstacles.size(); i += 9) {
+    std::array<Vec3d, 3>& t = stored.obstacles.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) t[c] = {obstacles[i + 3 * c], obstacles[i + 3 * c + 1], obstacles[i + 3 * c + 2]};
   }
   if (!stored.run.groups.empty() &&
       (stored.run.groups.size() != stored.faces.size() ||

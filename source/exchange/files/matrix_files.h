@@ -1,6 +1,7 @@
 // Files of view factors: .npz with all that is known of a run, and .mtx with the matrix alone.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,12 @@ struct RunFacts {
 struct StoredRun {
   RunFacts run;
   std::vector<ViewFactorFace> faces;
+  std::vector<std::array<Vec3d, 3>> obstacles = {};
   ViewFactors factors;
 };
 
 // The arrays indices, indptr, format, shape and data are those of scipy.sparse.save_npz: the lower triangle of the exchange areas. Others:
-// areas, row_sums, row_errors, errors (one an entry), names, run (JSON), and the faces (corners, loops, face_loops).
+// areas, row_sums, row_errors, errors (one an entry), names, run (JSON), the faces (corners, loops, face_loops) and the obstacles.
 void write_factors_npz(const std::string& path, const StoredRun& stored);
 StoredRun read_factors_npz(const std::string& path, Budget& budget);
 

@@ -188,6 +188,20 @@ std::vector<PolygonMesh> meshes_of(const LoadedScene& loaded) {
 
 }  // namespace
 
+void add_faces(SceneFaces& to, const std::vector<ViewFactorFace>& faces, const FaceOptions& options, Budget& budget) {
+  const auto add = [&](const ViewFactorFace& face) {
+    to.faces.push_back(face);
+    if (options.two_sided) to.faces.push_back(back_of(face));
+  };
+  for (const ViewFactorFace& face : faces) {
+    if (options.divide > 0) {
+      for (const ViewFactorFace& element : divided_face(face, options.divide, budget)) add(element);
+    } else {
+      add(face);
+    }
+  }
+}
+
 SceneFaces faces_of_scene(const LoadedScene& loaded, const FaceOptions& options, Budget& budget) {
   return faces_of_meshes(meshes_of(loaded), options, budget);
 }
@@ -209,17 +223,7 @@ SceneFaces faces_of_meshes(const std::vector<PolygonMesh>& meshes, const FaceOpt
       if (fresh) result.group_names.push_back(name);
       group = found->second;
     }
-    const auto add = [&](const ViewFactorFace& face) {
-      result.faces.push_back(face);
-      if (options.two_sided) result.faces.push_back(back_of(face));
-    };
-    for (const ViewFactorFace& face : of_mesh) {
-      if (options.divide > 0) {
-        for (const ViewFactorFace& element : divided_face(face, options.divide, budget)) add(element);
-      } else {
-        add(face);
-      }
-    }
+    add_faces(result, of_mesh, options, budget);
     if (options.by != FacesBy::face) result.groups.resize(result.faces.size(), group);
   }
   result.warnings = faces.warnings();

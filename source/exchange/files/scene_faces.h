@@ -1,6 +1,7 @@
 // The faces of a scene that exchange radiation: coplanar neighbours of a mesh joined to polygons, divided and turned over on demand.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,9 +17,10 @@ enum class FacesBy { face, node, material };
 
 struct SceneFaces {
   std::vector<ViewFactorFace> faces;
-  std::vector<std::size_t> groups;       // by face: its place in group_names; empty by face
-  std::vector<std::string> group_names;  // nodes or materials that have faces
-  std::vector<std::string> warnings;     // whole sentences about what was split or dropped
+  std::vector<std::size_t> groups;                   // by face: its place in group_names; empty by face
+  std::vector<std::string> group_names;              // nodes or materials that have faces
+  std::vector<std::array<Vec3d, 3>> obstacles = {};  // triangles that obstruct and exchange nothing
+  std::vector<std::string> warnings = {};            // whole sentences about what was split or dropped
 };
 
 struct FaceOptions {
@@ -31,6 +33,9 @@ struct FaceOptions {
 SceneFaces faces_of_scene(const LoadedScene& loaded, const FaceOptions& options, Budget& budget);
 // The same for other meshes. Polygons of more than three corners stay faces; triangles are joined with their neighbours.
 SceneFaces faces_of_meshes(const std::vector<PolygonMesh>& meshes, const FaceOptions& options, Budget& budget);
+
+// Appends faces, divided and turned over as the options say.
+void add_faces(SceneFaces& to, const std::vector<ViewFactorFace>& faces, const FaceOptions& options, Budget& budget);
 
 // Cuts a face into elements whose sides are at most `size` long: a parallelogram along its sides, any other face by a grid in its plane.
 std::vector<ViewFactorFace> divided_face(const ViewFactorFace& face, double size, Budget& budget);

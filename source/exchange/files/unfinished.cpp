@@ -31,6 +31,7 @@ Fingerprint fingerprint_of(const StoredRun& run) {
       all.append(bytes_of(hole));
     }
   }
+  all.append(bytes_of(run.obstacles));
   return fingerprint(all.data(), all.size());
 }
 
