@@ -277,6 +277,8 @@ TEST(PlaneElement, RefusesWhatIsNoPlanePolygon) {
   EXPECT_THROW(make_element({o, x, x * 2.0}, {}, "face"), Error);
   EXPECT_THROW(make_element({o, x, {1, 1, 0.1}, y}, {}, "face"), Error);
   EXPECT_THROW(make_element({o, x, {1, NAN, 0}}, {}, "face"), Error);
+  EXPECT_THROW(make_element({o, x, {1, 1e60, 0}}, {}, "face"), Error);
+  EXPECT_THROW(make_element({o, x * 1e-60, y * 1e-60}, {}, "face"), Error);
   EXPECT_TRUE(is_bent({o, x, {1, 1, 0.1}, y}));
   EXPECT_FALSE(is_bent({o, x, {1, 1, 1e-7}, y}));
 }

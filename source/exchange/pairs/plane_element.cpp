@@ -15,6 +15,8 @@ using Loop = std::vector<Vec3d>;
 
 // Rounding of a height above a plane, as a fraction of the sizes and the distance: 2^-53 times the products and sums of one dot product.
 constexpr double kHeightRounding = 0x1p-46;
+// Products of four lengths stay in the range of double.
+constexpr double kLargest = 1e50;
 // Corners further apart than this fraction of the size are no parallelogram: the rounding of coordinates far from the origin.
 constexpr double kSameHalf = 1e-12;
 
@@ -95,10 +97,13 @@ PlaneElement make_element(const std::vector<Vec3d>& outline, const std::vector<s
   };
   check_finite(outline);
   const Loop loop = without_repeated(outline);
+  for (const Vec3d& v : loop)
+    if (!(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) < kLargest)) throw Error(place, "a coordinate is 1e50 or more", "scale the scene down");
   if (loop.size() < 3) throw Error(place, "has fewer than three different corners", "remove the face");
   PlaneElement e;
   const Vec3d area = area_vector_of(loop);
   const double size = size_of(loop);
+  if (!(size > 1 / kLargest)) throw Error(place, "is smaller than 1e-50", "scale the scene up");
   // A thinner outline is only rounding: floats have 2^-24 = 6e-8.
   if (!(length(area) > 1e-12 * size * size)) throw Error(place, "has no area", "remove the face");
   e.normal = normalized(area);
