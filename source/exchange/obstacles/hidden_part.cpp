@@ -173,7 +173,8 @@ void HiddenPart::collect() {
   crossings_.clear();
   const auto below = [&](std::uint32_t v) { return vertices_[v].z < -eta_; };
   const Vec3d at{eye_.x, eye_.y, -eye_.z};
-  const auto facing = [&](std::uint32_t t) { return dot(faces_[t].normal, at) - faces_[t].offset > 0 ? 1 : -1; };
+  facing_.resize(faces_.size());
+  for (std::size_t t = 0; t < faces_.size(); ++t) facing_[t] = dot(faces_[t].normal, at) - faces_[t].offset > 0 ? 1 : -1;
   // Cut of an edge by the near plane; always from the lower to the higher number, for the same bits.
   const auto cut = [&](std::uint32_t v, std::uint32_t w) {
     const Vec3d a = vertices_[std::min(v, w)], b = vertices_[std::max(v, w)];
@@ -186,7 +187,7 @@ void HiddenPart::collect() {
     if (!below0 && !below1) continue;
     std::int32_t weight = 0;
     for (std::uint32_t i = edge.first; i < edge.first + edge.count; ++i)
-      weight -= mesh_.edge_triangles[i].walks * facing(mesh_.edge_triangles[i].triangle);
+      weight -= mesh_.edge_triangles[i].walks * facing_[mesh_.edge_triangles[i].triangle];
     if (weight == 0) continue;
     Vec3d a = vertices_[edge.v0], b = vertices_[edge.v1];
     std::uint64_t id_a = kVertexId | edge.v0, id_b = kVertexId | edge.v1;
@@ -207,7 +208,7 @@ void HiddenPart::collect() {
     const auto end = [&](int c) { return cut(corners[static_cast<std::size_t>(c)], corners[static_cast<std::size_t>((c + 1) % 3)]); };
     const auto id = [&](int c) { return kCutId | mesh_.triangle_edges[t][static_cast<std::size_t>(c)]; };
     const std::uint64_t id_a = id(leaving), id_b = id(returning);
-    const std::int32_t weight = -facing(t);
+    const std::int32_t weight = -facing_[t];
     // Coincident triangles have the same section.
     const auto same = std::find_if(segments_.begin(), segments_.end(), [&](const FineSegment& s) {
       return (s.a.id == id_a && s.b.id == id_b) || (s.a.id == id_b && s.b.id == id_a);

@@ -74,6 +74,7 @@ class HiddenPart {
     double offset;
   };
   std::vector<LocalFace> faces_;
+  std::vector<std::int32_t> facing_;  // of the faces, for the current point: 1 or -1
 
   // For the current point.
   Vec3d eye_;  // (x, y, -z) in the target's frame

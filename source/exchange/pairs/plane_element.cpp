@@ -98,7 +98,8 @@ PlaneElement make_element(const std::vector<Vec3d>& outline, const std::vector<s
   check_finite(outline);
   const Loop loop = without_repeated(outline);
   for (const Vec3d& v : loop)
-    if (!(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) < kLargest)) throw Error(place, "a coordinate is 1e50 or more", "scale the scene down");
+    if (!(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) < kLargest))
+      throw Error(place, "a coordinate is 1e50 or more", "scale the scene down");
   if (loop.size() < 3) throw Error(place, "has fewer than three different corners", "remove the face");
   PlaneElement e;
   const Vec3d area = area_vector_of(loop);
