@@ -4,7 +4,7 @@
 #   packages   what else it asks for, with their libraries; a program that links it needs them too
 #   build_packages, build_libraries  headers that only its own build needs
 #   sources    its files, as a pattern of paths under source/
-set(STERADIAN_LAYERS integrals shadow image scene reference fit plane render plane_vulkan)
+set(STERADIAN_LAYERS integrals shadow image scene reference exchange fit plane render plane_vulkan)
 
 # No package at all. The reference methods are part of it: `radiance` answers by them too.
 set(STERADIAN_integrals_sources "^(core|shapes|lobes|reference|integrals)/")
@@ -24,6 +24,16 @@ set(STERADIAN_scene_build_libraries Eigen3::Eigen)
 
 set(STERADIAN_reference_sources "^$")  # a name for those who want the ground truth alone
 set(STERADIAN_reference_needs integrals)
+
+set(STERADIAN_exchange_sources "^exchange/")
+set(STERADIAN_exchange_needs integrals shadow image scene)
+set(STERADIAN_exchange_joins TRUE)
+set(STERADIAN_exchange_packages TBB ZLIB)
+set(STERADIAN_exchange_libraries TBB::tbb ZLIB::ZLIB)
+if(STERADIAN_ASSIMP)
+  list(APPEND STERADIAN_exchange_packages assimp)
+  list(APPEND STERADIAN_exchange_libraries assimp::assimp)
+endif()
 
 set(STERADIAN_fit_sources "^fit/")
 set(STERADIAN_fit_needs integrals reference)

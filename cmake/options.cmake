@@ -2,10 +2,11 @@
 # name of the missing package. Where a part X is OFF, a unit without_X.cpp stands for it: its functions say how to get the part.
 option(STERADIAN_VULKAN "Build the Vulkan back end" ON)
 option(STERADIAN_FONTS "Build text in drawings (FreeType, fontconfig)" ON)
+option(STERADIAN_ASSIMP "Build the reading of OBJ, STL and PLY for view factors (Assimp)" OFF)
 option(STERADIAN_WINDOW "Build the window of `steradian view` (GLFW, Dear ImGui)" ${PROJECT_IS_TOP_LEVEL})
 option(STERADIAN_BENCH "Build the program steradian-bench" ${PROJECT_IS_TOP_LEVEL})
 option(STERADIAN_PYTHON "Build the Python module (pybind11)" OFF)
-set(STERADIAN_OPTIONAL_PARTS VULKAN FONTS WINDOW BENCH PYTHON)
+set(STERADIAN_OPTIONAL_PARTS VULKAN FONTS ASSIMP WINDOW BENCH PYTHON)
 
 if(STERADIAN_TESTS)
   foreach(part VULKAN FONTS WINDOW BENCH)

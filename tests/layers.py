@@ -33,7 +33,7 @@ ROWS = [
     ["source/render/environment", "source/render/lights"],
     ["source/render/surface"],
     ["source/render/tile"],
-    ["source/plane", "source/fit"],
+    ["source/plane", "source/fit", "source/exchange"],
     ["source/scene", "source/shadow"],
     ["source/integrals", "source/image"],
     ["source/reference"],

@@ -27,6 +27,7 @@ void add_scaling(BenchList& list);
 void add_indirect(BenchList& list);
 void add_indirect_frames(BenchList& list, const Where& where);
 void add_shadow(BenchList& list);
+void add_view_factors(BenchList& list);
 
 // All benches. For a Vulkan device only frames, under the CPU's names with the prefix vulkan/.
 inline BenchList all_benches(const Where& where = {}) {
@@ -52,6 +53,7 @@ inline BenchList all_benches(const Where& where = {}) {
   add_indirect(list);
   add_indirect_frames(list, where);
   add_shadow(list);
+  add_view_factors(list);
   return list;
 }
 

@@ -12,6 +12,8 @@ int main(int argc, char** argv) {
   steradian::app::add_eval(line);
   steradian::app::add_methods(line);
   steradian::app::add_fit(line);
+  steradian::app::add_viewfactor(line);
+  steradian::app::add_merge(line);
   steradian::app::add_info(line);
   steradian::app::add_bench(line);
   steradian::app::add_completion(line);

@@ -13,6 +13,8 @@ void add_compare(CommandLine& line);
 void add_fit(CommandLine& line);
 void add_methods(CommandLine& line);
 void add_info(CommandLine& line);
+void add_viewfactor(CommandLine& line);
+void add_merge(CommandLine& line);
 void add_view(CommandLine& line);
 void add_completion(CommandLine& line);
 void add_man(CommandLine& line);

@@ -48,3 +48,4 @@
 #include "steradian/vector.h"
 #include "steradian/vector2.h"
 #include "steradian/version.h"
+#include "steradian/view_factors.h"

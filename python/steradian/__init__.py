@@ -15,8 +15,10 @@ from ._core import Scene, simd, version as __version__
 from .errors import Error, UsageError
 from .integrals import Derivatives, Reference, irradiance, radiance, reference
 from .pictures import Difference, Fit, auto_exposure, diff, fit, load_scene, read_picture, render, write_picture
+from .view_factors import ViewFactors, view_factors
 
 __all__ = [
-    "Derivatives", "Difference", "Error", "Fit", "Reference", "Scene", "UsageError", "__version__", "auto_exposure", "diff", "fit",
-    "irradiance", "load_scene", "plane", "radiance", "read_picture", "reference", "render", "simd", "units", "write_picture",
+    "Derivatives", "Difference", "Error", "Fit", "Reference", "Scene", "UsageError", "ViewFactors", "__version__", "auto_exposure",
+    "diff", "fit", "irradiance", "load_scene", "plane", "radiance", "read_picture", "reference", "render", "simd", "units", "view_factors",
+    "write_picture",
 ]

@@ -32,6 +32,7 @@ TEST(FuzzCorpus, Picture) { run_all("picture", fuzz::picture); }
 TEST(FuzzCorpus, Texture) { run_all("texture", fuzz::texture); }
 TEST(FuzzCorpus, Table) { run_all("table", fuzz::table); }
 TEST(FuzzCorpus, Samples) { run_all("samples", fuzz::samples); }
+TEST(FuzzCorpus, Factors) { run_all("factors", fuzz::factors); }
 TEST(FuzzCorpus, Profile) { run_all("profile", fuzz::profile); }
 
 }  // namespace

@@ -1,6 +1,3 @@
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <string>
 
@@ -8,33 +5,9 @@
 #include "steradian/error.h"
 #include "steradian/fit.h"
 #include "steradian/light_profile.h"
-#include "targets.h"
+#include "memory_file.h"
 
 namespace steradian::fuzz {
-namespace {
-
-// The bytes as a file in memory, because these readers take paths.
-class MemoryFile {
- public:
-  explicit MemoryFile(Input input) : descriptor_(memfd_create("input", 0)) {
-    std::size_t written = 0;
-    while (written < input.size()) {
-      const ssize_t more = write(descriptor_, input.data() + written, input.size() - written);
-      if (more <= 0) break;
-      written += static_cast<std::size_t>(more);
-    }
-  }
-  ~MemoryFile() { close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
-
-}  // namespace
-
 void table(Input input) {
   const MemoryFile file(input);
   try {

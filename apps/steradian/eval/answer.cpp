@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "eval/exchange.h"
 #include "eval/shadowed.h"
 #include "integrals/curved_light.h"
 #include "integrals/point_light.h"
@@ -201,6 +202,7 @@ Answer evaluate(const Query& query) {
 }
 
 bool answer_line(QueryReader& reader, std::string_view line, std::string& out) {
+  if (const std::optional<bool> exchange = answer_exchange(line, out)) return *exchange;
   try {
     const Query query = reader.read(line);  // before id() is read
     write_answer(out, evaluate(query), reader.id());

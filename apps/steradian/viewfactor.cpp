@@ -1,0 +1,367 @@
+// steradian viewfactor SCENE -o FILE; viewfactor points SCENE SENSORS -o FILE; viewfactor verify FILE; merge PARTS -o FILE
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "command_line.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "exchange/files/matrix_files.h"
+#include "exchange/obstacles/point_factors.h"
+#include "exchange/files/scene_faces.h"
+#include "exchange/files/unfinished.h"
+#include "exchange/files/vs3.h"
+#include "steradian/error.h"
+#include "steradian/version.h"
+#include "steradian/view_factors.h"
+#include "verbs.h"
+
+namespace steradian::app {
+namespace {
+
+using namespace exchange;
+using Json = nlohmann::ordered_json;
+
+struct ViewFactorArguments {
+  std::vector<std::string> inputs;
+  std::string output, by = "face", part = "1/1", report;
+  double eps = 1e-6, divide = 0;
+  bool two_sided = false, no_obstruction = false, close = false, resume = false;
+  int pairs = 1000;
+  Limits limits;
+};
+
+void warn(const std::string& path, const std::vector<std::string>& warnings) {
+  for (const std::string& w : warnings) fmt::print(stderr, "warning: {}: {}\n", path, w);
+}
+
+SceneFaces load_faces(const std::string& path, const ViewFactorArguments& arguments) {
+  FaceOptions options;
+  options.by = arguments.by == "node" ? FacesBy::node : arguments.by == "material" ? FacesBy::material : FacesBy::face;
+  options.divide = arguments.divide;
+  options.two_sided = arguments.two_sided;
+  Budget budget(arguments.limits);
+  LoadOptions load;
+  load.limits = arguments.limits;
+  load.max_lights = 1 << 20;
+  load.lights = {AddedLight::none};
+  SceneFaces faces = is_vs3_file(path)    ? read_vs3(path, options, budget)
+                     : is_mesh_file(path) ? faces_of_meshes(read_mesh_file(path, budget), options, budget)
+                                          : faces_of_scene(load_scene(path, load), options, budget);
+  warn(path, faces.warnings);
+  if (faces.faces.empty()) throw Error(path, "the scene has no faces", "export meshes with triangles");
+  return faces;
+}
+
+void parse_part(const std::string& text, RunFacts& run) {
+  const std::size_t slash = text.find('/');
+  try {
+    std::size_t used = 0, used_all = 0;
+    if (slash != std::string::npos) {
+      run.part = std::stoi(text.substr(0, slash), &used);
+      run.parts = std::stoi(text.substr(slash + 1), &used_all);
+    }
+    if (slash != std::string::npos && used == slash && used_all == text.size() - slash - 1 && run.part >= 1 && run.part <= run.parts)
+      return;
+  } catch (const std::exception&) {  // continues with the message below
+  }
+  throw WrongOption("--part", "'" + text + "' is not k/n with k from 1 to n");
+}
+
+// The guarantees of a matrix, as found in its numbers.
+struct GuaranteeCounts {
+  std::size_t outside = 0, overfull = 0;
+  double worst_error = 0, largest_sum = 0, smallest_sum = 1;
+};
+GuaranteeCounts guarantees_of(const ViewFactors& f) {
+  GuaranteeCounts counts;
+  for (const ExchangeBlock& b : f.blocks)
+    for (std::size_t r = 0; r < b.rows(); ++r)
+      for (std::size_t k = b.row_start[r]; k < b.row_start[r + 1]; ++k) {
+        const double least = std::min(f.areas[b.first_row + r], f.areas[b.columns[k]]);
+        counts.outside += !(b.values[k] >= 0 && b.values[k] <= least + static_cast<double>(b.errors[k]));
+      }
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    counts.overfull += f.row_sums[i] > 1 + f.row_errors[i] + 1e-12;
+    counts.worst_error = std::max(counts.worst_error, f.row_errors[i]);
+    counts.largest_sum = std::max(counts.largest_sum, f.row_sums[i]);
+    counts.smallest_sum = std::min(counts.smallest_sum, f.row_sums[i]);
+  }
+  return counts;
+}
+
+Json report_json(const ViewFactorArguments& arguments, const StoredRun& stored, double seconds) {
+  const ViewFactors& f = stored.factors;
+  const GuaranteeCounts g = guarantees_of(f);
+  const auto verdict = [](std::size_t count) { return count == 0 ? "pass" : "fail"; };
+  Json sky = Json::array();
+  for (const double sum : f.row_sums) sky.push_back(std::max(1 - sum, 0.0));
+  return {{"version", version()},
+          {"command", command_line()},
+          {"scene", arguments.inputs[0]},
+          {"faces", stored.faces.size()},
+          {"rows", f.size()},
+          {"entries", f.entries()},
+          {"eps", stored.run.eps},
+          {"obstruction", stored.run.obstruction},
+          {"seconds", seconds},
+          {"guarantees",
+           {{"factors from 0 to 1", verdict(g.outside)},
+            {"row sums at most 1 + error", verdict(g.overfull)},
+            {"one number for both directions", "pass"}}},
+          {"worst_row_error", g.worst_error},
+          {"row_sums", f.row_sums},
+          {"row_errors", f.row_errors},
+          {"areas", f.areas},
+          {"sky", sky},
+          {"names", f.names}};
+}
+
+void print_summary(const StoredRun& stored, double seconds) {
+  const GuaranteeCounts g = guarantees_of(stored.factors);
+  fmt::print("faces            {}\n", stored.faces.size());
+  if (!stored.run.groups.empty()) fmt::print("groups           {}\n", stored.factors.size());
+  fmt::print("entries          {}\n", stored.factors.entries());
+  fmt::print("row sums         {:.9g} to {:.9g}\n", g.smallest_sum, g.largest_sum);
+  fmt::print("worst row error  {:.3g}\n", g.worst_error);
+  fmt::print("guarantees       {}\n", g.outside + g.overfull == 0 ? "hold" : "broken: see --report");
+  fmt::print("time             {:.2f} s\n", seconds);
+}
+
+void compute(const ViewFactorArguments& arguments) {
+  if (arguments.inputs.size() != 1) throw WrongOption("SCENE", "one scene is expected");
+  if (arguments.output.empty()) throw WrongOption("-o", "is required");
+  check_factors_name(arguments.output);
+  StoredRun stored;
+  stored.run.version = version();
+  stored.run.eps = arguments.eps;
+  stored.run.obstruction = !arguments.no_obstruction;
+  parse_part(arguments.part, stored.run);
+  if (stored.run.parts > 1 && arguments.close) throw WrongOption("--close", "needs the whole matrix; merge the parts first");
+  if (stored.run.parts > 1 && arguments.by != "face") throw WrongOption("--by", "needs the whole matrix; parts are by face");
+  if (stored.run.parts > 1 && arguments.output.ends_with(".mtx")) throw WrongOption("-o", "a part is written as .npz");
+  SceneFaces faces = load_faces(arguments.inputs[0], arguments);
+  stored.faces = faces.faces;
+  stored.obstacles = faces.obstacles;
+
+  const auto start = std::chrono::steady_clock::now();
+  ViewFactorOptions options;
+  options.eps = arguments.eps;
+  options.obstruction = arguments.no_obstruction ? Obstruction::off : Obstruction::on;
+  options.obstacles = stored.obstacles;
+  options.part = stored.run.part;
+  options.parts = stored.run.parts;
+  std::uint64_t pairs = 0;
+  for (const auto& [first, end] : rows_of_part(faces.faces.size(), stored.run.part, stored.run.parts))
+    for (std::size_t row = first; row < end; ++row) pairs += row;
+  std::unique_ptr<UnfinishedFactors> unfinished;
+  if (arguments.resume) {
+    unfinished = std::make_unique<UnfinishedFactors>(arguments.output + ".part", stored);
+    options.known = [&](ExchangeBlock& block) { return unfinished->find(block); };
+    options.finished = [&](const ExchangeBlock& block) { unfinished->add(block); };
+  }
+  {
+    Progress progress("view factors", pairs);
+    options.advanced = [&](std::uint64_t done) { progress.add(done); };
+    stored.factors = view_factors(stored.faces, options);
+  }
+  if (arguments.close) stored.factors = closed_view_factors(stored.factors);
+  if (!faces.groups.empty()) {
+    stored.run.groups = faces.groups;
+    stored.factors = grouped_view_factors(stored.factors, faces.groups, faces.group_names);
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_factors(arguments.output, stored);
+  if (unfinished) unfinished->remove();
+  if (!arguments.report.empty()) write_file(arguments.report, report_json(arguments, stored, seconds).dump(1) + "\n");
+  print_summary(stored, seconds);
+}
+
+std::vector<Sensor> read_sensors(const std::string& path, Budget& budget) {
+  const Bytes bytes = read_file(path, path, budget);
+  std::istringstream text(std::string(bytes.begin(), bytes.end()));
+  std::vector<Sensor> sensors;
+  std::string line;
+  for (std::size_t number = 1; std::getline(text, line); ++number) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream numbers(line);
+    double v[6];
+    bool good = true;
+    for (double& x : v) good = good && static_cast<bool>(numbers >> x) && std::isfinite(x);
+    // A first line of names is a heading.
+    if (!good && sensors.empty() && number == 1) continue;
+    const Vec3d normal = normalized(Vec3d{v[3], v[4], v[5]});
+    if (!good || normal == Vec3d{})
+      throw Error(path + ":" + std::to_string(number), "is not x,y,z,nx,ny,nz with a normal that has a length", "give six numbers a line");
+    sensors.push_back({{v[0], v[1], v[2]}, normal});
+  }
+  if (sensors.empty()) throw Error(path, "has no sensors", "give x,y,z,nx,ny,nz a line");
+  return sensors;
+}
+
+// A column's name in CSV.
+std::string quoted(const std::string& name) {
+  if (name.find_first_of(",\"\n") == std::string::npos) return name;
+  std::string result = "\"";
+  for (const char c : name) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+void compute_points(const ViewFactorArguments& arguments) {
+  if (arguments.inputs.size() != 3) throw WrongOption("points", "expects a scene and a file of sensors");
+  Budget budget(arguments.limits);
+  const SceneFaces faces = load_faces(arguments.inputs[1], arguments);
+  const std::vector<Sensor> sensors = read_sensors(arguments.inputs[2], budget);
+  std::vector<PlaneElement> elements;
+  std::vector<ObstacleTriangle> triangles;
+  if (!arguments.no_obstruction) triangles = faces.obstacles;
+  for (const ViewFactorFace& face : faces.faces) {
+    elements.push_back(make_element(face.outline, face.holes, face.name));
+    if (arguments.no_obstruction) continue;
+    for (const PlaneElement& t : triangles_of_element(elements.back(), face.name))
+      triangles.push_back({t.contours[0][0], t.contours[0][1], t.contours[0][2]});
+  }
+  const Obstacles obstacles(triangles);
+  std::string csv = "x,y,z,nx,ny,nz,sky,backs";
+  const std::vector<std::string>& groups = faces.group_names;
+  for (std::size_t i = 0; i < (groups.empty() ? faces.faces.size() : groups.size()); ++i)
+    csv += "," + quoted(groups.empty() ? faces.faces[i].name : groups[i]);
+  csv += "\n";
+  Progress progress("points", sensors.size());
+  std::size_t unproven = 0;
+  for (const Sensor& s : sensors) {
+    const SensorFactors f = sensor_factors(s, elements, obstacles);
+    unproven += !f.is_proven;
+    std::vector<double> columns(groups.empty() ? elements.size() : groups.size(), 0.0);
+    for (std::size_t i = 0; i < elements.size(); ++i) columns[groups.empty() ? i : faces.groups[i]] += f.fronts[i];
+    csv += fmt::format("{},{},{},{},{},{},{:.17g},{:.17g}", s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
+                       f.sky, f.backs);
+    for (const double c : columns) csv += fmt::format(",{:.17g}", c);
+    csv += "\n";
+    progress.add();
+  }
+  if (unproven > 0) fmt::print(stderr, "warning: the visible parts of {} sensors are not proven\n", unproven);
+  if (arguments.output.empty() || arguments.output == "-")
+    fmt::print("{}", csv);
+  else
+    write_file(arguments.output, csv);
+}
+
+void verify(const ViewFactorArguments& arguments, Exit& exit) {
+  if (arguments.inputs.size() != 2) throw WrongOption("verify", "expects one file of view factors");
+  const std::string& path = arguments.inputs[1];
+  Budget budget(arguments.limits);
+  const StoredRun stored = read_factors_npz(path, budget);
+  if (!stored.run.groups.empty()) throw Error(path, "is of groups", "verify a file by face");
+  std::vector<PlaneElement> elements;
+  std::vector<ObstacleTriangle> triangles;
+  if (stored.run.obstruction) triangles = stored.obstacles;
+  for (const ViewFactorFace& face : stored.faces) {
+    elements.push_back(make_element(face.outline, face.holes, face.name));
+    if (!stored.run.obstruction) continue;
+    for (const PlaneElement& t : triangles_of_element(elements.back(), face.name))
+      triangles.push_back({t.contours[0][0], t.contours[0][1], t.contours[0][2]});
+  }
+  const Obstacles obstacles(triangles, elements);
+  std::vector<std::size_t> rows;
+  for (const ExchangeBlock& b : stored.factors.blocks)
+    for (std::size_t r = std::max<std::size_t>(b.first_row, 1); r < b.first_row + b.rows(); ++r) rows.push_back(r);
+  if (rows.empty()) throw Error(path, "has no pairs");
+  // The other direction, at a hundredth of the error.
+  std::mt19937_64 random(1);
+  std::size_t beyond = 0, worst_i = 0, worst_j = 0;
+  double worst = 0, worst_ratio = 0;
+  Progress progress("verify", static_cast<std::uint64_t>(arguments.pairs));
+  for (int k = 0; k < arguments.pairs; ++k) {
+    const std::size_t i = rows[random() % rows.size()], j = random() % i;
+    const ExchangeArea h = visible_exchange(elements[j], elements[i], obstacles, std::max(stored.run.eps * 0.01, 1e-12)).visible;
+    const double difference = std::fabs(h.value - stored.factors.between(i, j)), allowed = stored.factors.error_between(i, j) + h.error;
+    beyond += difference > allowed + 1e-15 * elements[i].area;
+    const double factor = difference / std::min(elements[i].area, elements[j].area);
+    if (factor > worst) worst = factor, worst_i = i, worst_j = j, worst_ratio = difference / std::max(allowed, 1e-300);
+    progress.add();
+  }
+  progress.wipe();
+  fmt::print("pairs               {}\n", arguments.pairs);
+  fmt::print("largest difference  {:.3g} of a factor, {:.3g} of the reported error\n", worst, worst_ratio);
+  if (worst > 0) fmt::print("                    {} and {}\n", stored.faces[worst_i].name, stored.faces[worst_j].name);
+  fmt::print("beyond the error    {}\n", beyond);
+  if (beyond > 0) exit.code = 1;
+}
+
+struct MergeArguments {
+  std::vector<std::string> parts;
+  std::string output;
+  Limits limits;
+};
+
+void merge(const MergeArguments& arguments) {
+  check_factors_name(arguments.output);
+  Budget budget(arguments.limits);
+  StoredRun all;
+  std::vector<ViewFactors> parts;
+  for (const std::string& path : arguments.parts) {
+    StoredRun part = read_factors_npz(path, budget);
+    if (parts.empty()) {
+      all.run = part.run;
+      all.faces = part.faces;
+      all.obstacles = part.obstacles;
+    }
+    if (part.run.version != all.run.version)
+      throw Error(path, "was made by another version than " + arguments.parts[0], "compute the parts with one program");
+    if (part.run.eps != all.run.eps || part.run.obstruction != all.run.obstruction || part.run.parts != all.run.parts)
+      throw Error(path, "has other settings than " + arguments.parts[0], "merge the parts of one run");
+    parts.push_back(std::move(part.factors));
+  }
+  all.factors = merge_view_factors(std::move(parts));
+  all.run.part = all.run.parts = 1;
+  write_factors(arguments.output, all);
+  print_summary(all, 0);
+}
+
+}  // namespace
+
+void add_viewfactor(CommandLine& line) {
+  auto a = std::make_shared<ViewFactorArguments>();
+  Verb verb = line.verb("viewfactor", "Compute exact view factors between the faces of a scene, with an error for each");
+  verb.group("View factors");
+  verb.add("SCENE", a->inputs, "scene (glTF, OBJ, STL, PLY, VS3), points SCENE SENSORS, verify FILE").required();
+  verb.add("-o,--output", a->output, "view factors (.npz, .mtx); points: factors of the sensors (.csv)").writes(Writes::file);
+  verb.add("--eps", a->eps, "relative error of an entry").range(1e-14, 0.1);
+  verb.add("--by", a->by, "rows of the matrix, columns of the points").words({"face", "node", "material"});
+  verb.add("--divide", a->divide, "cut faces into elements of this length [m]; 0: no").range(0.0, 1e9);
+  verb.add_flag("--two-sided", a->two_sided, "faces exchange from their backs, too");
+  verb.add_flag("--no-obstruction", a->no_obstruction, "leave out what stands between faces");
+  verb.add_flag("--close", a->close, "correct a closed enclosure: rows add up to 1");
+  verb.add("--part", a->part, "k/n: compute one of n parts; steradian merge joins them");
+  verb.add_flag("--resume", a->resume, "go on after an interruption; keeps finished rows in OUTPUT.part");
+  verb.add("--report", a->report, "report of rows, errors and guarantees (JSON)").writes(Writes::file);
+  verb.add("--pairs", a->pairs, "verify: number of random pairs").range(1, 1'000'000'000);
+  verb.add_limits(a->limits);
+  verb.callback([a, &exit = line.exit()] {
+    if (a->inputs[0] == "points") return compute_points(*a);
+    if (a->inputs[0] == "verify") return verify(*a, exit);
+    compute(*a);
+  });
+}
+
+void add_merge(CommandLine& line) {
+  auto a = std::make_shared<MergeArguments>();
+  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor --part");
+  verb.group("View factors");
+  verb.add("PARTS", a->parts, "files of all parts (.npz)").required();
+  verb.add("-o,--output", a->output, "view factors (.npz, .mtx)").required().writes(Writes::file);
+  verb.add_limits(a->limits);
+  verb.callback([a] { merge(*a); });
+}
+
+}  // namespace steradian::app

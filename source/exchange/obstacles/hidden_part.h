@@ -1,0 +1,88 @@
+// HiddenPart: the part of a plane element that triangles hide from a point, in double and without rounding in its decisions.
+//
+// The count of triangles on the way to each place of the element is known from the silhouettes, as for shadows (docs/theory/shadows.md).
+// Here a cell is 2^-40 of the element's half size, so that the part's area is right to 1e-11; signs are decided in 128 bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exchange/pairs/plane_element.h"
+#include "shadow/edges/edges.h"
+
+namespace steradian::exchange {
+
+// A place in cells, with the displacement by an infinitely small e (dx, dy) that breaks ties. Equal ids: the same vertex.
+struct FineCell {
+  std::int64_t x = 0, y = 0;
+  std::int32_t dx = 0, dy = 0;
+  std::uint64_t id = 0;
+};
+
+// weight: count on the left minus count on the right of the direction from a to b.
+struct FineSegment {
+  FineCell a, b;
+  std::int32_t weight = 0;
+};
+
+class HiddenPart {
+ public:
+  // All points lie in front of the target, and see its front. The mesh must outlive the object.
+  HiddenPart(const PlaneElement& target, const shadow::EdgeMesh& mesh);
+
+  // The configuration factor of the hidden part for a point with a unit normal: what the triangles take from the factor of the whole
+  // target, which lies above the point's horizon. Never negative.
+  double hidden_factor(Vec3d point, Vec3d normal);
+
+  // The factor of the target itself by the same sum.
+  double whole_factor(Vec3d point, Vec3d normal);
+
+  // True if the boundary of the last hidden part was closed to rounding. If not, the part is not known.
+  bool is_proven() const;
+
+ private:
+  struct LeftCrossing {
+    std::int64_t y;
+    std::int32_t dy, weight;
+  };
+  struct Homogeneous {
+    double x, y, w;
+  };
+  Homogeneous seen(Vec3d vertex) const {
+    return {vertex.x * eye_.z + eye_.x * vertex.z, vertex.y * eye_.z + eye_.y * vertex.z, vertex.z + eye_.z};
+  }
+  void add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge, std::int32_t weight);
+  void collect();
+  void arrange(Vec3d normal);
+  void bound_segments();
+  std::span<const std::uint32_t> near(const FineSegment& e);
+  std::int32_t count_left_of(const FineSegment& e, std::size_t own, std::span<const std::uint32_t> near) const;
+  std::int32_t hits_towards(double x, double y) const;
+  std::int32_t level_of_visible();
+  double edge_factor(double ax, double ay, double bx, double by, Vec3d normal) const;
+
+  const shadow::EdgeMesh& mesh_;
+  Frame axes_;
+  Vec3d origin_;
+  double box_x_ = 0, box_y_ = 0, eta_ = 0;
+  std::vector<std::vector<std::array<double, 2>>> outline_;
+  std::vector<Vec3d> vertices_;  // in the target's frame
+  struct LocalFace {
+    Vec3d normal;
+    double offset;
+  };
+  std::vector<LocalFace> faces_;
+  std::vector<std::int32_t> facing_;  // of the faces, for the current point: 1 or -1
+
+  // For the current point.
+  Vec3d eye_;  // (x, y, -z) in the target's frame
+  std::vector<FineSegment> segments_;
+  std::vector<LeftCrossing> crossings_;
+  std::vector<std::int64_t> low_, high_, left_;
+  std::vector<std::uint32_t> near_;
+  double sum_ = 0, closure_ = 0;
+};
+
+}  // namespace steradian::exchange

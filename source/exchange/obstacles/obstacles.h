@@ -1,0 +1,44 @@
+// Triangles that obstruct, and which of them may lie between two elements.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/box_tree.h"
+#include "exchange/pairs/plane_element.h"
+#include "scene/emitters/merge_polygons.h"
+#include "shadow/edges/edges.h"
+
+namespace steradian::exchange {
+
+using ObstacleTriangle = std::array<Vec3d, 3>;
+
+// Triangles that obstruct, with a tree over their boxes. Neighbours in one plane are merged to faces, which have fewer edges.
+class Obstacles {
+ public:
+  Obstacles() = default;
+  // between: all elements that will be asked for, if known; triangles that have all of them on one side are left out.
+  explicit Obstacles(const std::vector<ObstacleTriangle>& triangles, const std::vector<PlaneElement>& between = {});
+  bool is_empty() const { return triangles_.empty(); }
+
+  // Triangles that may lie between the fronts of two elements, each in front of the other's plane; ascending.
+  std::vector<std::uint32_t> between(const PlaneElement& a, const PlaneElement& b) const;
+  // True if the face of a triangle is convex and cuts all ways from one element to the other.
+  bool covers(std::uint32_t triangle, const PlaneElement& a, const PlaneElement& b) const;
+  // Triangles that may hide a part of an element from a point in front of it; the element lies above the point's horizon.
+  std::vector<std::uint32_t> before(Vec3d point, Vec3d normal, const PlaneElement& element) const;
+  // The edges of some triangles.
+  shadow::EdgeMesh mesh_of(const std::vector<std::uint32_t>& numbers) const;
+
+ private:
+  void drop_outer(const std::vector<PlaneElement>& elements);
+  void add_face(const scene::MergedPolygon& polygon, const std::vector<ObstacleTriangle>& triangles);
+
+  std::vector<ObstacleTriangle> triangles_;
+  std::vector<std::uint32_t> face_of_;
+  std::vector<std::vector<Vec3d>> faces_;  // outlines of faces without holes; empty: not one plane polygon
+  BoxTree<Box3d> tree_;
+};
+
+}  // namespace steradian::exchange
