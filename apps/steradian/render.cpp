@@ -345,15 +345,11 @@ void add_render(CommandLine& line) {
   verb.add("--table", r.table, "a fitted lobe instead of GGX (.json of `steradian fit`)").group("Light");
   verb.add_flag("--multiple-scattering", options->multiple_scattering, "add the energy that single scattering by GGX loses").group("Light");
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
-  verb.add("--shadow-error", r.shadow_error, "fraction of a pixel's light within which shadows are estimated; 0: exact")
-      .range(0.0, 1.0)
-      .group("Light");
+  verb.add("--shadow-error", r.shadow_error, "dim lights may miss this fraction of a pixel; 0: exact").range(0.0, 1.0).group("Light");
   verb.add_word("--terminator", r.terminator, "shadow edge of curved meshes on themselves").group("Light");
   verb.add_word("--indirect", r.indirect.mode, "one bounce, by virtual lights or paths").group("Light");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
-  verb.add("--bounce-error", r.bounce_error, "of --bounces: estimated error over the mean light; 0: by --quality")
-      .range(0.0, 1.0)
-      .group("Light");
+  verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
   verb.add("--reflections", r.reflections, "of --bounces: mirrors in a row").range(0, 16).group("Light");
   verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");

@@ -17,7 +17,7 @@ FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, c
       maps_(parts.maps),
       shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, maps_.get(),
                camera_.steps(options.aa)},
-      passed_(scene, *rays_, shading_, options.background ? environment_.get() : nullptr),
+      passed_(scene, *rays_, shading_, background()),
       tiles_x_((options.width + kTileSide - 1) / kTileSide),
       tiles_y_((options.height + kTileSide - 1) / kTileSide) {
   halves_of_rays_.resize(static_cast<std::size_t>(tile_count()));
@@ -29,6 +29,11 @@ std::unique_ptr<const environment::EnvironmentLight> FrameSurfaces::prepare_envi
   auto light = std::make_unique<const environment::EnvironmentLight>(scene_, fitted);
   environment_build_ms_ = ms_since(start);
   return light;
+}
+
+PassedRays::Background FrameSurfaces::background() const {
+  if (environment_ == nullptr || !options_.background) return {};
+  return [this](Vec3f direction) { return environment_->background(direction); };
 }
 
 std::span<const AreaLight> FrameSurfaces::environment_spots() const {

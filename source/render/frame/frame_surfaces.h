@@ -62,6 +62,7 @@ class FrameSurfaces {
 
  private:
   std::unique_ptr<const environment::EnvironmentLight> prepare_environment(const ClassicTable* fitted);
+  PassedRays::Background background() const;
   void show_background(const TileVector& directions, SurfaceTile& tile, const TilePlane* behind) const;
 
   const Scene& scene_;

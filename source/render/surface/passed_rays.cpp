@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace steradian {
@@ -28,8 +29,8 @@ Vec3f attenuation(const SurfaceMaterial& m, float distance) {
 
 }  // namespace
 
-PassedRays::PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, const environment::EnvironmentLight* background)
-    : scene_(scene), rays_(rays), shading_(shading), background_(background), pixel_(size_of_pixel(shading.steps)) {}
+PassedRays::PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, Background background)
+    : scene_(scene), rays_(rays), shading_(shading), background_(std::move(background)), pixel_(size_of_pixel(shading.steps)) {}
 
 void PassedRays::begin(const TilePlane& distances, Ways& ways) {
   for (TilePlane* plane : {&ways.shares.x, &ways.shares.y, &ways.shares.z}) plane->fill(1);
@@ -123,7 +124,7 @@ void PassedRays::fill(const Ways& ways, Lamps lamps, SurfaceTile& tile) const {
     const Vec3f origin = get(ways.origin, i), direction = get(ways.direction, i);
     RTCRayHit hit;
     if (!rays_.intersect(origin, direction, hit)) {
-      if (background_ != nullptr && lamps == Lamps::shown) put(tile.radiance, i, background_->background(direction));
+      if (background_ && lamps == Lamps::shown) put(tile.radiance, i, background_(direction));
       continue;
     }
     const Mesh& mesh = scene_.meshes[hit.hit.geomID];

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
-#include "render/environment/environment_light.h"
 #include "render/surface/camera_rays.h"
 #include "render/surface/gbuffer.h"
 
@@ -13,8 +13,10 @@ namespace steradian {
 
 class PassedRays {
  public:
-  // All but the pixels' steps must outlive this object. background: what rays show that leave the scene; null: black.
-  PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, const environment::EnvironmentLight* background);
+  // The radiance that rays of a unit direction show that leave the scene.
+  using Background = std::function<Vec3f(Vec3f direction)>;
+  // Scene, rays and shading must outlive this object. background: empty: black.
+  PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, Background background);
 
   // Rays of one tile.
   struct Ways {
@@ -42,7 +44,7 @@ class PassedRays {
   const Scene& scene_;
   const RayScene& rays_;
   const Shading& shading_;
-  const environment::EnvironmentLight* const background_;
+  const Background background_;
   const float pixel_;  // size of a pixel at distance 1
 };
 
