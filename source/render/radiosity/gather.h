@@ -2,7 +2,7 @@
 //
 // A diffuse lobe takes the mean over a grid of directions, weighted by the cosine. Each of 4 x 4 pixels shifts the grid by its own fraction
 // of a cell, and a linear fit over the pixels of one surface joins their means: together they see sixteen times as many directions. A
-// glossy lobe takes directions of its own. Lobes narrower than kLeastWidth would show single patches: Mirrors serves them.
+// glossy lobe takes directions of its own. Lobes narrower than kLeastWidth would show single patches: find_mirrored serves them.
 #pragma once
 
 #include <array>

@@ -68,12 +68,13 @@ LaneInts left_ray(const LaneWork& work, const LaneView& view, std::size_t event_
   return result;
 }
 
-// Change of the count on a segment's left up to positions t on it. unsure: lanes where another crossing is too near to decide.
+// Change of the count on a segment's left up to positions t on it, in some lanes. unsure: lanes where another crossing is too near to
+// decide.
 struct Before {
   LaneInts change;
   std::uint32_t unsure;
 };
-Before before(const LaneWork& work, std::uint32_t number, const LaneReals& t) {
+Before before(const LaneWork& work, std::uint32_t number, const LaneReals& t, std::uint32_t lanes) {
   const PackReal apart = broadcast(1e-6f);  // floats below 1 are 6e-8 off
   Before result;
   LaneInts close;
@@ -81,12 +82,16 @@ Before before(const LaneWork& work, std::uint32_t number, const LaneReals& t) {
     put(result.change, i, PackInt(0));
     put(close, i, PackInt(0));
   });
-  for (std::uint32_t k = work.crossing_first[number]; k < work.crossing_first[number + 1]; ++k)
+  for (std::uint32_t k = work.crossing_first[number]; k < work.crossing_first[number + 1]; ++k) {
+    std::uint32_t nearer = 0;  // lanes that have not passed t
     each_pack([&](std::size_t i) {
       const PackReal d = get(work.sorted_t[k], i) - get(t, i);
       put(result.change, i, get(result.change, i) + where(d < PackReal(0.0), get(work.sorted_change[k], i)));
       put(close, i, get(close, i) + where(abs(d) <= apart, PackInt(1)));
+      nearer |= bits_of(d <= apart) << i;
     });
+    if ((nearer & lanes) == 0) break;
+  }
   result.unsure = lane_bits([&](std::size_t i) { return get(close, i) > PackInt(1); });
   return result;
 }
@@ -101,7 +106,7 @@ void take_across(const LaneWork& work, std::uint32_t number) {
     const SegmentLanes& e = work.segments[other];
     std::uint32_t lanes = c.mask & e.known & ~static_cast<std::uint32_t>(g.known | e.tied | g.tied);
     if (lanes == 0) continue;
-    const Before on_e = before(work, other, as_f ? c.t_e : c.t_f), on_g = before(work, number, as_f ? c.t_f : c.t_e);
+    const Before on_e = before(work, other, as_f ? c.t_e : c.t_f, lanes), on_g = before(work, number, as_f ? c.t_f : c.t_e, lanes);
     lanes &= ~(on_e.unsure | on_g.unsure);
     const std::uint32_t from_right = as_f ? c.e_to_left : c.f_to_left;  // e comes from g's right
     each_pack([&](std::size_t i) {

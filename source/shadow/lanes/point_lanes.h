@@ -1,6 +1,5 @@
 // PointLanes: the parts of a light that up to sixteen neighbouring points see, computed at once. The result equals each point's own
-// segments, arrangement and region. If that needs more than the lowest level and a position well inside it, the point falls back to its
-// own search.
+// segments, arrangement and region. Without a position well inside the region, the point falls back to its own search.
 #pragma once
 
 #include <array>
@@ -23,8 +22,8 @@ class PointLanes {
     bool arranged = false;                          // true: also if it sees no occluder
   };
 
-  // edges: in the coordinates of `base`. base: the points' frame, or another one if
-  // `turned`. The outlines of all points have the same number of segments.
+  // edges: in the coordinates of `base`. base: the points' frame, or another one if `turned`. The outlines of all points have the same
+  // number of segments.
   void find(const LaneTable& packs, const EdgeArrays& edges, const LightFrame& base, bool turned, std::span<const Point> points);
 
   // Lanes that see occluders. Of the other lanes, only those to be arranged are in the results below.

@@ -40,14 +40,15 @@ struct ByScalars {
 
   // Distance from a position to the nearest segment.
   double clearance(Place q) const {
-    double least = INFINITY;
+    double least2 = INFINITY;
     for (const Segment& s : set.segments) {
       const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y, x = q.x - s.a.x, y = q.y - s.a.y;
       const double length2 = fx * fx + fy * fy;
       const double t = length2 > 0 ? std::clamp((x * fx + y * fy) / length2, 0.0, 1.0) : 0.0;
-      least = std::min(least, std::hypot(x - t * fx, y - t * fy));
+      const double rx = x - t * fx, ry = y - t * fy;
+      least2 = std::min(least2, rx * rx + ry * ry);
     }
-    return least;
+    return std::sqrt(least2);
   }
   // Distance from a position along a direction to the next segment other than `but`.
   double distance_to_next(Place from, Place direction, std::uint32_t but) const {
