@@ -9,31 +9,10 @@
 #include "exchange/pairs/pair.h"
 #include "steradian/error.h"
 #include "steradian/view_factors.h"
+#include "support/exchange_faces.h"
 
 namespace steradian::exchange::matrix_test {
 namespace {
-
-// The inside of a unit cube, turned by 0.7 about a skew axis, with n x n elements a face.
-std::vector<ViewFactorFace> cube(int n) {
-  std::vector<ViewFactorFace> faces;
-  const Vec3d axis = normalized(Vec3d{1, 2, 3}), x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  const auto add = [&](Vec3d corner, Vec3d a, Vec3d b) {
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const auto at = [&](int s, int t) {
-          return rotated(corner + a * (static_cast<double>(s) / n) + b * (static_cast<double>(t) / n), axis, 0.7);
-        };
-        faces.push_back({"", {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}});
-      }
-  };
-  add({}, x, y);
-  add(z, y, x);
-  add({}, y, z);
-  add(x, z, y);
-  add({}, z, x);
-  add(y, x, z);
-  return faces;
-}
 
 bool same_entries(const ViewFactors& a, const ViewFactors& b) {
   if (a.blocks.size() != b.blocks.size()) return false;
@@ -47,7 +26,7 @@ TEST(ViewFactors, RowsOfAClosedCubeAddUpToOneWithinTheirErrors) {
   for (const double eps : {1e-3, 1e-6, 1e-9}) {
     ViewFactorOptions options;
     options.eps = eps;
-    const ViewFactors factors = view_factors(cube(8), options);
+    const ViewFactors factors = view_factors(turned_cube(8), options);
     for (std::size_t i = 0; i < factors.size(); ++i) {
       EXPECT_LE(std::fabs(factors.row_sums[i] - 1), factors.row_errors[i] + 1e-14) << "row " << i << " at eps " << eps;
       EXPECT_LE(factors.row_errors[i], std::max(eps, 1e-12)) << i;
@@ -91,7 +70,7 @@ TEST(ViewFactors, PairsAgreeWithSinglePairs) {
 }
 
 TEST(ViewFactors, AnyNumberOfThreadsAndPartsGivesTheSameBits) {
-  const std::vector<ViewFactorFace> faces = cube(6);
+  const std::vector<ViewFactorFace> faces = turned_cube(6);
   const ViewFactors whole = view_factors(faces);
   {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -112,7 +91,7 @@ TEST(ViewFactors, AnyNumberOfThreadsAndPartsGivesTheSameBits) {
 }
 
 TEST(ViewFactors, GroupsAddUp) {
-  const std::vector<ViewFactorFace> faces = cube(3);
+  const std::vector<ViewFactorFace> faces = turned_cube(3);
   const ViewFactors factors = view_factors(faces);
   std::vector<std::size_t> groups;
   for (std::size_t i = 0; i < faces.size(); ++i) groups.push_back(i < 27 ? 0 : 1);
@@ -127,11 +106,11 @@ TEST(ViewFactors, GroupsAddUp) {
 TEST(ViewFactors, RefusesBadFacesAndOptionsByName) {
   ViewFactorOptions options;
   options.eps = 0;
-  EXPECT_THROW(view_factors(cube(1), options), UsageError);
+  EXPECT_THROW(view_factors(turned_cube(1), options), UsageError);
   options.eps = 1e-6;
   options.part = 3;
   options.parts = 2;
-  EXPECT_THROW(view_factors(cube(1), options), UsageError);
+  EXPECT_THROW(view_factors(turned_cube(1), options), UsageError);
   try {
     view_factors({{"lid", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}});
     FAIL() << "a face without area is taken";
@@ -143,7 +122,7 @@ TEST(ViewFactors, RefusesBadFacesAndOptionsByName) {
 
 TEST(ViewFactors, EveryInstructionSetAgrees) {
   // Sums of other lengths round otherwise: the sixteen operations of kProductRounding.
-  const std::vector<ViewFactorFace> faces = cube(4);
+  const std::vector<ViewFactorFace> faces = turned_cube(4);
   const ViewFactors widest = view_factors(faces);
   for (const Simd simd : available_simd()) {
     setenv("STERADIAN_SIMD", name_of(simd), 1);

@@ -82,14 +82,18 @@ TEST(LtcFiles, JsonAndExrHoldTheTable) {
   EXPECT_EQ(word(exr[0].bytes, 0), 20000630u);  // EXR's magic number
 }
 
-// Both normalisations contain the same matrices up to a factor, and name themselves.
-TEST(LtcFiles, EveryNormalisationIsTheSameLobes) {
+LtcTable small_fit() {
   FitOptions options;
   options.size = 4;
   options.nodes = 12;
   options.lights = 8;
   options.light_directions = options.magnitude_directions = 256;
-  const LtcTable fit = fit_table(lobe_family("ggx"), options);
+  return fit_table(lobe_family("ggx"), options);
+}
+
+// Both normalisations contain the same matrices up to a factor, and name themselves.
+TEST(LtcFiles, EveryNormalisationIsTheSameLobes) {
+  const LtcTable fit = small_fit();
   const auto middle = nlohmann::json::parse(classic_files(classic_table(fit), "ggx", "x.json")[0].bytes);
   const auto last = nlohmann::json::parse(classic_files(classic_table(fit, ClassicNormalisation::last), "ggx", "x.json")[0].bytes);
   EXPECT_FALSE(middle.contains("normalisation"));
@@ -107,12 +111,7 @@ TEST(LtcFiles, EveryNormalisationIsTheSameLobes) {
 
 // `render --table` and `eval` read both; four roundings of floats are between them.
 TEST(LtcFiles, BothNormalisationsAreReadAsOneTable) {
-  FitOptions options;
-  options.size = 4;
-  options.nodes = 12;
-  options.lights = 8;
-  options.light_directions = options.magnitude_directions = 256;
-  const LtcTable fit = fit_table(lobe_family("ggx"), options);
+  const LtcTable fit = small_fit();
   const auto read = [&](ClassicNormalisation normalisation) {
     const std::string path = scene::test_path("normalisations.json");
     write_files(classic_files(classic_table(fit, normalisation), "ggx", path));

@@ -11,6 +11,7 @@
 #include "exchange/obstacles/hidden_part.h"
 #include "night.h"
 #include "steradian/view_factors.h"
+#include "support/exchange_faces.h"
 
 namespace steradian::exchange::obstructed_test {
 namespace {
@@ -156,12 +157,6 @@ TEST(ObstructedExchange, HasTheExactFactorsOfPinneyAndBeansRoom) {
       }
     }
   }
-}
-
-Vec3d random_place(std::mt19937& random) {
-  std::uniform_real_distribution<double> place(-1, 1);
-  const double x = place(random), y = place(random), z = place(random);
-  return {x, y, z};
 }
 
 TEST(ObstructedExchange, BothDirectionsAgreeBehindRandomBoxes) {

@@ -13,6 +13,7 @@
 #include "exchange/pairs/edge_pair.h"
 #include "exchange/pairs/gauss_rules.h"
 #include "steradian/error.h"
+#include "support/exchange_faces.h"
 
 namespace steradian::exchange::pair_test {
 namespace {
@@ -131,17 +132,11 @@ Extended dilogarithm_form(Vec3d p0, Vec3d p1, Vec3d q0, Vec3d q1) {
   return corner(x0 + a, y0 + b) - corner(x0 + a, y0) - corner(x0, y0 + b) + corner(x0, y0);
 }
 
-Vec3d random_point(std::mt19937& random) {
-  std::uniform_real_distribution<double> place(-1, 1);
-  const double x = place(random), y = place(random), z = place(random);
-  return {x, y, z};
-}
-
 TEST(EdgePair, AgreesWithTheDilogarithmForm) {
   std::mt19937 random(45);
   double worst = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vec3d p0 = random_point(random), p1 = random_point(random), q0 = random_point(random), q1 = random_point(random);
+    const Vec3d p0 = random_place(random), p1 = random_place(random), q0 = random_place(random), q1 = random_place(random);
     const double sine = length(cross(normalized(p1 - p0), normalized(q1 - q0)));
     if (sine < 0.1 || length(p1 - p0) < 0.1 || length(q1 - q0) < 0.1) continue;
     const LogIntegral j = integrate_log(p0, p1, q0, q1, 1e-15);
@@ -176,7 +171,7 @@ TEST(ExchangeArea, ClosesRandomTetrahedra) {
   std::mt19937 random(7);
   for (int i = 0; i < 2000; ++i) {
     Vec3d v[4];
-    for (Vec3d& p : v) p = random_point(random);
+    for (Vec3d& p : v) p = random_place(random);
     if (dot(cross(v[1] - v[0], v[2] - v[0]), v[3] - v[0]) < 0) std::swap(v[0], v[1]);
     const PlaneElement faces[4] = {triangle(v[0], v[1], v[2]), triangle(v[0], v[3], v[1]), triangle(v[1], v[3], v[2]),
                                    triangle(v[2], v[3], v[0])};
@@ -196,8 +191,8 @@ TEST(ExchangeArea, ClosesRandomTetrahedra) {
 TEST(ExchangeArea, IsTheSumOverPartsAndKeepsItsScale) {
   std::mt19937 random(11);
   for (int i = 0; i < 200; ++i) {
-    const PlaneElement a = parallelogram(random_point(random), random_point(random), random_point(random));
-    const PlaneElement b = parallelogram(random_point(random), random_point(random), random_point(random));
+    const PlaneElement a = parallelogram(random_place(random), random_place(random), random_place(random));
+    const PlaneElement b = parallelogram(random_place(random), random_place(random), random_place(random));
     const ExchangeArea whole = exchange_area(a, b, 1e-10);
     ExchangeArea parts;
     const Vec3d through = a.centroid + (a.half_a + a.half_b) * 0.1, across = cross(a.normal, a.half_a + a.half_b * 0.3);
@@ -247,11 +242,11 @@ TEST(ExchangeArea, IsZeroBehindAndInThePlane) {
 TEST(ExchangeArea, ProductBoundHolds) {
   std::mt19937 random(3);
   for (int i = 0; i < 300; ++i) {
-    const Vec3d way = normalized(random_point(random));
+    const Vec3d way = normalized(random_place(random));
     const PlaneElement a =
-        i % 2 ? parallelogram({}, random_point(random), random_point(random)) : triangle({}, random_point(random), random_point(random));
+        i % 2 ? parallelogram({}, random_place(random), random_place(random)) : triangle({}, random_place(random), random_place(random));
     const Vec3d corner = way * 6.0;
-    const PlaneElement b = parallelogram(corner, random_point(random), random_point(random));
+    const PlaneElement b = parallelogram(corner, random_place(random), random_place(random));
     const PlaneElement front = in_front_of(a, b), other = in_front_of(b, a);
     if (front.area != a.area || other.area != b.area) continue;
     const double exact = exchange_by_product(a, b, 6).value;

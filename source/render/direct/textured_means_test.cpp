@@ -46,7 +46,7 @@ Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(
 
 // Every point against its own double, for every instruction set. Each stops splitting cells when their bounds sum to kTolerance of the
 // mean. A pack splits the cells that any of its points needs split. On such a rough texture, the two therefore differ by the error of
-// either. That is 2.3 % at most (docs/theory/ltc.md, "Textured lights"), and a quarter of it in the mean square.
+// either. That is 2.5 % at most (docs/theory/ltc.md, "Textured lights"), and a quarter of it in the mean square.
 TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
   Random random(21);
   const Window window(random);
@@ -93,7 +93,7 @@ TEST(TexturedMeans, PacksFollowTheMeanOfEveryPoint) {
       }
       EXPECT_GT(found, ggx ? 400 : 800);
       EXPECT_LT(worst, static_cast<double>(kTextureTolerance)) << name_of(simd) << " " << ggx;
-      EXPECT_LT(std::sqrt(square / found), 0.023 / 4) << name_of(simd) << " " << ggx;
+      EXPECT_LT(std::sqrt(square / found), 0.025 / 4) << name_of(simd) << " " << ggx;
     }
 }
 

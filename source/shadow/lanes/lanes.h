@@ -135,7 +135,7 @@ struct LaneWork {
   std::uint32_t *end_first = nullptr, *ends = nullptr;                // by place: ends of its segments, 2 * segment + end
   LaneBits* shared_by_two = nullptr;                                  // by place: lanes where exactly two segments end
   std::size_t place_count = 0;
-  std::uint32_t *found = nullptr, *stack = nullptr, *events = nullptr;  // one number per segment
+  std::uint32_t *stack = nullptr, *events = nullptr;  // one number per segment
   ExactLanes exact;
 };
 

@@ -175,10 +175,10 @@ ExactLanes PointLanes::exact() const {
 // Allocates memory for all results that depend on the segments.
 void PointLanes::make_room() {
   const std::size_t n = segments_.size(), room = padded(n);
-  if (found_.size() < room) {
+  if (events_.size() < room) {
     for (std::vector<float>* v : {&low_x_, &high_x_, &low_y_, &high_y_}) v->resize(room);
     for (std::vector<float>* v : {&block_low_x_, &block_high_x_, &block_low_y_, &block_high_y_}) v->resize(padded(room / kPadding));
-    found_.resize(room);
+    place_in_set_.resize(room);
     events_.resize(room);
     crossing_first_.resize(room + 1);
     ends_.resize(2 * room);
@@ -249,7 +249,6 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   work_.end_first = end_first_.data();
   work_.ends = ends_.data();
   work_.shared_by_two = shared_by_two_.data();
-  work_.found = found_.data();
   work_.stack = stack_.data();
   work_.events = events_.data();
   work_.exact = exact();
@@ -321,20 +320,20 @@ Width PointLanes::width_in(std::size_t lane) {
     if (backwards) std::swap(piece.left, piece.right);
     pieces_of_lane_.push_back(piece);
   };
-  std::vector<std::uint32_t>& place = found_;  // of a segment in the set
   for (std::uint32_t number = 0; number < work_.count; ++number) {
     const SegmentLanes& s = segments_[number];
     if ((s.present >> lane & 1) == 0) continue;
-    place[number] = static_cast<std::uint32_t>(of_lane_.segments.size());
+    place_in_set_[number] = static_cast<std::uint32_t>(of_lane_.segments.size());
     const Segment segment = this->segment(number, lane);
     of_lane_.segments.push_back(segment);
     if ((s.left_a >> lane & 1) != 0) of_lane_.events.push_back({segment.a.y, segment.a.dy, segment.weight});
     if ((s.left_b >> lane & 1) != 0) of_lane_.events.push_back({segment.b.y, segment.b.dy, -segment.weight});
-    if ((s.bounds >> lane & 1) != 0) add(s.ax.at[lane], s.ay.at[lane], s.bx.at[lane], s.by.at[lane], place[number], segment.weight > 0);
+    if ((s.bounds >> lane & 1) != 0)
+      add(s.ax.at[lane], s.ay.at[lane], s.bx.at[lane], s.by.at[lane], place_in_set_[number], segment.weight > 0);
   }
   for (std::size_t k = 0; k < work_.pieces.size; ++k) {
     const CrossedPiece& p = pieces_[k];
-    if (p.lane == lane) add(p.ax, p.ay, p.bx, p.by, place[p.segment], false);
+    if (p.lane == lane) add(p.ax, p.ay, p.bx, p.by, place_in_set_[p.segment], false);
   }
   return width_of(of_lane_, pieces_of_lane_, level, thin_places_[lane].x, thin_places_[lane].y);
 }

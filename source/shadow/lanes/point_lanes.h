@@ -100,7 +100,7 @@ class PointLanes {
   std::vector<float> low_x_, high_x_, low_y_, high_y_, block_low_x_, block_high_x_, block_low_y_, block_high_y_;
   std::vector<LaneReals> sorted_t_;
   std::vector<LaneInts> sorted_change_;
-  std::vector<std::uint32_t> crossing_first_, crossing_list_, end_first_, ends_, found_, stack_, events_;
+  std::vector<std::uint32_t> crossing_first_, crossing_list_, end_first_, ends_, stack_, events_, place_in_set_;
   std::vector<LaneBits> shared_by_two_;
   SegmentSet horizon_, of_lane_;
   std::vector<Piece> pieces_of_lane_;
