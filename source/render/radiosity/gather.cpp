@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
-#include "core/box.h"
 #include "core/lattices.h"
 #include "lobes/lobe.h"
 #include "render/environment/environment_light.h"  // mean_grazing
@@ -39,13 +39,10 @@ bool is_gathered(const SurfaceLobe& lobe) {
 class BlockFit {
  public:
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
-  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked) : surfaces_(surfaces), asked_(asked) {
-    Box3f box;
-    SixteenSurfaces::each(asked, [&](std::size_t i) { box.add(surfaces.surface[i].position); });
-    reach_ = kFlat * length(box.size());
-  }
+  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked) : surfaces_(surfaces), asked_(asked) {}
 
-  // The value of the fit at a pixel, and the standard error of the fit. Few pixels keep their own value and error.
+  // The value of the fit at a pixel, and an estimate of its error: two standard errors, and the distance from the pixel's own value. Where
+  // the values differ more than their rays explain, the pixel's own value takes the place of the fit's. Few pixels keep their own.
   struct Value {
     Vec3f value, error;
   };
@@ -54,11 +51,11 @@ class BlockFit {
     const Surface& here = surfaces_.surface[lane];
     SixteenSurfaces::each(asked_, [&](std::size_t i) {
       const Surface& there = surfaces_.surface[i];
-      if (dot(here.normal, there.normal) > kSameDirection && std::fabs(dot(there.position - here.position, here.normal)) <= reach_)
-        same |= 1u << i;
+      const Vec3f way = there.position - here.position;
+      if (dot(here.normal, there.normal) > kSameDirection && std::fabs(dot(way, here.normal)) <= kFlat * length(way)) same |= 1u << i;
     });
     const int count = std::popcount(same);
-    if (count < kFewest) return {values[lane], errors[lane]};
+    if (count < kFewest) return {values[lane], errors[lane] * kDeviations};
     // Least squares in coordinates about the mean: the two slopes and the mean are nearly independent.
     float mean_x = 0, mean_y = 0;
     Vec3f mean{};
@@ -90,11 +87,13 @@ class BlockFit {
       slope_y = (vy * xx - vx * xy) * (1 / determinant);
     }
     const auto fit = [&](std::size_t i) { return mean + slope_x * (x_of(i) - mean_x) + slope_y * (y_of(i) - mean_y); };
-    Vec3f squares{};
+    Vec3f squares{}, of_rays{};
     SixteenSurfaces::each(same, [&](std::size_t i) {
       const Vec3f d = values[i] - fit(i);
       squares += d * d;
+      of_rays += errors[i] * errors[i];
     });
+    of_rays = of_rays * over;
     const Vec3f variance = squares * (1 / static_cast<float>(count - 3));
     // Slopes that the differences between the rays explain shrink to zero: they would show as steps from block to block.
     const auto shrunk = [&](Vec3f slope, float moment) {
@@ -105,21 +104,29 @@ class BlockFit {
     slope_y = shrunk(slope_y, yy);
     const Vec3f value = fit(lane);
     const float share = 3 * over;  // of three parameters
-    return {{std::clamp(value.x, low.x, high.x), std::clamp(value.y, low.y, high.y), std::clamp(value.z, low.z, high.z)},
-            {std::sqrt(variance.x * share), std::sqrt(variance.y * share), std::sqrt(variance.z * share)}};
+    const auto joined = [&](float own, float fitted, float ray_variance, float fit_variance) {
+      const float kept = fit_variance > ray_variance ? 1 - ray_variance / fit_variance : 0;  // of the own value
+      const float deviation = std::sqrt((1 - kept) * (1 - kept) * share * fit_variance + kept * kept * ray_variance);
+      return std::pair{fitted + (own - fitted) * kept, kDeviations * deviation + (1 - kept) * std::fabs(own - fitted)};
+    };
+    const Vec3f own = values[lane];
+    const auto x = joined(own.x, std::clamp(value.x, low.x, high.x), of_rays.x, variance.x);
+    const auto y = joined(own.y, std::clamp(value.y, low.y, high.y), of_rays.y, variance.y);
+    const auto z = joined(own.z, std::clamp(value.z, low.z, high.z), of_rays.z, variance.z);
+    return {{x.first, y.first, z.first}, {x.second, y.second, z.second}};
   }
 
  private:
   static constexpr float kSameDirection = 0.98f;  // cosine
-  static constexpr float kFlat = 0.1f;            // distance from the plane over the extent of all pixels
+  static constexpr float kFlat = 0.1f;            // distance from the plane over the distance
   static constexpr int kFewest = 6;               // pixels of a fit
+  static constexpr float kDeviations = 2;         // standard errors of an error
   static constexpr float kDoubt = 4;              // variances below which a slope counts as chance
   static float x_of(std::size_t lane) { return static_cast<float>(lane % 4); }
   static float y_of(std::size_t lane) { return static_cast<float>(lane / 4); }
 
   const SixteenSurfaces& surfaces_;
   const std::uint32_t asked_;
-  float reach_;
 };
 
 }  // namespace
