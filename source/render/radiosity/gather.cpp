@@ -134,6 +134,8 @@ class BlockFit {
 Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, double error, int samples)
     : light_(light), rays_(rays), samples_(std::min(samples, kMostShifts)), tolerance_(static_cast<float>(error * light.mean_radiance())) {
   for (int level = 0; level <= (error > 0 ? kFinest : 0); ++level) add_grids(rows_for(quality) << level);
+  const auto rays_over_sphere = static_cast<float>(grids_[0][0].size());
+  near_ = std::sqrt(kLanes * light.bright_area() * rays_over_sphere / (4 * std::numbers::pi_v<float>));
 }
 
 // Adds the grids of a level, one for each primary sample.
@@ -156,9 +158,9 @@ void Gather::add_grids(int rows) {
   }
 }
 
-// Adds the irradiance over pi that the bright sides send. A place counts as a disk of the area that it stands for.
-void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
-                        std::array<Vec3f, kLanes>& mean) const {
+// Adds the irradiance over pi that bright sides beyond near_ send, half of it to each half. A place counts as a disk of the area that it
+// stands for.
+void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, Halves& halves) const {
   const std::size_t every = kLanes >> (2 * level);  // a pixel takes one of so many places
   const std::vector<BrightPlace>& places = light_.bright_places();
   const float soft = light_.bright_area() / std::numbers::pi_v<float>;
@@ -174,19 +176,22 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       const Vec3d end = rays_.off_surface(static_cast<Vec3d>(place.position), static_cast<Vec3d>(place.normal));
       const Vec3f way = static_cast<Vec3f>(end - from);
       const float here = dot(way, s.normal), there = -dot(way, place.normal), square = dot(way, way);
-      if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0)) return;
+      if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0) || square <= near_ * near_) return;
       light[i] = place.power * (static_cast<float>(every) * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
       rays.set(i, from, end - from);
       traced |= 1u << i;
     });
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { mean[i] += light[i]; });
+    const std::size_t half = first / every % 2;
+    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all),
+                          [&](std::size_t i) { halves[i][half] += light[i]; });
   }
 }
 
 // The mean radiance about each surface, weighted by the cosine, times its albedo.
 Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const {
-  std::array<std::array<Vec3f, 2>, kLanes> light{};  // by half of the rays
+  Halves light{}, bright{};
   std::array<std::array<float, 2>, kLanes> weight{};
+  std::array<Vec3f, kLanes> basis{};  // what the size of the patches changes
   BounceRays rays(rays_, light_.patches());
   const std::vector<Cell>& cells = grids_[level][static_cast<std::size_t>(sample % samples_)];
   for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -199,17 +204,22 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
       rays.set(i, surfaces.surface[i], to);
     });
     const auto met = rays.trace();
-    for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i] != kNoSide && !light_.is_bright(met[i])) light[i][k % 2] += light_.radiance(met[i]) * cosine[i];
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (met[i].side == kNoSide || (light_.is_bright(met[i].side) && rays.distance(i) > near_)) continue;
+      const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
+      light[i][k % 2] += radiance;
+      basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
+    }
   }
+  add_bright(surfaces, asked, sample, level, bright);
   std::array<Vec3f, kLanes> mean{}, error{};
   SixteenSurfaces::each(asked, [&](std::size_t i) {
     const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
-    mean[i] = over(light[i][0] + light[i][1], weight[i][0] + weight[i][1]);
-    const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f;
-    error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+    mean[i] = over(light[i][0] + light[i][1], weight[i][0] + weight[i][1]) + bright[i][0] + bright[i][1];
+    const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f, b = bright[i][0] - bright[i][1];
+    error[i] = {std::hypot(d.x, b.x), std::hypot(d.y, b.y), std::hypot(d.z, b.z)};
+    basis[i] = over(basis[i], weight[i][0] + weight[i][1]);
   });
-  add_bright(surfaces, asked, sample, level, mean);
   const BlockFit fit(surfaces, asked);
   Result result;
   SixteenSurfaces::each(asked, [&](std::size_t i) {
@@ -218,7 +228,7 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
     const auto passed = static_cast<float>(1 - static_cast<double>(s.fresnel_loss) * environment::mean_grazing(cos_view));
     const BlockFit::Value value = fit.at(i, mean, error);
     result.radiance[i] = s.albedo * value.value * passed;
-    result.error[i] = s.albedo * value.error * passed;
+    result.error[i] = s.albedo * (value.error + Vec3f{std::fabs(basis[i].x), std::fabs(basis[i].y), std::fabs(basis[i].z)}) * passed;
   });
   return result;
 }
@@ -257,7 +267,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i] != kNoSide) halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
+      if (met[i].side != kNoSide) halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
   }
   Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {

@@ -81,6 +81,7 @@ PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& 
   const std::size_t sides = patches_.side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
+  parts_of_.assign(sides, kNoSide);
   find_direct(add_direct);
   refine_direct(add_direct);
   radiance_ = direct_;
@@ -89,6 +90,7 @@ PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& 
     find_links(std::clamp(kMostLinks / sides, std::size_t{16}, size_for(options.quality).rays) / BounceRays::kLanes * BounceRays::kLanes);
     iterate(options.bounces);
   }
+  find_coarse();
   find_bright_sides();
 }
 
@@ -136,10 +138,10 @@ void PatchLight::find_direct(const AddDirect& add_direct) {
   });
 }
 
-// Sides beside which the direct light changes a lot take the mean over sixteen places: a border of light or shadow crosses them.
+// Sides beside which the direct light changes a lot get a light for each part, and its mean: a border of light or shadow crosses them.
 void PatchLight::refine_direct(const AddDirect& add_direct) {
   constexpr double kChange = 0.1;  // of the mean light of the sides
-  constexpr std::size_t kPlaces = 16, kTileSides = kTilePixels / kPlaces;
+  constexpr std::size_t kTileSides = kTilePixels / kPatchParts;
   const auto sides = static_cast<std::uint32_t>(patches_.side_count());
   const auto light = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(direct_[side])); };
   double power = 0, area = 0;
@@ -154,12 +156,14 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
     const Patches::Site& at = patches_.site(side);
     const auto changes_to = [&](float u, float v) {
       if (!(u > 0) || !(v > 0) || !(u + v < 1)) return false;
-      return std::fabs(light(patches_.side_at(at.mesh, at.triangle, u, v, Patches::is_front(side))) - light(side)) > least;
+      return std::fabs(light(patches_.place_at(at.mesh, at.triangle, u, v, Patches::is_front(side)).side) - light(side)) > least;
     };
     if (changes_to(at.u + at.step, at.v) || changes_to(at.u - at.step, at.v) || changes_to(at.u, at.v + at.step) ||
         changes_to(at.u, at.v - at.step))
       refined.push_back(side);
   }
+  change_in_parts_.resize(refined.size());
+  for (std::uint32_t k = 0; k < refined.size(); ++k) parts_of_[refined[k]] = k;
   const std::size_t tiles = (refined.size() + kTileSides - 1) / kTileSides;
   each(tiles, [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
@@ -167,15 +171,21 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
     tile->seed = number;
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       put_nothing(*tile, i);
-      const std::size_t k = number * kTileSides + i / kPlaces;
-      if (k < refined.size()) put_white(*tile, i, surface_at_site(refined[k], patches_.place_in(refined[k], i % kPlaces)));
+      const std::size_t k = number * kTileSides + i / kPatchParts;
+      if (k >= refined.size()) continue;
+      put_white(*tile, i, surface_at_site(refined[k], patches_.site({refined[k], static_cast<std::uint32_t>(i % kPatchParts)})));
     }
     add_direct(*tile);
     for (std::size_t k = 0; k < kTileSides && number * kTileSides + k < refined.size(); ++k) {
       const std::uint32_t side = refined[number * kTileSides + k];
-      Vec3f sum{};
-      for (std::size_t i = 0; i < kPlaces; ++i) sum += get(tile->radiance, k * kPlaces + i);
-      direct_[side] = sum * (1.0f / kPlaces) * reflectance_[side];
+      std::array<Vec3f, kPatchParts>& parts = change_in_parts_[parts_of_[side]];
+      Vec3f mean{};
+      for (std::size_t i = 0; i < kPatchParts; ++i) {
+        parts[i] = get(tile->radiance, k * kPatchParts + i) * reflectance_[side];
+        mean += parts[i] * (1.0f / kPatchParts);
+      }
+      direct_[side] = mean;
+      for (Vec3f& part : parts) part = part - mean;
     }
   });
 }
@@ -193,7 +203,7 @@ void PatchLight::find_links(std::size_t rays) {
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i)
         bounce.set(i, surface, static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn))));
       const auto met = bounce.trace();
-      std::copy(met.begin(), met.end(), links_.begin() + static_cast<std::ptrdiff_t>(side * rays + k));
+      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) links_[side * rays + k + i] = met[i].side;
     }
   });
 }
@@ -222,6 +232,23 @@ void PatchLight::iterate(int bounces) {
     ++iterations_;
     residual_ = largest > 0 ? change / largest : 0;
     if (bounces == kAllBounces && residual_ <= kSmallChange) break;
+  }
+}
+
+// Joins the sides of each group, whose patches have equal areas.
+void PatchLight::find_coarse() {
+  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  std::vector<Vec3f> sum(sides);
+  std::vector<float> count(sides);
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    const std::uint32_t group = patches_.group_of(side);
+    sum[group] += radiance_[side];
+    count[group] += 1;
+  }
+  coarse_.resize(sides);
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    const std::uint32_t group = patches_.group_of(side);
+    coarse_[side] = sum[group] * (1 / count[group]);
   }
 }
 

@@ -1,6 +1,7 @@
 // PatchLight: the radiance that the sides of all patches reflect, after any number of bounces.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -34,9 +35,15 @@ class PatchLight {
   static std::size_t direct_tiles(const Scene& scene, Quality quality);
 
   const Patches& patches() const { return patches_; }
-  Vec3f radiance(std::uint32_t side) const { return side == kNoSide ? Vec3f{} : radiance_[side]; }
+  // Radiance at a place that is on a side. A side beside a border of light has a direct light for each part.
+  Vec3f radiance(PatchPlace at) const {
+    const std::uint32_t parts = parts_of_[at.side];
+    return parts == kNoSide ? radiance_[at.side] : radiance_[at.side] + change_in_parts_[parts][at.part];
+  }
+  // Mean radiance over the group of sides around it: what patches of twice the size would send.
+  Vec3f coarse_radiance(PatchPlace at) const { return coarse_[at.side]; }
   // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().
-  bool is_bright(std::uint32_t side) const { return side != kNoSide && !bright_.empty() && bright_[side] != 0; }
+  bool is_bright(std::uint32_t side) const { return !bright_.empty() && bright_[side] != 0; }
   const std::vector<BrightPlace>& bright_places() const { return places_; }
   float bright_area() const { return bright_area_; }       // of the part that one place stands for
   double mean_radiance() const { return mean_radiance_; }  // luminance, over the sides that send light
@@ -51,6 +58,7 @@ class PatchLight {
   void refine_direct(const AddDirect& add_direct);
   void find_links(std::size_t rays);
   void iterate(int bounces);
+  void find_coarse();
   void find_bright_sides();
   float area_of(std::uint32_t side) const;
 
@@ -59,6 +67,9 @@ class PatchLight {
   const MipMaps& maps_;
   const Patches patches_;
   std::vector<Vec3f> reflectance_, direct_, radiance_;  // by side
+  std::vector<Vec3f> coarse_;              // by side
+  std::vector<std::uint32_t> parts_of_;    // by side: index below, or kNoSide
+  std::vector<std::array<Vec3f, kPatchParts>> change_in_parts_;  // from the side's mean
   std::size_t links_per_side_ = 0;
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
   std::vector<std::uint8_t> bright_;  // by side; empty: none is
