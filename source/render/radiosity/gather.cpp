@@ -105,8 +105,8 @@ class BlockFit {
     const Vec3f value = fit(lane);
     const float share = 3 * over;  // of three parameters
     const auto joined = [&](float own, float fitted, float ray_variance, float fit_variance) {
-      const float kept = fit_variance > ray_variance ? 1 - ray_variance / fit_variance : 0;  // of the own value
-      const float deviation = std::sqrt((1 - kept) * (1 - kept) * share * fit_variance + kept * kept * ray_variance);
+      const float kept = fit_variance > kDoubt * ray_variance ? 1 - kDoubt * ray_variance / fit_variance : 0;  // of the own value
+      const float deviation = std::sqrt((1 - kept) * (1 - kept) * share * fit_variance + kept * kept * kDoubt * ray_variance);
       return std::pair{fitted + (own - fitted) * kept, kDeviations * deviation + (1 - kept) * std::fabs(own - fitted)};
     };
     const Vec3f own = values[lane];
