@@ -19,13 +19,13 @@ void add(TileVector& to, std::size_t i, Vec3f r) {
 }  // namespace
 
 AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
-                   const AddDirect& add_to_patches, AddDirect add_direct)
+                   const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct)
     : width_(options.width),
       reflections_(options.reflections),
       eye_(surfaces.camera().origin()),
       patches_([&] {
         const auto start = Clock::now();
-        radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_to_patches);
+        radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_to_patches, find_incident);
         solve_ms_ = ms_since(start);
         return light;
       }()),

@@ -205,7 +205,9 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
     });
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
-      if (met[i].side == kNoSide || (light_.is_bright(met[i].side) && rays.distance(i) > near_)) continue;
+      if (met[i].side == kNoSide) continue;
+      light[i][k % 2] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
+      if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
       const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
       light[i][k % 2] += radiance;
       basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
@@ -254,7 +256,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
   for (std::size_t k = 0; k < count; ++k) {
     const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
-    std::array<Vec3f, kLanes> weight{};
+    std::array<Vec3f, kLanes> weight{}, to{};
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (!walkers[i]) continue;
       const lobes::Lobe& lobe = walkers[i]->lobe;
@@ -263,11 +265,13 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
       const double pdf = lobe.pdf(l);
       if (!(pdf > 0)) continue;
       weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) / (pdf * static_cast<double>(count)));
-      rays.set(i, surfaces.surface[i], static_cast<Vec3f>(walkers[i]->frame.to_world(l)));
+      to[i] = static_cast<Vec3f>(walkers[i]->frame.to_world(l));
+      rays.set(i, surfaces.surface[i], to[i]);
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i].side != kNoSide) halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
+      if (met[i].side != kNoSide)
+        halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i])) * weight[i];
   }
   Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {

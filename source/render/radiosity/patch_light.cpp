@@ -33,13 +33,17 @@ PatchSize size_for(Quality quality) {
   return {40'000, 128};
 }
 
-// Fraction of even light from above that a surface reflects, diffuse and glossy together.
+// Fractions of even light from above that a surface reflects: all, and by its glossy lobe.
 // The mean of Schlick's (1 - cos)^5 over the cosine is 1/21.
-Vec3f reflectance_of(const Surface& s) {
+struct Reflectance {
+  Vec3f all{}, glossy{};
+};
+Reflectance reflectance_of(const Surface& s) {
   if (s.material->unlit) return {};
   constexpr float kGrazing = 1.0f / 21;
-  const Vec3f all = s.albedo * (1 - s.fresnel_loss * kGrazing) + s.f0 + (s.f90 - s.f0) * kGrazing;
-  return {std::clamp(all.x, 0.0f, 1.0f), std::clamp(all.y, 0.0f, 1.0f), std::clamp(all.z, 0.0f, 1.0f)};
+  const auto within = [](Vec3f c) { return Vec3f{std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)}; };
+  const Vec3f glossy = s.f0 + (s.f90 - s.f0) * kGrazing;
+  return {within(s.albedo * (1 - s.fresnel_loss * kGrazing) + glossy), within(glossy)};
 }
 
 // Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Each side turns it by its own angle.
@@ -76,14 +80,19 @@ void each(std::size_t count, Work work) {
 }  // namespace
 
 PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
-                       const AddDirect& add_direct)
-    : scene_(scene), rays_(rays), maps_(maps), patches_(scene, size_for(options.quality).patches) {
+                       const AddDirect& add_direct, const FindIncident& find_incident)
+    : scene_(scene),
+      rays_(rays),
+      maps_(maps),
+      patches_(scene, size_for(options.quality).patches),
+      glossy_(patches_.side_count()) {
   const std::size_t sides = patches_.side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
   parts_of_.assign(sides, kNoSide);
   find_direct(add_direct);
   refine_direct(add_direct);
+  find_glossy(find_incident);
   radiance_ = direct_;
   if (sides == 0) return;
   if (options.bounces != 1) {
@@ -128,7 +137,7 @@ void PatchLight::find_direct(const AddDirect& add_direct) {
       put_nothing(*tile, i);
       if (side == kNoSide) continue;
       const Surface s = surface_of(side);
-      reflectance_[side] = reflectance_of(s);
+      reflectance_[side] = reflectance_of(s).all;
       if (!weighs(reflectance_[side])) continue;
       put_white(*tile, i, s);
     }
@@ -190,9 +199,56 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
   });
 }
 
+// Takes the light that glossy lobes send on out of the sides' even radiance, and keeps it by direction.
+void PatchLight::find_glossy(const FindIncident& find_incident) {
+  constexpr double kLeast = 0.02;  // of the mean direct radiance: less light goes on as if the side were diffuse
+  constexpr std::size_t kBatch = 4096;
+  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  double power = 0, area = 0;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    power += luminance(static_cast<Vec3d>(direct_[side])) * static_cast<double>(area_of(side));
+    area += weighs(direct_[side]) ? static_cast<double>(area_of(side)) : 0;
+  }
+  if (!(area > 0)) return;
+  const double least = kLeast * power / area;
+  struct Found {
+    Surface surface;
+    Vec3f share;  // of the radiance
+    std::vector<IncidentLight> incident;
+  };
+  for (std::uint32_t first = 0; first < sides; first += kBatch) {
+    std::vector<Found> found(std::min(kBatch, std::size_t{sides - first}));
+    each(found.size(), [&](std::size_t k) {
+      const auto side = static_cast<std::uint32_t>(first + k);
+      if (!weighs(direct_[side])) return;
+      const Surface surface = surface_of(side);
+      if (!GlossySides::has_lobe(surface)) return;
+      const Vec3f all = reflectance_[side], glossy = reflectance_of(surface).glossy;
+      const auto ratio = [](float a, float b) { return b > 0 ? std::min(a / b, 1.0f) : 0; };
+      const Vec3f share = {ratio(glossy.x, all.x), ratio(glossy.y, all.y), ratio(glossy.z, all.z)};
+      if (luminance(static_cast<Vec3d>(direct_[side] * share)) <= least) return;
+      found[k] = {surface, share, {}};
+      find_incident(surface, side, found[k].incident);
+    });
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const auto side = static_cast<std::uint32_t>(first + k);
+      const Vec3f all = reflectance_[side];
+      const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
+      const Vec3f irradiance = Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} *
+                               std::numbers::pi_v<float>;
+      if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance)) continue;
+      const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
+      direct_[side] = direct_[side] * rest;
+      if (parts_of_[side] == kNoSide) continue;
+      for (Vec3f& part : change_in_parts_[parts_of_[side]]) part = part * rest;
+    }
+  }
+}
+
 void PatchLight::find_links(std::size_t rays) {
   links_per_side_ = rays;
   links_.resize(rays * patches_.side_count());
+  from_glossy_.resize(patches_.side_count());
   each(patches_.side_count(), [&](std::size_t side) {
     const Surface surface = surface_of(static_cast<std::uint32_t>(side));
     const Frame frame = Frame::from_normal(normalized(static_cast<Vec3d>(surface.geometric_normal)));
@@ -200,10 +256,16 @@ void PatchLight::find_links(std::size_t rays) {
     const double turn = random.uniform();
     BounceRays bounce(rays_, patches_);
     for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
-      for (std::size_t i = 0; i < BounceRays::kLanes; ++i)
-        bounce.set(i, surface, static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn))));
+      std::array<Vec3f, BounceRays::kLanes> to;
+      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
+        to[i] = static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn)));
+        bounce.set(i, surface, to[i]);
+      }
       const auto met = bounce.trace();
-      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) links_[side * rays + k + i] = met[i].side;
+      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
+        links_[side * rays + k + i] = met[i].side;
+        if (met[i].side != kNoSide) from_glossy_[side] += glossy_.radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
+      }
     }
   });
 }
@@ -220,7 +282,7 @@ void PatchLight::iterate(int bounces) {
         const std::uint32_t met = links_[side * links_per_side_ + k];
         if (met != kNoSide) sum += radiance_[met];
       }
-      next[side] = direct_[side] + reflectance_[side] * sum * (1.0f / static_cast<float>(links_per_side_));
+      next[side] = direct_[side] + reflectance_[side] * (sum * (1.0f / static_cast<float>(links_per_side_)) + from_glossy_[side]);
     });
     double change = 0, largest = 0;
     for (std::size_t side = 0; side < sides; ++side) {

@@ -7,6 +7,7 @@
 
 #include "core/mip_maps.h"
 #include "render/radiosity/bounce_rays.h"
+#include "render/radiosity/glossy_sides.h"
 #include "render/radiosity/patches.h"
 #include "render/tile/tile.h"
 
@@ -28,8 +29,12 @@ class PatchLight {
   // Adds the direct light of a tile's surfaces to their radiance.
   using AddDirect = std::function<void(SurfaceTile& tile)>;
 
+  // Appends the light that reaches a surface from directions. number: seed of the directions.
+  using FindIncident = std::function<void(const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found)>;
+
   // Computes all radiances, on the threads of the caller's arena. The scene, its rays and its mip maps must outlive this object.
-  PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options, const AddDirect& add_direct);
+  PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options, const AddDirect& add_direct,
+             const FindIncident& find_incident);
 
   // Number of calls of add_direct, for progress.
   static std::size_t direct_tiles(const Scene& scene, Quality quality);
@@ -40,6 +45,8 @@ class PatchLight {
     const std::uint32_t parts = parts_of_[at.side];
     return parts == kNoSide ? radiance_[at.side] : radiance_[at.side] + change_in_parts_[parts][at.part];
   }
+  // What a side's glossy lobe sends on of its direct light, in a direction. It comes on top of radiance().
+  Vec3f glossy_radiance(std::uint32_t side, Vec3f to) const { return glossy_.radiance(side, to); }
   // Mean radiance over the group of sides around it: what patches of twice the size would send.
   Vec3f coarse_radiance(PatchPlace at) const { return coarse_[at.side]; }
   // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().
@@ -56,6 +63,7 @@ class PatchLight {
   Surface surface_at_site(std::uint32_t side, const Patches::Site& at) const;
   void find_direct(const AddDirect& add_direct);
   void refine_direct(const AddDirect& add_direct);
+  void find_glossy(const FindIncident& find_incident);
   void find_links(std::size_t rays);
   void iterate(int bounces);
   void find_coarse();
@@ -66,7 +74,9 @@ class PatchLight {
   const RayScene& rays_;
   const MipMaps& maps_;
   const Patches patches_;
+  GlossySides glossy_;
   std::vector<Vec3f> reflectance_, direct_, radiance_;  // by side
+  std::vector<Vec3f> from_glossy_;                      // by side: mean radiance that glossy lobes of other sides send there
   std::vector<Vec3f> coarse_;              // by side
   std::vector<std::uint32_t> parts_of_;    // by side: index below, or kNoSide
   std::vector<std::array<Vec3f, kPatchParts>> change_in_parts_;  // from the side's mean
