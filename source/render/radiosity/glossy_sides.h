@@ -1,7 +1,7 @@
 // GlossySides: what the glossy lobes of sides send on of their direct light, by direction.
 //
-// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened to the
-// spacing of the places.
+// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened to
+// the spacing of the places.
 #pragma once
 
 #include <cstdint>

@@ -53,19 +53,6 @@ Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)};
 }
 
-// Stores a white diffuse surface in the place of another.
-void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
-  static const SurfaceMaterial plain;
-  Surface white;
-  white.position = s.position;
-  white.normal = white.coat_normal = s.normal;
-  white.geometric_normal = s.geometric_normal;
-  white.tangent = s.tangent;
-  white.albedo = {1, 1, 1};
-  white.material = &plain;
-  put_surface(tile, slot, white, s.geometric_normal);
-}
-
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
 std::size_t tiles_for(std::size_t patches) { return (patches + kTilePatches - 1) / kTilePatches; }
 
@@ -79,13 +66,21 @@ void each(std::size_t count, Work work) {
 
 }  // namespace
 
+void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
+  static const SurfaceMaterial plain;
+  Surface white;
+  white.position = s.position;
+  white.normal = white.coat_normal = s.normal;
+  white.geometric_normal = s.geometric_normal;
+  white.tangent = s.tangent;
+  white.albedo = {1, 1, 1};
+  white.material = &plain;
+  put_surface(tile, slot, white, s.geometric_normal);
+}
+
 PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
                        const AddDirect& add_direct, const FindIncident& find_incident)
-    : scene_(scene),
-      rays_(rays),
-      maps_(maps),
-      patches_(scene, size_for(options.quality).patches),
-      glossy_(patches_.side_count()) {
+    : scene_(scene), rays_(rays), maps_(maps), patches_(scene, size_for(options.quality).patches), glossy_(patches_.side_count()) {
   const std::size_t sides = patches_.side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
@@ -234,8 +229,8 @@ void PatchLight::find_glossy(const FindIncident& find_incident) {
       const auto side = static_cast<std::uint32_t>(first + k);
       const Vec3f all = reflectance_[side];
       const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
-      const Vec3f irradiance = Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} *
-                               std::numbers::pi_v<float>;
+      const Vec3f irradiance =
+          Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} * std::numbers::pi_v<float>;
       if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance)) continue;
       const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
       direct_[side] = direct_[side] * rest;

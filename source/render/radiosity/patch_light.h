@@ -18,6 +18,9 @@ struct PatchOptions {
   Quality quality = Quality::normal;
 };
 
+// Stores a white diffuse surface in the place of another, so that the radiance that it reflects is its irradiance over pi.
+void put_white(SurfaceTile& tile, std::size_t slot, const Surface& surface);
+
 // A place that stands for an equal part of the light of all bright sides, which few directions of a gather would meet.
 struct BrightPlace {
   Vec3f position, normal;
@@ -75,10 +78,10 @@ class PatchLight {
   const MipMaps& maps_;
   const Patches patches_;
   GlossySides glossy_;
-  std::vector<Vec3f> reflectance_, direct_, radiance_;  // by side
-  std::vector<Vec3f> from_glossy_;                      // by side: mean radiance that glossy lobes of other sides send there
-  std::vector<Vec3f> coarse_;              // by side
-  std::vector<std::uint32_t> parts_of_;    // by side: index below, or kNoSide
+  std::vector<Vec3f> reflectance_, direct_, radiance_;           // by side
+  std::vector<Vec3f> from_glossy_;                               // by side: mean radiance that glossy lobes of other sides send there
+  std::vector<Vec3f> coarse_;                                    // by side
+  std::vector<std::uint32_t> parts_of_;                          // by side: index below, or kNoSide
   std::vector<std::array<Vec3f, kPatchParts>> change_in_parts_;  // from the side's mean
   std::size_t links_per_side_ = 0;
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
