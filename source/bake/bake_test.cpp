@@ -344,6 +344,48 @@ TEST(Bake, ChartsNeverOverlapThemselves) {
   EXPECT_LE(map.charts.size(), 6u);
 }
 
+// Hills of many small triangles with flat normals: folds are no contacts, and every triangle has its light. The mesh is named.
+TEST(Bake, FoldsAreNoContacts) {
+  Scene scene;
+  scene.materials = {grey(0.5f)};
+  Mesh hills;
+  hills.name = "hills";
+  reference::Random random(2);
+  constexpr std::uint32_t kSide = 80;
+  std::vector<Vec3f> points;
+  for (std::uint32_t i = 0; i <= kSide; ++i)
+    for (std::uint32_t k = 0; k <= kSide; ++k)
+      points.push_back({0.02f * static_cast<float>(i), static_cast<float>(random.uniform(0, 0.01)), -0.02f * static_cast<float>(k)});
+  for (std::uint32_t i = 0; i < kSide; ++i)
+    for (std::uint32_t k = 0; k < kSide; ++k) {
+      const std::uint32_t a = i * (kSide + 1) + k, b = a + kSide + 1;
+      for (const std::array<std::uint32_t, 3> t : {std::array{a, b, b + 1}, std::array{a, b + 1, a + 1}}) {
+        const Vec3f normal = normalized(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+        for (const std::uint32_t v : t) {
+          hills.indices.push_back(static_cast<std::uint32_t>(hills.positions.size()));
+          hills.positions.push_back(points[v]);
+          hills.normals.push_back(normal);
+        }
+      }
+    }
+  scene.meshes = {hills};
+  PunctualLight sun;
+  sun.kind = PunctualKind::directional;
+  sun.direction = {0, -1, 0};
+  scene.punctual_lights = {sun};
+  scene.cameras = {Camera{}};
+  BakeStats stats;
+  const LightMap map = baked(scene, options_for(4, 0), &stats);
+  EXPECT_EQ(stats.cut, 0u);
+  EXPECT_GT(stats.mean, 0.8);  // the triangles are tilted by up to 35 degrees
+  for (const Chart& chart : map.charts) {
+    EXPECT_FALSE(chart.is_covered);
+    EXPECT_GT(brightest_in(map, chart), 0.7);
+  }
+  ASSERT_EQ(map.warnings.size(), 1u);
+  EXPECT_NE(map.warnings[0].find("\"hills\" has 12800 triangles"), std::string::npos) << map.warnings[0];
+}
+
 // The same bytes at any number of threads.
 TEST(Bake, ThreadsDoNotMatter) {
   Scene scene = closed_box(0.5f, false);

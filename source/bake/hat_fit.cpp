@@ -15,7 +15,40 @@ using Triplet = Eigen::Triplet<double, int>;
 constexpr std::size_t kMostTriplets = std::size_t{1} << 21;  // 32 MB, then they join the matrix
 constexpr int kRounds = 4;                                   // in which negative unknowns become zero
 constexpr double kHold = 1e9;                                // weight that holds an unknown at zero, over its own
+constexpr double kResidual = 1e-10;                          // at which iterations end
 constexpr double kSmallest = 1e-4;                           // of the largest value: nearer to zero, a negative one is cut off
+
+// Hats alone are well conditioned, so that few iterations solve them. Seams are stiff, and are factorized.
+class HatSolver {
+ public:
+  HatSolver(const Matrix& matrix, bool has_seams) : has_seams_(has_seams) {
+    if (has_seams_) factors_.analyzePattern(matrix);
+    change(matrix);
+  }
+
+  // Takes a matrix of the same pattern.
+  void change(const Matrix& matrix) {
+    matrix_ = matrix;
+    if (!has_seams_) {
+      iterations_.setTolerance(kResidual);
+      iterations_.compute(matrix_);
+      return;
+    }
+    factors_.factorize(matrix_);
+    if (factors_.info() != Eigen::Success) throw Error("the fit", "has no solution", "report this scene as a bug");
+  }
+
+  Eigen::VectorXd solve(const Eigen::VectorXd& right, const Eigen::VectorXd& guess) {
+    if (right.isZero(0)) return Eigen::VectorXd::Zero(right.size());
+    return has_seams_ ? Eigen::VectorXd(factors_.solve(right)) : Eigen::VectorXd(iterations_.solveWithGuess(right, guess));
+  }
+
+ private:
+  const bool has_seams_;
+  Matrix matrix_;
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factors_;
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower> iterations_;
+};
 
 }  // namespace
 
@@ -23,6 +56,7 @@ struct HatFit::Equations {
   Matrix matrix;  // lower half
   std::vector<Triplet> triplets;
   Eigen::MatrixX3d right;
+  bool has_seams = false;
 
   explicit Equations(std::size_t n)
       : matrix(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n)),
@@ -55,7 +89,10 @@ void HatFit::add_value(std::span<const Hat> hats, double area, Vec3d value) {
       equations_->right(static_cast<Eigen::Index>(h.unknown), c) += area * h.value * (c == 0 ? value.x : c == 1 ? value.y : value.z);
 }
 
-void HatFit::add_zero(std::span<const Hat> hats, double area) { equations_->add(hats, area); }
+void HatFit::add_zero(std::span<const Hat> hats, double area) {
+  equations_->add(hats, area);
+  equations_->has_seams |= hats.size() > 2;
+}
 
 std::vector<Vec3d> HatFit::solve() {
   Equations& e = *equations_;
@@ -67,16 +104,9 @@ std::vector<Vec3d> HatFit::solve() {
   if (!(largest > 0)) return values;
   // Unknowns without any equation, and groups that only differences join.
   for (Eigen::Index i = 0; i < n; ++i) e.matrix.coeffRef(i, i) += 1e-14 * largest;
-  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver;
-  solver.analyzePattern(e.matrix);
-  const auto factorize = [&](const Matrix& matrix) {
-    solver.factorize(matrix);
-    if (solver.info() != Eigen::Success) throw Error("the fit", "has no solution", "report this scene as a bug");
-  };
-  factorize(e.matrix);
+  HatSolver solver(e.matrix, e.has_seams);
   Eigen::MatrixX3d solution(n, 3);
-  for (int c = 0; c < 3; ++c)
-    solution.col(c) = e.right.col(c).isZero(0) ? Eigen::VectorXd::Zero(n).eval() : solver.solve(e.right.col(c)).eval();
+  for (int c = 0; c < 3; ++c) solution.col(c) = solver.solve(e.right.col(c), Eigen::VectorXd::Zero(n));
   const double least = -kSmallest * solution.maxCoeff();
   for (int c = 0; c < 3; ++c) {
     std::vector<std::uint8_t> held(static_cast<std::size_t>(n), 0);
@@ -91,8 +121,8 @@ std::vector<Vec3d> HatFit::solve() {
         any = true;
       }
       if (!any) break;
-      factorize(matrix);
-      solution.col(c) = solver.solve(e.right.col(c)).eval();
+      solver.change(matrix);
+      solution.col(c) = solver.solve(e.right.col(c), solution.col(c));
     }
     for (Eigen::Index i = 0; i < n; ++i) {
       Vec3d& v = values[static_cast<std::size_t>(i)];

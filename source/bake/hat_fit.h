@@ -25,7 +25,7 @@ class HatFit {
 
   // The sum of hats should be this value, over an area [m^2].
   void add_value(std::span<const Hat> hats, double area, Vec3d value);
-  // The sum of hats should be zero. Such a sum is the difference between two sides of a seam.
+  // The sum of hats should be zero: the difference between two neighbours, or between two sides of a seam.
   void add_zero(std::span<const Hat> hats, double area);
 
   // The values, none of them negative. Unknowns that no place determines are zero.

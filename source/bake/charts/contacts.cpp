@@ -5,9 +5,12 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
+#include <unordered_set>
 
 #include "bake/charts/contact_regions.h"
+#include "bake/charts/welded.h"
 #include "core/box_tree.h"
 #include "core/lattices.h"
 
@@ -17,7 +20,7 @@ namespace {
 constexpr double kRoundings = 0x1p-19;  // of the largest coordinate: heights in which single precision is sure of above and below
 constexpr double kLeastHeight = 1e-3;   // of a texel
 constexpr double kTogether = 4;         // heights: nearer points count as one, so that slanted walls do not cut slivers off their floor
-constexpr double kLeastRegion = 0.01;   // of a texel's area
+constexpr double kLeastRegion = 0.01;   // of a texel's area, and of a chart's
 constexpr std::size_t kLooks = 4;       // pieces of a region from which rays look
 constexpr std::size_t kRays = 32;       // of each
 
@@ -38,8 +41,9 @@ class ContactSections {
         triangles_.size(), [&](std::uint32_t n) { return box_of(n); }, Halving{8});
   }
 
-  // The section of the scene by a plane that lies `height` above a chart, where it is near the chart.
-  std::vector<ContactLine> above(const Chart& chart, double height) const {
+  // The section of the scene by a plane that lies `height` above a chart, where it is near the chart. Triangles at the chart's border are
+  // left out: a fold of the mesh is no contact.
+  std::vector<ContactLine> above(const Chart& chart, const std::unordered_set<std::uint32_t>& border, double height) const {
     Box3d box;
     Box2d flat;
     for (const ChartTriangle& t : chart.triangles)
@@ -51,6 +55,7 @@ class ContactSections {
       }
     std::vector<ContactLine> lines;
     for (const std::uint32_t n : near_box(tree_, box)) {
+      if (triangles_[n].mesh == chart.mesh && border.contains(triangles_[n].triangle)) continue;
       std::array<Vec3d, 3> p;
       std::array<double, 3> d;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -118,7 +123,7 @@ class ContactJudge {
 
   // Nothing where no contact parts or covers the chart.
   std::optional<Parted> parted(const Chart& chart, std::vector<std::string>& warnings) {
-    const std::vector<ContactLine> lines = sections_.above(chart, height_);
+    const std::vector<ContactLine> lines = sections_.above(chart, border_of(chart), height_);
     if (lines.empty()) return {};
     ContactRegions regions(chart, kTogether * height_);
     for (const ContactLine& line : lines)
@@ -132,12 +137,26 @@ class ContactJudge {
     if (count == 1) return {};
     std::vector<double> area(count, 0.0);
     for (std::size_t n = 0; n < result.pieces.size(); ++n) area[result.region[n]] += area_of(result.pieces[n].outline);
+    const double least = std::min(least_, kLeastRegion * std::accumulate(area.begin(), area.end(), 0.0));
     for (std::uint32_t r = 0; r < count; ++r)
-      if (area[r] >= least_ && !is_covered(chart, result, r)) result.lit.push_back(r);
+      if (area[r] >= least && !is_covered(chart, result, r)) result.lit.push_back(r);
     return result;
   }
 
  private:
+  // The triangles of a chart's mesh across its outer edges.
+  std::unordered_set<std::uint32_t> border_of(const Chart& chart) {
+    if (mesh_ != chart.mesh || !neighbours_) {
+      neighbours_.emplace(scene_.meshes[chart.mesh]);
+      mesh_ = chart.mesh;
+    }
+    std::unordered_set<std::uint32_t> border;
+    for (const ChartTriangle& t : chart.triangles)
+      for (std::uint32_t k = 0; k < 3; ++k)
+        if (const std::uint32_t edge = neighbours_->across(t.triangle, k); edge != MeshNeighbours::kNone) border.insert(edge / 3);
+    return border;
+  }
+
   // True if all that a region sees is the backs of triangles: it lies in something that stands on the chart.
   bool is_covered(const Chart& chart, const Parted& parted, std::uint32_t region) {
     if (!rays_) rays_ = std::make_unique<RayScene>(scene_);
@@ -170,6 +189,8 @@ class ContactJudge {
   const double least_;
   double height_ = 0;
   std::unique_ptr<RayScene> rays_;
+  std::uint32_t mesh_ = 0;  // of the neighbours
+  std::optional<MeshNeighbours> neighbours_;
 };
 
 // Applies the cuts to the meshes.

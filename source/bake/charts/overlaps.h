@@ -21,7 +21,8 @@ class Overlaps {
   void add(const std::array<Vec2d, 3>& triangle) {
     const auto number = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(triangle);
-    each_cell(triangle, [&](std::uint64_t key) {
+    if (is_large(triangle)) return large_.push_back(number);
+    any_cell(triangle, [&](std::uint64_t key) {
       cells_[key].push_back(number);
       return false;
     });
@@ -35,14 +36,14 @@ class Overlaps {
         if (overlaps(k)) return true;
       return false;
     }
-    return each_cell(triangle, [&](std::uint64_t key) {
-      const auto found = cells_.find(key);
-      return found != cells_.end() && std::any_of(found->second.begin(), found->second.end(), overlaps);
-    });
+    return std::any_of(large_.begin(), large_.end(), overlaps) || any_cell(triangle, [&](std::uint64_t key) {
+             const auto found = cells_.find(key);
+             return found != cells_.end() && std::any_of(found->second.begin(), found->second.end(), overlaps);
+           });
   }
 
  private:
-  static constexpr std::int64_t kMostCells = 256;  // along a side of a triangle's box; larger ones share their cells
+  static constexpr std::int64_t kMostCells = 256;  // along a side of a triangle's box; larger ones are in no cell
   static constexpr double kTouch = 1e-6;           // depth of contact in cells, the rounding of single precision
 
   // True if an edge of `a` has all of `b` on its outer side.
@@ -71,18 +72,17 @@ class Overlaps {
   }
 
   template <class Use>  // use(key) returns true to end
-  bool each_cell(const std::array<Vec2d, 3>& triangle, Use use) const {
-    if (is_large(triangle)) return use(kLarge);
+  bool any_cell(const std::array<Vec2d, 3>& triangle, Use use) const {
     const Box2d box = box_of(triangle);
     for (std::int64_t y = index(box.low.y); y <= index(box.high.y); ++y)
       for (std::int64_t x = index(box.low.x); x <= index(box.high.x); ++x)
         if (use(static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu)) return true;
-    return use(kLarge);
+    return false;
   }
 
-  static constexpr std::uint64_t kLarge = 1;
   const double cell_;
   std::vector<std::array<Vec2d, 3>> triangles_;
+  std::vector<std::uint32_t> large_;  // numbers of triangles over many cells
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
