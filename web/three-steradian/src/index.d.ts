@@ -56,6 +56,13 @@ export class GLTFAreaLights {
 	afterRoot( result: { userData: Record<string, unknown> } ): Promise<void>;
 }
 
+/** Light maps of `steradian bake` for GLTFLoader: loader.register( ( parser ) => new GLTFLightMaps( parser ) ). */
+export class GLTFLightMaps {
+	constructor( parser: unknown );
+	readonly name: 'STERADIAN_light_maps';
+	afterRoot( result: { scenes: Object3D[] } ): Promise<void>;
+}
+
 /** The lights that patched materials see, besides three's RectAreaLights. Its members may move; which they are is fixed. */
 export class AreaLightSet {
 	constructor( lights?: AreaLight[] );
