@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -9,8 +10,11 @@
 
 #include "bake/bake.h"
 #include "bake/baked_file.h"
+#include "bake/light_groups.h"
 #include "core/files.h"
 #include "core/progress.h"
+#include "core/simd.h"
+#include "core/words.h"
 #include "picture_options.h"
 #include "steradian/error.h"
 #include "steradian/version.h"
@@ -22,7 +26,8 @@ namespace steradian::app {
 namespace {
 
 struct BakeArguments {
-  std::string scene, output, bounces = "all", direct = "on", target = "texture", stats;
+  std::string scene, output, bounces = "all", direct = "on", target = "texture", stats, part;
+  std::vector<std::string> groups;
   LoadOptions load;
   bake::BakeOptions bake;
 };
@@ -52,15 +57,38 @@ nlohmann::ordered_json stats_json(const BakeArguments& options, const bake::Ligh
           {"threads", options.bake.light.threads}};
 }
 
+// Everything else that the texels depend on. The parts of one map agree in it.
+std::string settings_of(const BakeArguments& options) {
+  const RenderOptions& r = options.bake.light;
+  const LoadOptions& load = options.load;
+  return fmt::format("{} | bounces {} {} | {} | shadows {} | environment {} {} | lights {} {}", name_of(active_simd()), options.bounces,
+                     r.bounce_error, words::name_of(r.quality), words::name_of(r.shadows), load.environment, load.environment_rotation,
+                     load.max_lights.value_or(0), words::name_of(load.light_units));
+}
+
+void parse_part(BakeArguments& options) {
+  if (options.part.empty()) return;
+  int used = 0;
+  bake::BakeOptions& bake = options.bake;
+  if (std::sscanf(options.part.c_str(), "%zu/%zu%n", &bake.part, &bake.parts, &used) != 2 ||
+      static_cast<std::size_t>(used) != options.part.size() || bake.part < 1 || bake.part > bake.parts || bake.parts > 1'000'000)
+    throw WrongOption("--part", "'" + options.part + "' is not k/n with k from 1 to n");
+  if (bake.target == bake::BakeTarget::vertex) throw WrongOption("--part", "is for --target texture");
+  if (!options.groups.empty()) throw WrongOption("--part", "is for one map, not for --group");
+}
+
 void write_map(const BakeArguments& options, const bake::LightMap& map, const std::string& path) {
   Picture picture(map.width, map.height);
   picture.pixels = map.irradiance;
   picture.layers["error"] = map.error;
+  for (const bake::GroupTexels& group : map.groups) picture.layers["group." + group.name] = group.irradiance;
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", options.scene},
                       {"steradian.bounces", options.bounces},
                       {"steradian.direct", options.direct},
-                      {"steradian.texels", fmt::format("{:g}", options.bake.texels)}};
+                      {"steradian.texels", fmt::format("{}", options.bake.texels)},
+                      {"steradian.settings", settings_of(options)}};
+  if (options.bake.parts > 1) picture.metadata["steradian.part"] = fmt::format("{}/{}", options.bake.part, options.bake.parts);
   write_picture(picture, path);
 }
 
@@ -78,14 +106,17 @@ void print_summary(const BakeArguments& options, const bake::LightMap& map, cons
 }
 
 void run(const Verb& verb, BakeArguments& options) {
-  if (!options.output.ends_with(".glb") && !options.output.ends_with(".gltf"))
-    throw WrongOption("-o", "the baked scene is a .glb or .gltf file");
   bake::BakeOptions& bake = options.bake;
   bake.light.bounces = bounces_of(options.bounces);
   bake.direct = options.direct == "on" ? bake::BakedDirect::on : bake::BakedDirect::off;
   if (bake.direct == bake::BakedDirect::off && bake.light.bounces == 0)
     throw WrongOption("--direct", "off leaves no light with --bounces 0");
   bake.target = options.target == "texture" ? bake::BakeTarget::texture : bake::BakeTarget::vertex;
+  parse_part(options);
+  const bool part = bake.parts > 1;
+  if (part ? !options.output.ends_with(".exr") : !options.output.ends_with(".glb") && !options.output.ends_with(".gltf"))
+    throw WrongOption("-o", part ? "a part is written as .exr; steradian merge joins them" : "the baked scene is a .glb or .gltf file");
+  if (!options.groups.empty() && bake.target == bake::BakeTarget::vertex) throw WrongOption("--group", "is for --target texture");
   verb.refuse_without_effect({{"--bounce-error", bake.light.bounces != 0, "--bounces"},
                               {"--environment-rotation", !options.load.environment.empty(), "--environment"}});
   LoadOptions& load = options.load;
@@ -106,15 +137,20 @@ void run(const Verb& verb, BakeArguments& options) {
   };
   bake::BakeStats stats;
   Budget budget(load.limits);
-  const bake::LightMap map = bake::bake_map(scene, bake, options.scene, budget, &stats);
+  const bake::LightMap map =
+      options.groups.empty()
+          ? bake::bake_map(scene, bake, options.scene, budget, &stats)
+          : bake::bake_light_groups(scene, bake::light_groups(scene, options.groups, options.scene), bake, options.scene, budget, stats);
   progress.reset();
   for (const std::string& warning : map.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
-  const std::string exr = exr_beside(options.output);
-  scene::GltfFile file = scene::read_gltf_file(options.scene, load.limits);
-  bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits);
+  const std::string exr = part ? options.output : exr_beside(options.output);
   if (bake.target == bake::BakeTarget::texture) write_map(options, map, exr);
-  scene::write_gltf_file(file, options.output);
+  if (!part) {
+    scene::GltfFile file = scene::read_gltf_file(options.scene, load.limits);
+    bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits);
+    scene::write_gltf_file(file, options.output);
+  }
   stats.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (!options.stats.empty()) write_file(options.stats, stats_json(options, map, stats).dump(2) + "\n");
   print_summary(options, map, stats);
@@ -136,6 +172,7 @@ void add_bake(CommandLine& line) {
       .group("Map");
   verb.add("--texels", options->bake.texels, "texels a metre").range(1e-3, 1e4).group("Map");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
+  verb.add("--group", options->groups, "lights whose names begin so get a map of their own; may be repeated").group("Light");
   verb.add("--direct", options->direct, "light of lamps and environment").words({"on", "off"}).group("Light");
   verb.add_word("--quality", r.quality, "patches and rays of the light between surfaces").group("Light");
   verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
@@ -145,6 +182,7 @@ void add_bake(CommandLine& line) {
       .value_name("N")
       .range(-360.0, 360.0)
       .group("Light");
+  verb.add("--part", options->part, "k/n: bake one of n parts to an .exr; steradian merge joins them").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--stats", options->stats, "write counts, errors and times to this JSON file").writes(Writes::file).group("Machine");
   verb.add("--max-lights", options->load.max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");

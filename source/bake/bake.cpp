@@ -23,7 +23,7 @@
 namespace steradian::bake {
 namespace {
 
-constexpr std::size_t kMostBlocks = std::size_t{1} << 16;  // of samples in memory at a time
+constexpr std::size_t kMostBlocks = std::size_t{1} << 12;  // of samples in memory at a time, unless one group has more
 
 double luminance_of(Vec3d v) { return luminance(v); }
 
@@ -32,6 +32,11 @@ class MapBake {
  public:
   MapBake(Scene& scene, const BakeOptions& options, const std::string& place, Budget& budget, BakeStats& stats)
       : scene_(scene), options_(options), place_(place), budget_(budget), stats_(stats) {}
+
+  LightMap empty() {
+    prepare();
+    return std::move(map_);
+  }
 
   LightMap run() {
     prepare();
@@ -45,11 +50,12 @@ class MapBake {
     SampleLight light(scene_, options_.light, options_.direct == BakedDirect::on ? SurfaceLight::Direct::on : SurfaceLight::Direct::off,
                       [&] { advance(1); });
     stats_.solve_ms = ms_since(start);
-    for (std::size_t first = 0; first < groups.size() && !stopped();) {
+    std::uint64_t number = 0;
+    for (std::size_t first = 0; first < groups.size() && !stopped(); ++number) {
       std::size_t last = first, blocks = 0;
       while (last < groups.size() && (last == first || blocks + blocks_in(groups[last]) <= kMostBlocks))
         blocks += blocks_in(groups[last++]);
-      bake_groups(std::span(groups).subspan(first, last - first), light);
+      if (number % options_.parts == options_.part - 1) bake_groups(std::span(groups).subspan(first, last - first), number, light);
       first = last;
     }
     finish(light);
@@ -135,7 +141,8 @@ class MapBake {
     budget_.take_memory(place_, "the samples of the map", kMostBlocks * (sizeof(PlacedBlock) + sizeof(LitBlock)));
   }
 
-  void bake_groups(std::span<const Group> groups, SampleLight& light) {
+  // number: of the batch, which does not depend on the part.
+  void bake_groups(std::span<const Group> groups, std::uint64_t number, SampleLight& light) {
     std::vector<PlacedBlock> blocks;
     std::vector<std::size_t> first_of(groups.size() + 1, 0);
     std::vector<std::uint32_t> chart_of;  // by block
@@ -151,9 +158,8 @@ class MapBake {
       first_of[g + 1] = blocks.size();
     }
     const auto start = Clock::now();
-    const std::vector<LitBlock> lit = light.of(blocks, tiles_before_);
+    const std::vector<LitBlock> lit = light.of(blocks, number << 32);
     stats_.sample_ms += ms_since(start);
-    tiles_before_ += (blocks.size() + SampleLight::kBlocksPerTile - 1) / SampleLight::kBlocksPerTile;
     if (stopped()) return;
     const auto fit_start = Clock::now();
     std::vector<GroupSums> sums(groups.size());
@@ -232,6 +238,7 @@ class MapBake {
     if (options_.target == BakeTarget::texture)
       for (const Chart& chart : map_.charts)
         stats_.texels += static_cast<std::size_t>(chart.width) * static_cast<std::size_t>(chart.height);
+    if (options_.parts > 1) return;  // the other sides of seams may lack
     for (const Seam& seam : seams_) {
       const int places = 3 * TexelSpace::places_on(seam);
       for (int k = 0; k <= places; ++k) {
@@ -255,7 +262,7 @@ class MapBake {
   std::vector<Seam> seams_;
   std::vector<std::vector<const Seam*>> seams_of_;  // by their first chart
   GroupSums total_;
-  std::uint64_t tiles_before_ = 0, steps_ = 0;
+  std::uint64_t steps_ = 0;
   std::atomic<std::uint64_t> done_{0};
 };
 
@@ -274,6 +281,11 @@ LightMap bake_map(Scene scene, const BakeOptions& options, const std::string& pl
   else
     run();
   return map;
+}
+
+LightMap empty_map(Scene scene, const BakeOptions& options, const std::string& place, Budget& budget) {
+  BakeStats unread;
+  return MapBake(scene, options, place, budget, unread).empty();
 }
 
 }  // namespace steradian::bake

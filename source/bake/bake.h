@@ -21,7 +21,8 @@ struct BakeOptions {
   double texels = 16;  // a metre; for vertices: that of the places where light is computed, four a texel
   BakedDirect direct = BakedDirect::on;
   BakeTarget target = BakeTarget::texture;
-  RenderOptions light;  // bounces, quality, shadows, threads, progress and stop
+  std::size_t part = 1, parts = 1;  // of a run on several machines: the other parts' texels stay zero
+  RenderOptions light;              // bounces, quality, shadows, threads, progress and stop
 };
 
 struct BakeStats {
@@ -34,8 +35,15 @@ struct BakeStats {
   double largest_seam = 0;     // difference between two sides over that mean
 };
 
+// The map of one group of lights (light_groups.h).
+struct GroupTexels {
+  std::string name;
+  std::vector<Vec3f> irradiance;
+};
+
 // Irradiance [W/m^2 where emission is radiance], with the estimated error of each value.
 struct LightMap : MapTexels {
+  std::vector<GroupTexels> groups;   // empty: all lights together
   std::vector<CornerLight> corners;  // for vertices: by mesh
   std::vector<Chart> charts;
   // The corners of cut triangles, by mesh and triangle (CutScene); empty for meshes that are as they were.
@@ -46,5 +54,8 @@ struct LightMap : MapTexels {
 // Bakes all surfaces that take light. place: the scene's file, for messages. Throws Error for meshes whose charts are broken, and for maps
 // beyond the budget. The same scene and options give the same values at any number of threads.
 LightMap bake_map(Scene scene, const BakeOptions& options, const std::string& place, Budget& budget, BakeStats* stats = nullptr);
+
+// The charts and the black texels of such a map.
+LightMap empty_map(Scene scene, const BakeOptions& options, const std::string& place, Budget& budget);
 
 }  // namespace steradian::bake

@@ -253,11 +253,11 @@ class AttributeWriter {
 };
 
 // The map as a picture in the file, and the texture that shows it.
-std::size_t add_texture(Json& json, NewData& data, const LightMap& map, float range) {
+std::size_t add_texture(Json& json, NewData& data, const LightMap& map, const std::vector<Vec3f>& texels, float range) {
   const std::string png = image::encode_png_rgba(map.width, map.height, [&](int y, std::uint8_t* row) {
     for (int x = 0; x < map.width; ++x)
       for (const std::uint8_t byte :
-           rgbm_of(map.irradiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)], range))
+           rgbm_of(texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)], range))
         *row++ = byte;
   });
   const std::size_t view = data.add_view(png.data(), png.size());
@@ -298,11 +298,16 @@ void add_light_map(GltfFile& file, const LoadedScene& loaded, const LightMap& ma
   const bool at_vertices = !map.corners.empty();
   const int set = free_set(file.json);
   NewData data(file);
-  Json shows;
   if (!at_vertices) {
-    const float range = rgbm_range(map.irradiance);
-    shows = {{"texture", add_texture(file.json, data, map, range)}, {"texCoord", set}, {"encoding", "RGBM"}, {"range", range}};
-    extras_of(file.json)["lightMap"] = {{"exr", exr}, {"width", map.width}, {"height", map.height}};
+    Json maps = Json::array();
+    const auto add = [&](const std::string& group, const std::vector<Vec3f>& texels) {
+      const float range = rgbm_range(texels);
+      maps.push_back({{"group", group}, {"texture", add_texture(file.json, data, map, texels, range)}, {"range", range}, {"intensity", 1}});
+    };
+    if (map.groups.empty()) add("all", map.irradiance);
+    for (const GroupTexels& group : map.groups) add(group.name, group.irradiance);
+    extras_of(file.json)["lightMap"] = {
+        {"exr", exr}, {"width", map.width}, {"height", map.height}, {"encoding", "RGBM"}, {"maps", std::move(maps)}};
   }
   std::map<int, std::size_t> meshes;  // by node
   for (const MapPrimitive& p : primitives_of(document, loaded, map)) {
@@ -324,7 +329,7 @@ void add_light_map(GltfFile& file, const LoadedScene& loaded, const LightMap& ma
     if (at_vertices)
       extras_of(primitive)["irradiance"] = "_IRRADIANCE";
     else
-      extras_of(primitive)["lightMap"] = shows;
+      extras_of(primitive)["lightMap"] = {{"texCoord", set}};
     file.json["meshes"][meshes[p.node]]["primitives"][static_cast<std::size_t>(p.primitive)] = std::move(primitive);
   }
   data.finish();

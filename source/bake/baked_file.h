@@ -1,7 +1,8 @@
 // A scene's file with its light map: texture coordinates of the map for each lit primitive, and the map as a picture in the file.
 //
-// Each primitive with a map says so: extras.steradian.lightMap = {texture, texCoord, encoding, range} (docs/bake.md). Meshes that several
-// nodes show become a mesh for each node, because each has its own light. Materials, and meshes without light, stay as they are.
+// The file says what its maps are: extras.steradian.lightMap = {exr, width, height, encoding, maps: [{group, texture, range, intensity}]}.
+// Each primitive that shows them has extras.steradian.lightMap = {texCoord} (docs/bake.md). Meshes that several nodes show become a mesh
+// for each node, because each has its own light. Materials, and meshes without light, stay as they are.
 #pragma once
 
 #include <string>

@@ -2,8 +2,9 @@
 import { ClampToEdgeWrapping, DataTexture, DataUtils, HalfFloatType, LinearFilter, NoColorSpace, RGBAFormat } from 'three';
 
 /**
- * The plug-in: loader.register( ( parser ) => new GLTFLightMaps( parser ) ). Each mesh with a baked map gets a material with it, as three's lightMap.
- * Materials that show no map stay shared. The map holds the light of lamps, too, unless it was baked with --direct off.
+ * The plug-in: loader.register( ( parser ) => new GLTFLightMaps( parser ) ). Each mesh that a map is for gets a material with it, as three's lightMap.
+ * Materials that show no map stay shared. The map holds the light of lamps, too, unless it was baked with --direct off. gltf.userData.lightMaps lists the
+ * groups of lights; setIntensities( { name: factor } ) dims them.
  */
 export class GLTFLightMaps {
 
@@ -11,79 +12,111 @@ export class GLTFLightMaps {
 
 		this.parser = parser;
 		this.name = 'STERADIAN_light_maps';
-		this.maps = new Map(); // by texture
-		this.materials = new Map(); // by the file's material and texture
+		this.materials = new Map(); // by the file's material and set of coordinates
 
 	}
 
 	async afterRoot( result ) {
 
+		const asked = this.parser.json.extras?.steradian?.lightMap;
+		if ( ! asked ) return;
+		if ( asked.encoding !== 'RGBM' ) throw new Error( `extras.steradian.lightMap.encoding is '${asked.encoding}': there is RGBM` );
+		const maps = new LightMaps();
+		for ( const map of asked.maps ?? [] ) maps.groups.push( await this.groupOf( map ) );
+		if ( maps.groups.length === 0 ) throw new Error( 'extras.steradian.lightMap has no maps: bake the scene again' );
+		maps.blend();
+		result.userData.lightMaps = maps;
 		const meshes = [];
 		for ( const scene of result.scenes ) scene.traverse( ( o ) => o.isMesh && o.geometry.userData.steradian?.lightMap && meshes.push( o ) );
 		for ( const mesh of meshes ) {
 
-			const asked = mesh.geometry.userData.steradian.lightMap;
-			const map = await this.mapOf( asked ), materials = [].concat( mesh.material ).map( ( m ) => this.materialWith( m, map, asked.texture ) );
-			mesh.material = Array.isArray( mesh.material ) ? materials : materials[ 0 ];
+			const set = mesh.geometry.userData.steradian.lightMap.texCoord;
+			if ( ! [ 0, 1, 2, 3 ].includes( set ) ) throw new Error( `extras.steradian.lightMap.texCoord is ${set}: three has the sets 0 to 3` );
+			maps.texture.channel = set;
+			mesh.material = Array.isArray( mesh.material ) ? mesh.material.map( ( m ) => this.materialWith( m, maps.texture ) ) : this.materialWith( mesh.material, maps.texture );
 
 		}
 
 	}
 
-	materialWith( material, map, texture ) {
+	materialWith( material, map ) {
 
-		const key = `${material.uuid} ${texture}`;
-		if ( ! this.materials.has( key ) ) {
+		if ( ! this.materials.has( material ) ) {
 
 			const own = material.clone();
 			own.lightMap = map;
 			own.lightMapIntensity = 1;
-			this.materials.set( key, own );
+			this.materials.set( material, own );
 
 		}
 
-		return this.materials.get( key );
+		return this.materials.get( material );
 
 	}
 
-	async mapOf( { texture, texCoord, encoding, range } ) {
+	async groupOf( { group, texture, range, intensity = 1 } ) {
 
-		const place = `textures[ ${texture} ]`, json = this.parser.json, image = json.images?.[ json.textures?.[ texture ]?.source ];
-		if ( image?.bufferView === undefined ) throw new Error( `extras.steradian.lightMap: ${place} has no picture in the file` );
-		if ( encoding !== 'RGBM' ) throw new Error( `extras.steradian.lightMap.encoding is '${encoding}': there is RGBM` );
+		const json = this.parser.json, image = json.images?.[ json.textures?.[ texture ]?.source ];
+		if ( image?.bufferView === undefined ) throw new Error( `extras.steradian.lightMap: textures[ ${texture} ] has no picture in the file` );
 		if ( ! ( range > 0 ) ) throw new Error( `extras.steradian.lightMap.range is ${range}: give a number above 0` );
-		if ( ! [ 0, 1, 2, 3 ].includes( texCoord ) ) throw new Error( `extras.steradian.lightMap.texCoord is ${texCoord}: three has the sets 0 to 3` );
-		if ( ! this.maps.has( texture ) ) {
-
-			const { width, height, bytes } = await pixelsOf( await this.parser.getDependency( 'bufferView', image.bufferView ) );
-			this.maps.set( texture, textureOf( width, height, bytes, range ) );
-
-		}
-
-		const map = this.maps.get( texture );
-		map.channel = texCoord;
-		return map;
+		return { name: group, range, intensity, ...await pixelsOf( await this.parser.getDependency( 'bufferView', image.bufferView ) ) };
 
 	}
 
 }
 
-// Texels are decoded before they are blended: blends of RGBM have other colours.
-function textureOf( width, height, bytes, range ) {
+/** The maps of a file's groups of lights, and the texture that shows their sum. */
+export class LightMaps {
 
-	const half = new Uint16Array( 4 * width * height ), scale = range / ( 255 * 255 );
-	for ( let i = 0; i < bytes.length; i += 4 ) {
+	constructor() {
 
-		for ( let c = 0; c < 3; ++ c ) half[ i + c ] = DataUtils.toHalfFloat( bytes[ i + c ] * bytes[ i + 3 ] * scale );
-		half[ i + 3 ] = DataUtils.toHalfFloat( 1 );
+		this.groups = [];
+		this.texture = null;
 
 	}
 
-	const map = new DataTexture( half, width, height, RGBAFormat, HalfFloatType );
+	/** Factors by the names of groups; others stay. */
+	setIntensities( factors ) {
+
+		for ( const name of Object.keys( factors ) ) {
+
+			const group = this.groups.find( ( g ) => g.name === name );
+			if ( ! group ) throw new Error( `there is no group '${name}': there are ${this.groups.map( ( g ) => g.name ).join( ', ' )}` );
+			group.intensity = factors[ name ];
+
+		}
+
+		this.blend();
+
+	}
+
+	// Texels are decoded before they are blended: blends of RGBM have other colours.
+	blend() {
+
+		const { width, height } = this.groups[ 0 ];
+		this.texture ??= textureOf( width, height );
+		const half = this.texture.image.data;
+		for ( let i = 0; i < half.length; i += 4 )
+			for ( let c = 0; c < 3; ++ c ) {
+
+				let sum = 0;
+				for ( const { bytes, range, intensity } of this.groups ) sum += bytes[ i + c ] * bytes[ i + 3 ] * range * intensity / ( 255 * 255 );
+				half[ i + c ] = DataUtils.toHalfFloat( Math.min( sum, 65504 ) );
+
+			}
+
+		this.texture.needsUpdate = true;
+
+	}
+
+}
+
+function textureOf( width, height ) {
+
+	const map = new DataTexture( new Uint16Array( 4 * width * height ).fill( DataUtils.toHalfFloat( 1 ) ), width, height, RGBAFormat, HalfFloatType );
 	map.colorSpace = NoColorSpace;
 	map.minFilter = map.magFilter = LinearFilter; // a smaller picture would mix charts
 	map.wrapS = map.wrapT = ClampToEdgeWrapping;
-	map.needsUpdate = true;
 	return map;
 
 }
