@@ -34,11 +34,11 @@ std::string names_of_lights(const Scene& scene) {
 
 }  // namespace
 
-std::vector<LightGroup> light_groups(const Scene& scene, const std::vector<std::string>& names, const std::string& place) {
+std::vector<NamedLights> light_groups(const Scene& scene, const std::vector<std::string>& names, const std::string& place) {
   std::vector<std::uint8_t> area(scene.area_lights.size(), 1), punctual(scene.punctual_lights.size(), 1);
-  std::vector<LightGroup> groups;
+  std::vector<NamedLights> groups;
   for (const std::string& name : names) {
-    LightGroup& group = groups.emplace_back(LightGroup{name, {}, {}});
+    NamedLights& group = groups.emplace_back(NamedLights{name, {}, {}});
     const bool any = take_named(scene.area_lights, name, area, group.area);
     if (!take_named(scene.punctual_lights, name, punctual, group.punctual) && !any)
       throw Error(place, "has no light whose name begins with '" + name + "', or an earlier group has it",
@@ -49,7 +49,7 @@ std::vector<LightGroup> light_groups(const Scene& scene, const std::vector<std::
   return groups;
 }
 
-Scene in_light_of(const Scene& scene, const LightGroup& group) {
+Scene in_light_of(const Scene& scene, const NamedLights& group) {
   Scene own = scene;
   for (std::size_t i = 0; i < own.area_lights.size(); ++i)
     if (group.area[i] == 0) {
@@ -63,11 +63,11 @@ Scene in_light_of(const Scene& scene, const LightGroup& group) {
   return own;
 }
 
-LightMap bake_light_groups(const Scene& scene, const std::vector<LightGroup>& groups, const BakeOptions& options, const std::string& place,
+LightMap bake_light_groups(const Scene& scene, const std::vector<NamedLights>& groups, const BakeOptions& options, const std::string& place,
                            Budget& budget, BakeStats& stats) {
   LightMap all;
   double mean = 0, residual = 0, error = 0;  // the last two are squares
-  for (const LightGroup& group : groups) {
+  for (const NamedLights& group : groups) {
     BakeStats own;
     Budget left = budget;
     LightMap map = bake_map(in_light_of(scene, group), options, place, left, &own);
