@@ -53,7 +53,8 @@ void AllLight::gather(SurfaceTile& tile, int sample, TileVector& light, TileVect
 
 // Adds the light of the surfaces that mirrors show, which are lit like those that the camera sees. The lobes' integrals over the lamps
 // already hold the lamps' light.
-void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const {
+void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light,
+                            TileVector& error) const {
   if (depth == 0) return;
   const auto ways = std::make_unique<PassedRays::Ways>();
   if (!radiosity::find_mirrored(surfaces_.rays(), tile, distance, *ways)) return;
@@ -66,13 +67,16 @@ void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, 
     surfaces_.passed_rays().fill(*ways, PassedRays::Lamps::hidden, *shown);
     if (!shown->any_surface) return;
     add_direct_(*shown);
-    TileVector error{};
-    gather(*shown, sample, shown->radiance, error);
+    TileVector error_of_shown{};
+    gather(*shown, sample, shown->radiance, error_of_shown);
     TilePlane onwards;
     for (std::size_t i = 0; i < kTilePixels; ++i) onwards[i] = ways->length[i] + length(get(shown->position, i) - get(ways->origin, i));
-    add_mirrored(*shown, onwards, sample, depth - 1, shown->radiance);
-    for (std::size_t i = 0; i < kTilePixels; ++i)
-      if (shown->material[i] != nullptr) steradian::add(light, i, get(shown->radiance, i) * get(ways->shares, i));
+    add_mirrored(*shown, onwards, sample, depth - 1, shown->radiance, error_of_shown);
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      if (shown->material[i] == nullptr) continue;
+      steradian::add(light, i, get(shown->radiance, i) * get(ways->shares, i));
+      steradian::add(error, i, get(error_of_shown, i) * get(ways->shares, i));
+    }
     if (!shown->any_passing) return;
   }
 }
@@ -83,7 +87,7 @@ void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVecto
     gather(tile, sample, light, error);
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
-    add_mirrored(tile, distance, sample, reflections_, light);
+    add_mirrored(tile, distance, sample, reflections_, light, error);
     for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));
   });
   add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);

@@ -30,7 +30,8 @@ class AllLight {
 
  private:
   void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
-  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const;
+  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light,
+                    TileVector& error) const;
 
   const int width_, reflections_;
   const Vec3f eye_;

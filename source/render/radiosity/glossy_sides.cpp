@@ -18,7 +18,8 @@ Kernels<float>::vec3 in_kernel(Vec3f v) { return {static_cast<double>(v.x), stat
 
 bool GlossySides::has_lobe(const Surface& surface) { return !surface.material->unlit && weighs(surface.f0 + surface.f90); }
 
-bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance) {
+bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance,
+                       float turn) {
   const Frame frame =
       Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
   Vec3f sum{};
@@ -31,8 +32,8 @@ bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::ve
                 static_cast<Vec3f>(frame.z),
                 surface.f0,
                 surface.f90,
-                std::max(surface.alpha_x, kLeastWidth),
-                std::max(surface.alpha_y, kLeastWidth),
+                std::max(std::hypot(surface.alpha_x, turn), kLeastWidth),
+                std::max(std::hypot(surface.alpha_y, turn), kLeastWidth),
                 static_cast<std::uint32_t>(places_.size()),
                 0};
   for (const IncidentLight& light : incident) {

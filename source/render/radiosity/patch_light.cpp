@@ -204,6 +204,7 @@ void PatchLight::find_glossy(const FindIncident& find_incident) {
   constexpr double kLeast = 0.02;  // of the mean direct radiance: less light goes on as if the side were diffuse
   constexpr std::size_t kBatch = 4096;
   const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  even_glossy_.resize(sides);
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     power += luminance(static_cast<Vec3d>(direct_[side])) * static_cast<double>(area_of(side));
@@ -236,8 +237,9 @@ void PatchLight::find_glossy(const FindIncident& find_incident) {
       const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
       const Vec3f irradiance = Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} *
                                std::numbers::pi_v<float>;
-      if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance)) continue;
+      if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance, turn_of(side))) continue;
       const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
+      even_glossy_[side] = direct_[side] * found[k].share;
       direct_[side] = direct_[side] * rest;
       if (parts_of_[side] == kNoSide) continue;
       for (Vec3f& part : change_in_parts_[parts_of_[side]]) part = part * rest;
@@ -321,12 +323,22 @@ float PatchLight::area_of(std::uint32_t side) const {
   return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * at.step * at.step;
 }
 
+// Largest angle between the normals at a patch's middle and its corners, where vertices have normals.
+float PatchLight::turn_of(std::uint32_t side) const {
+  const Patches::Site& at = patches_.site(side);
+  const Mesh& mesh = scene_.meshes[at.mesh];
+  if (mesh.normals.empty()) return 0;
+  const auto corner = [&](std::size_t i) { return mesh.normals[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
+  const Vec3f middle = (corner(0) + corner(1) + corner(2)) * (1.0f / 3);
+  return std::max({length(corner(0) - middle), length(corner(1) - middle), length(corner(2) - middle)}) * at.step;
+}
+
 // Spreads places over the bright sides in proportion to their light.
 void PatchLight::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
   constexpr std::size_t kPlaces = 1024;
   const auto sides = static_cast<std::uint32_t>(patches_.side_count());
-  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side])); };
+  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side] + even_glossy_[side])); };
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (!(brightness(side) > 0)) continue;
@@ -350,7 +362,7 @@ void PatchLight::find_bright_sides() {
     before += brightness(side) * static_cast<double>(area_of(side));
     while (places_.size() < kPlaces && (static_cast<double>(places_.size()) + 0.5) * bright_power < before * kPlaces) {
       const Surface s = surface_of(side);
-      places_.push_back({s.position, s.geometric_normal, radiance_[side] * static_cast<float>(bright_power / kPlaces / brightness(side))});
+      places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
     }
   }
   bright_ = std::move(bright);
