@@ -34,7 +34,7 @@ AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfa
       add_direct_(std::move(add_direct)) {}
 
 void AllLight::begin(Picture& picture) {
-  for (const char* layer : {"indirect", "bounce_error"}) picture.layers[layer].resize(picture.pixels.size());
+  for (const char* layer : {"indirect", "bounce_error", "bounce_bound"}) picture.layers[layer].resize(picture.pixels.size());
 }
 
 // Adds the light that a tile's surfaces gather to `light`.
@@ -92,6 +92,11 @@ void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVecto
   });
   add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);
   add_to_picture(error, area, shares, weight, picture.layers.at("bounce_error"), width_);
+  const float left_out = patches_.left_out().value_or(0);
+  TileVector bound{};
+  for (std::size_t i = 0; i < kTilePixels; ++i)  // no surface reflects more than arrives
+    if (tile.material[i] != nullptr) put(bound, i, {left_out, left_out, left_out});
+  add_to_picture(bound, area, shares, weight, picture.layers.at("bounce_bound"), width_);
 }
 
 void AllLight::report(int threads, RenderStats& stats, const Picture& picture) const {
@@ -99,7 +104,7 @@ void AllLight::report(int threads, RenderStats& stats, const Picture& picture) c
   stats.passes.push_back(clock_.time(threads));
   stats.patches = patches_.patches().side_count() / 2;
   stats.bounce_iterations = patches_.iterations();
-  stats.bounce_residual = patches_.residual();
+  stats.bounce_left_out = static_cast<double>(patches_.left_out().value_or(-1));
   double squares = 0, light = 0;
   for (const Vec3f& e : picture.layers.at("bounce_error")) squares += std::pow(luminance(static_cast<Vec3d>(e)), 2);
   for (const Vec3f& p : picture.pixels) light += luminance(static_cast<Vec3d>(p));

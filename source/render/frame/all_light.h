@@ -21,7 +21,7 @@ class AllLight {
   AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
            const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct);
 
-  // Makes the layers "indirect" and "bounce_error".
+  // Makes the layers "indirect", "bounce_error" and "bounce_bound".
   static void begin(Picture& picture);
   // Adds the light of other surfaces to a tile's radiance, and `weight` of it to the layers. shares: fraction that arrives; null for all.
   void add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/mip_maps.h"
@@ -57,8 +58,8 @@ class PatchLight {
   float bright_area() const { return bright_area_; }       // mean of the places' areas
   double mean_radiance() const { return mean_radiance_; }  // luminance, over the sides that send light
   int iterations() const { return iterations_; }
-  // Largest change of the last iteration over the largest radiance.
-  double residual() const { return residual_; }
+  // Bound of the radiance that the bounces after the last iteration would add to any side. None if they do not become less.
+  std::optional<float> left_out() const { return left_out_; }
 
  private:
   Surface surface_of(std::uint32_t side) const;
@@ -91,7 +92,7 @@ class PatchLight {
   float bright_area_ = 0;
   double mean_radiance_ = 0;
   int iterations_ = 0;
-  double residual_ = 0;
+  std::optional<float> left_out_ = 0;
 };
 
 }  // namespace steradian::radiosity
