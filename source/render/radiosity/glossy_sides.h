@@ -1,7 +1,7 @@
 // GlossySides: what the glossy lobes of sides send on of their direct light, by direction.
 //
 // A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened by the
-// spacing of the places and by the turn of the normals within the side.
+// spacing of the places and by the turn of the normals within the side. The places of a light that is small beside the lobe become one.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +30,13 @@ class GlossySides {
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
   struct Place {
-    Vec3f direction;  // in the lobe's frame
-    Vec3f light;      // radiance times solid angle
-    float widening;   // square of the width to add
+    Vec3f direction;         // in the lobe's frame
+    Vec3f light;             // radiance times solid angle
+    float alpha_x, alpha_y;  // of the lobe, widened
   };
   struct KeptLobe {
     Vec3f x, y, z;  // frame
     Vec3f f0, f90;
-    float alpha_x, alpha_y;
     std::uint32_t first, count;  // places
   };
   Vec3f sent(const KeptLobe& lobe, Vec3f to) const;
