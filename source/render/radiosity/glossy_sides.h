@@ -1,4 +1,4 @@
-// GlossySides: what the glossy lobes of sides send on of their direct light, by direction.
+// GlossySides: the direct light that the glossy lobes of sides send on, by direction.
 //
 // A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened by the
 // spacing of the places and by the turn of the normals within the side. The places of a light that is small beside the lobe become one.
