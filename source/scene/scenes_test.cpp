@@ -40,8 +40,7 @@ TEST_F(OwnScenes, AreWhatTheirScriptMakes) {
     const std::string checked_in = bytes_of(scenes() + "/" + name + ".glb");
     EXPECT_FALSE(checked_in.empty()) << name;
     EXPECT_LT(checked_in.size(), 1'000'000u) << name;
-    EXPECT_TRUE(checked_in == bytes_of(folder_ + "/" + name + ".glb"))
-        << name << ": run scenes/make_scenes.py scenes " << name;
+    EXPECT_TRUE(checked_in == bytes_of(folder_ + "/" + name + ".glb")) << name << ": run scenes/make_scenes.py scenes " << name;
   }
 }
 

@@ -183,8 +183,7 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       traced |= 1u << i;
     });
     const std::size_t half = first / every % 2;
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all),
-                          [&](std::size_t i) { halves[i][half] += light[i]; });
+    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { halves[i][half] += light[i]; });
   }
 }
 
@@ -271,8 +270,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i].side != kNoSide)
-        halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i])) * weight[i];
+      if (met[i].side != kNoSide) halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i])) * weight[i];
   }
   Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {

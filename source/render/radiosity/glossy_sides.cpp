@@ -21,8 +21,7 @@ bool GlossySides::has_lobe(const Surface& surface) { return !surface.material->u
 
 bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance,
                        float turn) {
-  const Frame frame =
-      Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
+  const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
   Vec3f sum{};
   for (const IncidentLight& light : incident) sum += light.irradiance;
   const double of_places = luminance(static_cast<Vec3d>(sum)), of_all = luminance(static_cast<Vec3d>(irradiance));

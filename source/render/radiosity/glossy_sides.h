@@ -1,7 +1,7 @@
 // GlossySides: the direct light that the glossy lobes of sides send on, by direction.
 //
-// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened by the
-// spacing of the places and by the turn of the normals within the side. The places of a light that is small beside the lobe become one.
+// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened by
+// the spacing of the places and by the turn of the normals within the side. The places of a light that is small beside the lobe become one.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +20,9 @@ class GlossySides {
   // True if a surface's glossy lobe is one that these sides can keep.
   static bool has_lobe(const Surface& surface);
   // Keeps the lobe of a side's surface and its light. irradiance: of all direct light on the surface; the light is scaled to it.
-  // turn: angle between the normals in the middle and at the border. Returns false, and keeps nothing, if no light arrives. Each side at most once, one at a time.
-  bool keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance,
-            float turn);
+  // turn: angle between the normals in the middle and at the border. Returns false, and keeps nothing, if no light arrives. Each side at
+  // most once, one at a time.
+  bool keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn);
 
   // Radiance that a side's lobe sends in a direction of the scene.
   Vec3f radiance(std::uint32_t side, Vec3f to) const { return of_side_[side] == kNone ? Vec3f{} : sent(lobes_[of_side_[side]], to); }

@@ -83,11 +83,7 @@ void each(std::size_t count, Work work) {
 
 PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
                        const AddDirect& add_direct, const FindIncident& find_incident)
-    : scene_(scene),
-      rays_(rays),
-      maps_(maps),
-      patches_(scene, size_for(options.quality).patches),
-      glossy_(patches_.side_count()) {
+    : scene_(scene), rays_(rays), maps_(maps), patches_(scene, size_for(options.quality).patches), glossy_(patches_.side_count()) {
   const std::size_t sides = patches_.side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
@@ -237,8 +233,8 @@ void PatchLight::find_glossy(const FindIncident& find_incident) {
       const auto side = static_cast<std::uint32_t>(first + k);
       const Vec3f all = reflectance_[side];
       const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
-      const Vec3f irradiance = Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} *
-                               std::numbers::pi_v<float>;
+      const Vec3f irradiance =
+          Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} * std::numbers::pi_v<float>;
       if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance, turn_of(side))) continue;
       const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
       even_glossy_[side] = direct_[side] * found[k].share;

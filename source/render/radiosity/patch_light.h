@@ -79,11 +79,11 @@ class PatchLight {
   const MipMaps& maps_;
   const Patches patches_;
   GlossySides glossy_;
-  std::vector<Vec3f> reflectance_, direct_, radiance_;  // by side
-  std::vector<Vec3f> even_glossy_;                      // by side: mean radiance of its glossy lobe
-  std::vector<Vec3f> from_glossy_;                      // by side: mean radiance that glossy lobes of other sides send there
-  std::vector<Vec3f> coarse_;              // by side
-  std::vector<std::uint32_t> parts_of_;    // by side: index below, or kNoSide
+  std::vector<Vec3f> reflectance_, direct_, radiance_;           // by side
+  std::vector<Vec3f> even_glossy_;                               // by side: mean radiance of its glossy lobe
+  std::vector<Vec3f> from_glossy_;                               // by side: mean radiance that glossy lobes of other sides send there
+  std::vector<Vec3f> coarse_;                                    // by side
+  std::vector<std::uint32_t> parts_of_;                          // by side: index below, or kNoSide
   std::vector<std::array<Vec3f, kPatchParts>> change_in_parts_;  // from the side's mean
   std::size_t links_per_side_ = 0;
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
