@@ -22,7 +22,7 @@ class AllLight {
   AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
            const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct);
 
-  // Makes the layers "indirect" and "bounce_error".
+  // Makes the layers "indirect", "bounce_error" and "bounce_bound".
   static void begin(Picture& picture);
   // Adds the light of other surfaces to a tile's radiance, and `weight` of it to the layers. shares: fraction that arrives; null for all.
   void add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture);
@@ -31,7 +31,7 @@ class AllLight {
 
  private:
   void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
-  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const;
+  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light, TileVector& error) const;
 
   const int width_, reflections_;
   const Vec3f eye_;

@@ -177,7 +177,8 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       const Vec3f way = static_cast<Vec3f>(end - from);
       const float here = dot(way, s.normal), there = -dot(way, place.normal), square = dot(way, way);
       if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0) || square <= near_ * near_) return;
-      light[i] = place.power * (static_cast<float>(every) * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
+      light[i] = light_.radiance_towards(place, way * (-1 / std::sqrt(square))) *
+                 (static_cast<float>(every) * place.area * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
       rays.set(i, from, end - from);
       traced |= 1u << i;
     });
@@ -205,8 +206,8 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
-      light[i][k % 2] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
       if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
+      light[i][k % 2] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
       const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
       light[i][k % 2] += radiance;
       basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];

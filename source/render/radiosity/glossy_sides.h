@@ -1,7 +1,7 @@
-// GlossySides: what the glossy lobes of sides send on of their direct light, by direction.
+// GlossySides: the direct light that the glossy lobes of sides send on, by direction.
 //
-// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened to
-// the spacing of the places.
+// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened by
+// the spacing of the places and by the turn of the normals within the side. The places of a light that is small beside the lobe become one.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,9 @@ class GlossySides {
   // True if a surface's glossy lobe is one that these sides can keep.
   static bool has_lobe(const Surface& surface);
   // Keeps the lobe of a side's surface and its light. irradiance: of all direct light on the surface; the light is scaled to it.
-  // Returns false, and keeps nothing, if no light arrives. Each side at most once, one at a time.
-  bool keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance);
+  // turn: angle between the normals in the middle and at the border. Returns false, and keeps nothing, if no light arrives. Each side at
+  // most once, one at a time.
+  bool keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn);
 
   // Radiance that a side's lobe sends in a direction of the scene.
   Vec3f radiance(std::uint32_t side, Vec3f to) const { return of_side_[side] == kNone ? Vec3f{} : sent(lobes_[of_side_[side]], to); }
@@ -29,14 +30,13 @@ class GlossySides {
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
   struct Place {
-    Vec3f direction;  // in the lobe's frame
-    Vec3f light;      // radiance times solid angle
-    float widening;   // square of the width to add
+    Vec3f direction;         // in the lobe's frame
+    Vec3f light;             // radiance times solid angle
+    float alpha_x, alpha_y;  // of the lobe, widened
   };
   struct KeptLobe {
     Vec3f x, y, z;  // frame
     Vec3f f0, f90;
-    float alpha_x, alpha_y;
     std::uint32_t first, count;  // places
   };
   Vec3f sent(const KeptLobe& lobe, Vec3f to) const;

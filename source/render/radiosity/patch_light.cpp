@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -17,7 +18,8 @@ namespace steradian::radiosity {
 namespace {
 
 constexpr std::size_t kMostLinks = std::size_t{1} << 25;  // of all sides: 128 MB
-constexpr double kSmallChange = 1e-4;                     // of the largest radiance, at which the iterations end
+constexpr float kSmallChange = 1e-4f;                     // of the largest radiance, at which the iterations end
+constexpr float kNoChange = 1e-6f;                        // the same where the factor from bounce to bounce is not yet below 1
 constexpr int kMostIterations = 500;
 
 struct PatchSize {
@@ -199,6 +201,7 @@ void PatchLight::find_glossy(const FindIncident& find_incident) {
   constexpr double kLeast = 0.02;  // of the mean direct radiance: less light goes on as if the side were diffuse
   constexpr std::size_t kBatch = 4096;
   const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  even_glossy_.resize(sides);
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     power += luminance(static_cast<Vec3d>(direct_[side])) * static_cast<double>(area_of(side));
@@ -231,8 +234,9 @@ void PatchLight::find_glossy(const FindIncident& find_incident) {
       const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
       const Vec3f irradiance =
           Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} * std::numbers::pi_v<float>;
-      if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance)) continue;
+      if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance, turn_of(side))) continue;
       const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
+      even_glossy_[side] = direct_[side] * found[k].share;
       direct_[side] = direct_[side] * rest;
       if (parts_of_[side] == kNoSide) continue;
       for (Vec3f& part : change_in_parts_[parts_of_[side]]) part = part * rest;
@@ -265,30 +269,42 @@ void PatchLight::find_links(std::size_t rays) {
   });
 }
 
-// Adds bounces until the picture's last one, or until none changes much.
+// Adds bounces until the picture's last one, or until those that are left out are within kSmallChange.
+//
+// Every bounce is the same positive linear map of the one before. So if it is nowhere more than a factor f of the one before, all that
+// follow are within f / (1 - f) of it.
 void PatchLight::iterate(int bounces) {
   const std::size_t sides = patches_.side_count();
-  std::vector<Vec3f> next(sides);
+  const float over_links = 1.0f / static_cast<float>(links_per_side_);
+  std::vector<Vec3f> bounce = radiance_, next(sides);  // radiance after exactly so many bounces
+  const auto largest_of = [](Vec3f v) { return std::max({v.x, v.y, v.z}); };
   const int most = bounces == kAllBounces ? kMostIterations : bounces - 1;
   for (iterations_ = 0; iterations_ < most;) {
     each(sides, [&](std::size_t side) {
       Vec3f sum{};
       for (std::size_t k = 0; k < links_per_side_; ++k) {
         const std::uint32_t met = links_[side * links_per_side_ + k];
-        if (met != kNoSide) sum += radiance_[met];
+        if (met != kNoSide) sum += bounce[met];
       }
-      next[side] = direct_[side] + reflectance_[side] * (sum * (1.0f / static_cast<float>(links_per_side_)) + from_glossy_[side]);
+      // Light from glossy lobes of other sides is direct light that has bounced once.
+      next[side] = reflectance_[side] * (sum * over_links + (iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
     });
-    double change = 0, largest = 0;
+    float factor = 0, largest_bounce = 0, largest = 0;
+    const auto grows = [](float from, float to) { return to > 0 ? (from > 0 ? to / from : std::numeric_limits<float>::infinity()) : 0.0f; };
     for (std::size_t side = 0; side < sides; ++side) {
-      const Vec3f d = next[side] - radiance_[side];
-      change = std::max(change, static_cast<double>(std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)})));
-      largest = std::max(largest, static_cast<double>(std::max({next[side].x, next[side].y, next[side].z})));
+      const Vec3f a = bounce[side], b = next[side];
+      radiance_[side] += b;
+      factor = std::max({factor, grows(a.x, b.x), grows(a.y, b.y), grows(a.z, b.z)});
+      largest_bounce = std::max(largest_bounce, largest_of(b));
+      largest = std::max(largest, largest_of(radiance_[side]));
     }
-    radiance_.swap(next);
+    bounce.swap(next);
     ++iterations_;
-    residual_ = largest > 0 ? change / largest : 0;
-    if (bounces == kAllBounces && residual_ <= kSmallChange) break;
+    if (bounces != kAllBounces) continue;
+    // The first bounce holds light of glossy lobes that the direct light does not.
+    left_out_.reset();
+    if (iterations_ > 1 && factor < 1) left_out_ = largest_bounce * factor / (1 - factor);
+    if (largest_bounce <= kNoChange * largest || (left_out_ && *left_out_ <= kSmallChange * largest)) break;
   }
 }
 
@@ -316,12 +332,22 @@ float PatchLight::area_of(std::uint32_t side) const {
   return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * at.step * at.step;
 }
 
+// Largest angle between the normals at a patch's middle and its corners, where vertices have normals.
+float PatchLight::turn_of(std::uint32_t side) const {
+  const Patches::Site& at = patches_.site(side);
+  const Mesh& mesh = scene_.meshes[at.mesh];
+  if (mesh.normals.empty()) return 0;
+  const auto corner = [&](std::size_t i) { return mesh.normals[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
+  const Vec3f middle = (corner(0) + corner(1) + corner(2)) * (1.0f / 3);
+  return std::max({length(corner(0) - middle), length(corner(1) - middle), length(corner(2) - middle)}) * at.step;
+}
+
 // Spreads places over the bright sides in proportion to their light.
 void PatchLight::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
   constexpr std::size_t kPlaces = 1024;
   const auto sides = static_cast<std::uint32_t>(patches_.side_count());
-  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side])); };
+  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side] + even_glossy_[side])); };
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (!(brightness(side) > 0)) continue;
@@ -345,7 +371,7 @@ void PatchLight::find_bright_sides() {
     before += brightness(side) * static_cast<double>(area_of(side));
     while (places_.size() < kPlaces && (static_cast<double>(places_.size()) + 0.5) * bright_power < before * kPlaces) {
       const Surface s = surface_of(side);
-      places_.push_back({s.position, s.geometric_normal, radiance_[side] * static_cast<float>(bright_power / kPlaces / brightness(side))});
+      places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
     }
   }
   bright_ = std::move(bright);

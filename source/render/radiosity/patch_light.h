@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/mip_maps.h"
@@ -24,7 +25,8 @@ void put_white(SurfaceTile& tile, std::size_t slot, const Surface& surface);
 // A place that stands for an equal part of the light of all bright sides, which few directions of a gather would meet.
 struct BrightPlace {
   Vec3f position, normal;
-  Vec3f power;  // radiance times area
+  std::uint32_t side;
+  float area;  // that it stands for
 };
 
 class PatchLight {
@@ -48,18 +50,19 @@ class PatchLight {
     const std::uint32_t parts = parts_of_[at.side];
     return parts == kNoSide ? radiance_[at.side] : radiance_[at.side] + change_in_parts_[parts][at.part];
   }
-  // What a side's glossy lobe sends on of its direct light, in a direction. It comes on top of radiance().
+  // Radiance of direct light that a side's glossy lobe sends on in a direction. It comes on top of radiance().
   Vec3f glossy_radiance(std::uint32_t side, Vec3f to) const { return glossy_.radiance(side, to); }
+  Vec3f radiance_towards(const BrightPlace& place, Vec3f to) const { return radiance_[place.side] + glossy_.radiance(place.side, to); }
   // Mean radiance over the group of sides around it: what patches of twice the size would send.
   Vec3f coarse_radiance(PatchPlace at) const { return coarse_[at.side]; }
   // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().
   bool is_bright(std::uint32_t side) const { return !bright_.empty() && bright_[side] != 0; }
   const std::vector<BrightPlace>& bright_places() const { return places_; }
-  float bright_area() const { return bright_area_; }       // of the part that one place stands for
+  float bright_area() const { return bright_area_; }       // mean of the places' areas
   double mean_radiance() const { return mean_radiance_; }  // luminance, over the sides that send light
   int iterations() const { return iterations_; }
-  // Largest change of the last iteration over the largest radiance.
-  double residual() const { return residual_; }
+  // Bound of the radiance that the bounces after the last iteration would add to any side. None if they do not become less.
+  std::optional<float> left_out() const { return left_out_; }
 
  private:
   Surface surface_of(std::uint32_t side) const;
@@ -72,6 +75,7 @@ class PatchLight {
   void find_coarse();
   void find_bright_sides();
   float area_of(std::uint32_t side) const;
+  float turn_of(std::uint32_t side) const;
 
   const Scene& scene_;
   const RayScene& rays_;
@@ -79,6 +83,7 @@ class PatchLight {
   const Patches patches_;
   GlossySides glossy_;
   std::vector<Vec3f> reflectance_, direct_, radiance_;           // by side
+  std::vector<Vec3f> even_glossy_;                               // by side: mean radiance of its glossy lobe
   std::vector<Vec3f> from_glossy_;                               // by side: mean radiance that glossy lobes of other sides send there
   std::vector<Vec3f> coarse_;                                    // by side
   std::vector<std::uint32_t> parts_of_;                          // by side: index below, or kNoSide
@@ -90,7 +95,7 @@ class PatchLight {
   float bright_area_ = 0;
   double mean_radiance_ = 0;
   int iterations_ = 0;
-  double residual_ = 0;
+  std::optional<float> left_out_ = 0;
 };
 
 }  // namespace steradian::radiosity

@@ -232,22 +232,24 @@ void DirectSampler::find_incident(const Surface& surface, int places, reference:
   const auto geometric = static_cast<Vec3d>(surface.geometric_normal);
   const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
   const double shift = random.uniform() * 4096;
+  std::uint32_t number = 0;  // of the light
   const auto add = [&](const Incident& x) {
     if (!(x.density > 0) || !(x.direction.z > 0)) return;
     const double solid_angle = 1 / (x.density * places);
     found.push_back({static_cast<Vec3f>(frame.to_world(x.direction)), static_cast<Vec3f>(x.radiance * (x.direction.z * solid_angle)),
-                     static_cast<float>(solid_angle)});
+                     static_cast<float>(solid_angle), number});
   };
   const Vec3d p = visit_lights(
       frame, surface,
       [&](Vec3d l, Vec3d irradiance) {
-        found.push_back({static_cast<Vec3f>(frame.to_world(l)), static_cast<Vec3f>(irradiance * l.z), 0});
+        found.push_back({static_cast<Vec3f>(frame.to_world(l)), static_cast<Vec3f>(irradiance * l.z), 0, number++});
       },
       [&](auto sample, auto) {
         for (int i = 0; i < places; ++i) {
           const auto [u, v] = r2_place(shift + i);
           add(sample(u, v));
         }
+        ++number;
       });
   for (int i = 0; i < places && around_ != nullptr; ++i) {
     const auto [u, v] = r2_place(shift + i);

@@ -2,6 +2,7 @@
 // density, with the balance heuristic and optional shadow rays.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -28,8 +29,9 @@ struct Estimate {
 // Light that arrives at a surface from one direction.
 struct IncidentLight {
   Vec3f direction;
-  Vec3f irradiance;   // on the surface
-  float solid_angle;  // that it stands for; 0: a punctual light
+  Vec3f irradiance;     // on the surface
+  float solid_angle;    // that it stands for; 0: a punctual light
+  std::uint32_t light;  // number of the light
 };
 
 // Lobes to estimate; the others are computed elsewhere.
