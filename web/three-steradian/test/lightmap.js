@@ -7,7 +7,7 @@ const answer = document.getElementById( 'answer' );
 
 async function main() {
 
-	const width = 160, height = 120;
+	const width = 320, height = 240;
 	const gltf = await new GLTFLoader().register( ( parser ) => new GLTFLightMaps( parser ) ).loadAsync( '/scratch/baked.glb' );
 	const scene = new THREE.Scene(), camera = gltf.cameras[ 0 ];
 	scene.add( gltf.scene );

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""lightmap_test.py SCRATCH PROGRAM: a room that PROGRAM bakes, drawn by three.js with the plug-in, against the picture that PROGRAM renders.
+"""lightmap_test.py SCRATCH PROGRAM [PICTURE]: a room that PROGRAM bakes, drawn by three.js with the plug-in, against the picture that PROGRAM renders.
 
-Exit 77 (skipped) as three_test.py.
+PICTURE: writes both side by side as PNG, three.js on the left. Exit 77 (skipped) as three_test.py.
 """
 import base64
 import functools
@@ -12,13 +12,14 @@ import sys
 import tempfile
 import threading
 import urllib.parse
+import zlib
 from http.server import ThreadingHTTPServer
 from pathlib import Path
 
 import three_test as common
 from three_test import browser, np
 
-WIDTH, HEIGHT = 160, 120  # of lightmap.js
+WIDTH, HEIGHT = 320, 240  # of lightmap.js
 SHARE, STEPS = 0.99, 2  # of the pixels are within so many 255ths of white
 
 
@@ -100,16 +101,25 @@ def main():
         want = png_of((scratch / "want.png").read_bytes())
         off = np.abs(np.round(255 * srgb(got)) - want).max(axis=-1)
         within = (off <= STEPS).mean()
+        if len(sys.argv) > 3:
+            Path(sys.argv[3]).write_bytes(as_png(np.concatenate([np.round(255 * srgb(got)), want], axis=1).astype(np.uint8)))
         print(f"{100 * within:.2f} % of the pixels are within {STEPS}/255, the mean is off by {off.mean():.2f}/255, the last hundredth by {np.quantile(off, 0.99):.0f}/255; "
               f"the picture's mean is {want.mean():.0f}/255")
         assert 30 < want.mean() < 225, "the picture is too dark or too bright to judge"
         sys.exit(bool(within < SHARE))
 
 
+def as_png(pixels):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    height, width = pixels.shape[:2]
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+
+
 def png_of(data):
     """The bytes of an 8-bit RGB PNG."""
-    import zlib
-
     at, parts = 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
