@@ -24,7 +24,7 @@ SHARE, STEPS = 0.99, 2  # of the pixels are within so many 255ths of white
 
 
 def room():
-    """A room of 4 x 2.5 x 3 m with two boxes and a lamp behind the camera; everything is diffuse."""
+    """A room of 4 x 2.5 x 4.5 m with two boxes, and a lamp above the picture; everything is diffuse."""
     data, views, accessors, primitives = b"", [], [], []
 
     def add(values, kind, count, code, component):
@@ -49,19 +49,19 @@ def room():
                            ((x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0)), ((x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1))]:
             quad(*((d, c, b, a) if inside else (a, b, c, d)), material)
 
-    box((-2, 0, -1.5), (2, 2.5, 1.5), 0, True)
-    box((-1.3, 0, -1.0), (-0.5, 1.2, -0.3), 1, False)
-    box((0.4, 0, -0.8), (1.1, 0.6, 0.0), 2, False)
+    box((-2, 0, -1.5), (2, 2.5, 3), 0, True)
+    box((-1.1, 0, -1.0), (-0.4, 1.3, -0.3), 1, False)
+    box((0.2, 0, -0.4), (0.9, 0.6, 0.3), 2, False)
     plain = {"KHR_materials_specular": {"specularFactor": 0}}
     materials = [{"pbrMetallicRoughness": {"baseColorFactor": [*c, 1], "metallicFactor": 0, "roughnessFactor": 1}, "extensions": plain}
                  for c in ([0.7, 0.7, 0.7], [0.8, 0.3, 0.2], [0.2, 0.4, 0.8])]
     down = [-0.7071067811865476, 0, 0, 0.7071067811865476]
     return {"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_lights_area", "KHR_materials_specular"],
-            "extensions": {"EXT_lights_area": {"lights": [{"type": "rect", "size": 0.8, "rect": {"aspect": 1.5}, "color": [1, 0.95, 0.9], "intensity": 8}]}},
+            "extensions": {"EXT_lights_area": {"lights": [{"type": "rect", "size": 0.8, "rect": {"aspect": 1.5}, "color": [1, 0.95, 0.9], "intensity": 14}]}},
             "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
             "bufferViews": views, "accessors": accessors, "materials": materials, "meshes": [{"primitives": primitives, "name": "room"}],
-            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.05, "zfar": 50}}],
-            "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 1.2, 1.4]}, {"translation": [0.3, 2.4, 1.2], "rotation": down, "extensions": {"EXT_lights_area": {"light": 0}}}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.75, "znear": 0.05, "zfar": 50}}],
+            "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 1.5, 2.9], "rotation": [-0.0995, 0, 0, 0.995]}, {"translation": [-1.1, 2.4, 1.0], "rotation": down, "extensions": {"EXT_lights_area": {"light": 0}}}],
             "scenes": [{"nodes": [0, 1, 2]}], "scene": 0}
 
 
