@@ -14,6 +14,16 @@ constexpr double kInside = 1.0 / 64;
 
 int cells_for(double texels) { return static_cast<int>(std::clamp(std::ceil(texels - 1e-6), 1.0, 2.0 * kLargestMap)); }
 
+template <class Moved>
+void move(Chart& chart, Moved moved) {
+  for (ChartTriangle& t : chart.triangles)
+    for (Vec2d& p : t.at) p = moved(p);
+  for (ChartPiece& piece : chart.pieces)
+    for (Vec2d& p : piece.outline) p = moved(p);
+  for (ChartDoor& door : chart.doors)
+    for (Vec2d& p : door.ends) p = moved(p);
+}
+
 }  // namespace
 
 MapSize place_charts(std::vector<Chart>& charts, double texels, const std::string& place) {
@@ -28,11 +38,7 @@ MapSize place_charts(std::vector<Chart>& charts, double texels, const std::strin
   for (Chart& chart : charts) {
     Vec2d size = chart.box().size();
     if (size.y > size.x) {  // lying charts pack better
-      const auto turned = [](Vec2d p) { return Vec2d{p.y, -p.x}; };
-      for (ChartTriangle& t : chart.triangles)
-        for (Vec2d& p : t.at) p = turned(p);
-      for (ChartPiece& piece : chart.pieces)
-        for (Vec2d& p : piece.outline) p = turned(p);
+      move(chart, [](Vec2d p) { return Vec2d{p.y, -p.x}; });
       std::swap(size.x, size.y);
     }
     chart.width = (chart.is_covered ? 1 : cells_for(size.x * texels)) + 1;
@@ -68,10 +74,7 @@ MapSize place_charts(std::vector<Chart>& charts, double texels, const std::strin
     const double sx = scale(chart.width - 1, box.size().x), sy = scale(chart.height - 1, box.size().y);
     const Vec2d at{chart.x + 0.5 + kInside, chart.y + 0.5 + kInside};
     const auto placed = [&](Vec2d p) { return Vec2d{at.x + (p.x - box.low.x) * sx, at.y + (p.y - box.low.y) * sy}; };
-    for (ChartTriangle& t : chart.triangles)
-      for (Vec2d& p : t.at) p = placed(p);
-    for (ChartPiece& piece : chart.pieces)
-      for (Vec2d& p : piece.outline) p = placed(p);
+    move(chart, placed);
   }
   return map;
 }

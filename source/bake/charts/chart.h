@@ -29,13 +29,21 @@ struct ChartPlane {
   Vec2d at(Vec3d p) const { return {dot(p - origin, x), dot(p - origin, y)}; }
 };
 
+// A part of an edge where two charts of one plane meet without a contact between them. Both have a door of this number.
+struct ChartDoor {
+  std::uint32_t number = 0;
+  std::array<Vec2d, 2> ends;
+  double length = 0;  // [m]
+};
+
 // Its coordinates are metres until place_charts makes them texels of the map, with texel centres at half numbers.
 struct Chart {
   static constexpr std::uint32_t kWhole = UINT32_MAX;
 
   std::uint32_t mesh = 0;
   std::vector<ChartTriangle> triangles;
-  std::vector<ChartPiece> pieces;            // the lit parts where contacts cover others; empty: all triangles
+  std::vector<ChartPiece> pieces;  // the lit parts where contacts cover others; empty: all triangles
+  std::vector<ChartDoor> doors;
   bool is_flat = false, is_covered = false;  // covered: no light arrives anywhere
   ChartPlane plane;                          // where it is flat
   std::uint32_t cut_from = kWhole;           // charts of one number were cut apart at contacts, so nothing joins them

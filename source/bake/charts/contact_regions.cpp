@@ -16,6 +16,8 @@ double left_of(Vec2d p, Vec2d from, Vec2d direction) { return cross(direction, p
 
 Vec2d crossing(Vec2d a, Vec2d b, double da, double db) { return a + (b - a) * (da / (da - db)); }
 
+Vec2d normalized_along(const std::array<Vec2d, 2>& line) { return (line[1] - line[0]) / length(line[1] - line[0]); }
+
 // The part of a convex outline on the left (sign 1) or right (-1) of a line.
 std::vector<Vec2d> half_of(const std::vector<Vec2d>& outline, Vec2d from, Vec2d direction, double sign) {
   std::vector<Vec2d> part;
@@ -47,6 +49,7 @@ ContactRegions::ContactRegions(const Chart& chart, double tolerance) : tolerance
 bool ContactRegions::cut(Vec2d from, Vec2d to) {
   const double l = length(to - from);
   if (!(l > tolerance_)) return true;
+  contacts_.push_back({from, to});
   const Vec2d direction = (to - from) / l;
   const auto count = static_cast<std::uint32_t>(pieces_.size());
   for (std::uint32_t n = 0; n < count; ++n) {
@@ -81,21 +84,8 @@ void ContactRegions::split(std::uint32_t piece, Vec2d from, Vec2d direction) {
   const auto other = static_cast<std::uint32_t>(pieces_.size());
   pieces_.push_back({pieces_[piece].number, right});
   pieces_[piece].outline = left;
-  const std::size_t count = links_.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    Link& link = links_[i];
-    if (link.piece[0] != piece && link.piece[1] != piece) continue;
-    const double da = left_of(link.from, from, direction), db = left_of(link.to, from, direction);
-    std::uint32_t& own = link.piece[0] == piece ? link.piece[0] : link.piece[1];
-    if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
-      Link second = link;
-      second.from = link.to = crossing(link.from, link.to, da, db);
-      (da > 0 ? (link.piece[0] == piece ? second.piece[0] : second.piece[1]) : own) = other;
-      links_.push_back(second);
-    } else if (da + db < 0) {
-      own = other;
-    }
-  }
+  split_links(links_, piece, other, from, direction);
+  split_links(doors_, piece, other, from, direction);
   double first = 1e300, last = -1e300;
   for (const Vec2d p : left)
     if (std::fabs(left_of(p, from, direction)) <= 1e-3 * tolerance_) {
@@ -103,6 +93,61 @@ void ContactRegions::split(std::uint32_t piece, Vec2d from, Vec2d direction) {
       last = std::max(last, dot(p - from, direction));
     }
   if (last > first) links_.push_back({{piece, other}, from + direction * first, from + direction * last});
+}
+
+// Hands the links of a piece that lie on the right of a line to the other half.
+void ContactRegions::split_links(std::vector<Link>& links, std::uint32_t piece, std::uint32_t other, Vec2d from, Vec2d direction) const {
+  const std::size_t count = links.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Link& link = links[i];
+    if (link.piece[0] != piece && link.piece[1] != piece) continue;
+    const double da = left_of(link.from, from, direction), db = left_of(link.to, from, direction);
+    std::uint32_t& own = link.piece[0] == piece ? link.piece[0] : link.piece[1];
+    if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
+      Link second = link;
+      second.from = link.to = crossing(link.from, link.to, da, db);
+      (da > 0 ? (link.piece[0] == piece ? second.piece[0] : second.piece[1]) : own) = other;
+      links.push_back(second);
+    } else if (da + db < 0) {
+      own = other;
+    }
+  }
+}
+
+bool ContactRegions::cut_through(Vec2d from, Vec2d to) {
+  const double l = length(to - from);
+  if (!(l > tolerance_)) return true;
+  const Vec2d direction = (to - from) / l;
+  const auto count = static_cast<std::uint32_t>(pieces_.size());
+  for (std::uint32_t n = 0; n < count; ++n) {
+    double low = 1e300, high = -1e300;
+    for (const Vec2d p : pieces_[n].outline) {
+      low = std::min(low, left_of(p, from, direction));
+      high = std::max(high, left_of(p, from, direction));
+    }
+    if (low > -tolerance_ || high < tolerance_) continue;
+    if (pieces_.size() >= kMostPieces) return false;
+    split(n, from, direction);
+  }
+  for (const auto& contact : contacts_) part(contact[0], normalized_along(contact), length(contact[1] - contact[0]));
+  const auto is_door = [&](const Link& link) {
+    return std::fabs(left_of(link.from, from, direction)) <= tolerance_ && std::fabs(left_of(link.to, from, direction)) <= tolerance_;
+  };
+  for (const Link& link : links_)
+    if (is_door(link) && length(link.to - link.from) > tolerance_) doors_.push_back(link);
+  std::erase_if(links_, is_door);
+  return true;
+}
+
+std::uint32_t ContactRegions::piece_at(Vec2d p) const {
+  for (std::uint32_t n = 0; n < pieces_.size(); ++n) {
+    const std::vector<Vec2d>& outline = pieces_[n].outline;
+    bool inside = true;
+    for (std::size_t i = 0; i < outline.size() && inside; ++i)
+      inside = cross(outline[(i + 1) % outline.size()] - outline[i], p - outline[i]) >= 0;
+    if (inside) return n;
+  }
+  return kNowhere;
 }
 
 // Takes the line away from the links along it.

@@ -21,6 +21,8 @@ constexpr double kRoundings = 0x1p-19;  // of the largest coordinate: heights in
 constexpr double kLeastHeight = 1e-3;   // of a texel
 constexpr double kTogether = 4;         // heights: nearer points count as one, so that slanted walls do not cut slivers off their floor
 constexpr double kLeastRegion = 0.01;   // of a texel's area, and of a chart's
+constexpr double kLeastScreen = 4;      // texels: shorter contacts, such as those of legs, mix little light
+constexpr double kThickest = 2;         // texels: no texel reaches across a thicker wall
 constexpr std::size_t kLooks = 4;       // pieces of a region from which rays look
 constexpr std::size_t kRays = 32;       // of each
 
@@ -107,12 +109,14 @@ struct Parted {
   std::vector<ChartPiece> pieces;
   std::vector<std::uint32_t> region;  // of each piece
   std::vector<std::uint32_t> lit;     // regions where light may arrive
+  std::vector<ContactRegions::Link> doors;
 };
 
 // Judges the charts of a scene that is not cut yet.
 class ContactJudge {
  public:
-  ContactJudge(const Scene& scene, double texels) : scene_(scene), sections_(scene), least_(kLeastRegion / (texels * texels)) {
+  ContactJudge(const Scene& scene, double texels)
+      : scene_(scene), sections_(scene), texel_(1 / texels), least_(kLeastRegion * texel_ * texel_) {
     double reach = 0;
     for (const Mesh& mesh : scene.meshes)
       for (const Vec3f p : mesh.positions)
@@ -132,18 +136,57 @@ class ContactJudge {
                            name_of(scene_.meshes[chart.mesh], chart.mesh) + ": its light may spread below the things on it");
         return {};
       }
-    Parted result{regions.pieces(), regions.regions(), {}};
-    const std::uint32_t count = 1 + *std::max_element(result.region.begin(), result.region.end());
-    if (count == 1) return {};
-    std::vector<double> area(count, 0.0);
-    for (std::size_t n = 0; n < result.pieces.size(); ++n) area[result.region[n]] += area_of(result.pieces[n].outline);
-    const double least = std::min(least_, kLeastRegion * std::accumulate(area.begin(), area.end(), 0.0));
-    for (std::uint32_t r = 0; r < count; ++r)
-      if (area[r] >= least && !is_covered(chart, result, r)) result.lit.push_back(r);
+    Parted result = judged(chart, regions);
+    const std::vector<ContactLine> through = screens(lines, regions, result);
+    for (const ContactLine& line : through) regions.cut_through(line.from, line.to);
+    if (!through.empty()) return judged(chart, regions);
+    if (result.lit.size() == 1 && *std::max_element(result.region.begin(), result.region.end()) == 0) return {};
     return result;
   }
 
  private:
+  // The regions, and which of them are lit. No regions: there is one alone.
+  Parted judged(const Chart& chart, const ContactRegions& regions) {
+    Parted result{regions.pieces(), regions.regions(), {}, regions.doors()};
+    const std::uint32_t count = 1 + *std::max_element(result.region.begin(), result.region.end());
+    std::vector<double> area(count, 0.0);
+    for (std::size_t n = 0; n < result.pieces.size(); ++n) area[result.region[n]] += area_of(result.pieces[n].outline);
+    const double least = std::min(least_, kLeastRegion * std::accumulate(area.begin(), area.end(), 0.0));
+    for (std::uint32_t r = 0; r < count; ++r)
+      if (area[r] >= least && (count == 1 || !is_covered(chart, result, r))) result.lit.push_back(r);
+    return result;
+  }
+
+  // Contacts of thin walls whose both sides belong to one region: their texels would mix both sides. Each wall has one line.
+  std::vector<ContactLine> screens(const std::vector<ContactLine>& lines, const ContactRegions& regions, const Parted& parted) const {
+    const auto lit_region = [&](Vec2d p) {
+      const std::uint32_t piece = regions.piece_at(p);
+      if (piece == ContactRegions::kNowhere) return ContactRegions::kNowhere;
+      const std::uint32_t region = parted.region[piece];
+      return std::find(parted.lit.begin(), parted.lit.end(), region) != parted.lit.end() ? region : ContactRegions::kNowhere;
+    };
+    std::vector<ContactLine> found;
+    for (const ContactLine& line : lines) {
+      const double l = length(line.to - line.from);
+      if (!(l >= kLeastScreen * texel_)) continue;
+      const Vec2d along = (line.to - line.from) / l, across{-along.y, along.x}, middle = (line.from + line.to) * 0.5;
+      // One side is lit at the line, the other one at the line or behind the wall.
+      const double near = 2 * kTogether * height_, far = kThickest * texel_;
+      bool thin = false;
+      for (const double side : {-1.0, 1.0}) {
+        const std::uint32_t here = lit_region(middle + across * (side * near));
+        thin |= here != ContactRegions::kNowhere &&
+                (lit_region(middle - across * (side * near)) == here || lit_region(middle - across * (side * far)) == here);
+      }
+      const bool has_line = std::any_of(found.begin(), found.end(), [&](const ContactLine& other) {
+        const Vec2d direction = (other.to - other.from) / length(other.to - other.from);
+        return std::fabs(cross(direction, line.from - other.from)) < far && std::fabs(cross(direction, line.to - other.from)) < far;
+      });
+      if (thin && !has_line) found.push_back(line);
+    }
+    return found;
+  }
+
   // The triangles of a chart's mesh across its outer edges.
   std::unordered_set<std::uint32_t> border_of(const Chart& chart) {
     if (mesh_ != chart.mesh || !neighbours_) {
@@ -186,7 +229,7 @@ class ContactJudge {
 
   const Scene& scene_;
   const ContactSections sections_;
-  const double least_;
+  const double texel_, least_;
   double height_ = 0;
   std::unique_ptr<RayScene> rays_;
   std::uint32_t mesh_ = 0;  // of the neighbours
@@ -201,6 +244,7 @@ class MeshCutter {
   // The charts in the place of one that is parted: one for each lit region, and one for all others.
   std::vector<Chart> cut(const Chart& chart, const Parted& parted, std::uint32_t number) {
     std::vector<Chart> charts;
+    std::map<std::uint32_t, std::size_t> chart_of;  // by lit region
     vertices_.clear();
     std::vector<std::uint8_t> replaced(chart.triangles.size(), 0);
     const auto add = [&](Chart& to, const ChartPiece& piece) {
@@ -217,12 +261,20 @@ class MeshCutter {
     Chart covered = empty_like(chart, number);
     covered.is_covered = true;
     for (const std::uint32_t region : parted.lit) {
+      chart_of[region] = charts.size();
       Chart& part = charts.emplace_back(empty_like(chart, number));
       for (std::size_t n = 0; n < parted.pieces.size(); ++n)
         if (parted.region[n] == region) add(part, parted.pieces[n]);
     }
     for (std::size_t n = 0; n < parted.pieces.size(); ++n)
       if (std::find(parted.lit.begin(), parted.lit.end(), parted.region[n]) == parted.lit.end()) add(covered, parted.pieces[n]);
+    for (const ContactRegions::Link& door : parted.doors) {
+      const auto one = chart_of.find(parted.region[door.piece[0]]), other = chart_of.find(parted.region[door.piece[1]]);
+      if (one == chart_of.end() || other == chart_of.end() || one->second == other->second) continue;
+      for (const std::size_t c : {one->second, other->second})
+        charts[c].doors.push_back({doors_, {door.from, door.to}, length(door.to - door.from)});
+      ++doors_;
+    }
     if (!covered.triangles.empty()) charts.push_back(std::move(covered));
     return charts;
   }
@@ -292,6 +344,7 @@ class MeshCutter {
   }
 
   CutScene& to_;
+  std::uint32_t doors_ = 0;
   std::map<std::uint32_t, std::vector<std::uint32_t>> before_;  // indices of the meshes that are being cut
   std::map<std::pair<std::uint32_t, std::array<double, 3>>, std::uint32_t> vertices_;
 };

@@ -61,6 +61,12 @@ std::vector<Seam> seams_of(const Scene& scene, const std::vector<Chart>& charts)
     if (!(dot(normals[0][0], normals[1][0]) > kSmoothEdge) || !(dot(normals[0][1], normals[1][1]) > kSmoothEdge)) continue;
     seams.push_back(seam);
   }
+  std::map<std::uint32_t, std::pair<std::uint32_t, const ChartDoor*>> doors;  // the first chart of each
+  for (std::uint32_t c = 0; c < charts.size(); ++c)
+    for (const ChartDoor& door : charts[c].doors) {
+      const auto [it, fresh] = doors.try_emplace(door.number, c, &door);
+      if (!fresh) seams.push_back({{it->second.first, c}, {it->second.second->ends, door.ends}, door.length});
+    }
   return seams;
 }
 

@@ -14,7 +14,8 @@ struct Seam {
   double length = 0;                         // [m]
 };
 
-// Two triangles meet smoothly where positions and vertex normals of an edge agree. The charts may belong to different meshes.
+// Two triangles meet smoothly where positions and vertex normals of an edge agree. The charts may belong to different meshes. Doors are
+// seams, too.
 std::vector<Seam> seams_of(const Scene& scene, const std::vector<Chart>& charts);
 
 // The charts in groups that seams join, in the order of their first charts.
