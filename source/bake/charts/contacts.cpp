@@ -21,6 +21,7 @@ constexpr double kRoundings = 0x1p-19;  // of the largest coordinate: heights in
 constexpr double kLeastHeight = 1e-3;   // of a texel
 constexpr double kTogether = 4;         // heights: nearer points count as one, so that slanted walls do not cut slivers off their floor
 constexpr double kLeastRegion = 0.01;   // of a texel's area, and of a chart's
+constexpr double kLeastChart = 1;       // texel: leaves that cut through each other are not cut
 constexpr double kLeastScreen = 4;      // texels: shorter contacts, such as those of legs, mix little light
 constexpr double kThickest = 2;         // texels: no texel reaches across a thicker wall
 constexpr std::size_t kLooks = 4;       // pieces of a region from which rays look
@@ -127,6 +128,9 @@ class ContactJudge {
 
   // Nothing where no contact parts or covers the chart.
   std::optional<Parted> parted(const Chart& chart, std::vector<std::string>& warnings) {
+    double area = 0;
+    for (const ChartTriangle& t : chart.triangles) area += std::fabs(doubled_area(t.at)) / 2;
+    if (area < kLeastChart * texel_ * texel_) return {};
     const std::vector<ContactLine> lines = sections_.above(chart, border_of(chart), height_);
     if (lines.empty()) return {};
     ContactRegions regions(chart, kTogether * height_);
