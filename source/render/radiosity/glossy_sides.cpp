@@ -10,7 +10,7 @@
 namespace steradian::radiosity {
 namespace {
 
-constexpr float kLeastWidth = 0.1f;  // alpha: few rays would meet the light of a narrower lobe
+constexpr float kLeastWidth = 0.25f;  // alpha: few rays would meet the light of a narrower lobe
 constexpr float kSmall = 0.5f;       // half radius of a light over the lobe's width
 
 Kernels<float>::vec3 in_kernel(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
