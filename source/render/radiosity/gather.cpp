@@ -204,7 +204,8 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       traced |= 1u << i;
     });
     const std::size_t quarter = first / every % 4;
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { quarters[i][quarter] += light[i]; });
+    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all),
+                          [&](std::size_t i) { quarters[i][quarter] += light[i]; });
   }
 }
 
@@ -274,6 +275,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;
+    float wider;  // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss their highlights
   };
   std::array<std::optional<Walker>, kLanes> walkers;
   for (std::size_t i = 0; i < kLanes; ++i) {
@@ -282,7 +284,8 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     const Vec3d tangent = of[i]->material.tangent == Vec3d{} ? static_cast<Vec3d>(s.tangent) : of[i]->material.tangent;
     const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(of[i]->normal)), tangent);
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
-    if (lobe.above_surface()) walkers[i] = Walker{frame, lobe};
+    if (lobe.above_surface())
+      walkers[i] = Walker{frame, lobe, static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
   }
   BounceRays rays(rays_, light_.patches());
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
@@ -302,7 +305,8 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i].side != kNoSide) halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i])) * weight[i];
+      if (met[i].side != kNoSide)
+        halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider)) * weight[i];
   }
   Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {
