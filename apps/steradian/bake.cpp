@@ -11,12 +11,12 @@
 #include "bake/bake.h"
 #include "bake/baked_file.h"
 #include "bake/light_groups.h"
+#include "bake/scene_to_bake.h"
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/simd.h"
 #include "core/words.h"
 #include "picture_options.h"
-#include "steradian/error.h"
 #include "steradian/version.h"
 #include "command_line.h"
 #include "verbs.h"
@@ -31,8 +31,6 @@ struct BakeArguments {
   LoadOptions load;
   bake::BakeOptions bake;
 };
-
-std::string exr_beside(const std::string& output) { return std::filesystem::path(output).replace_extension(".exr").string(); }
 
 nlohmann::ordered_json stats_json(const BakeArguments& options, const bake::LightMap& map, const bake::BakeStats& stats) {
   return {{"version", version()},
@@ -78,10 +76,7 @@ void parse_part(BakeArguments& options) {
 }
 
 void write_map(const BakeArguments& options, const bake::LightMap& map, const std::string& path) {
-  Picture picture(map.width, map.height);
-  picture.pixels = map.irradiance;
-  picture.layers["error"] = map.error;
-  for (const bake::GroupTexels& group : map.groups) picture.layers["group." + group.name] = group.irradiance;
+  Picture picture = bake::picture_of(map);
   picture.metadata = {{"steradian.version", version()},
                       {"steradian.scene", options.scene},
                       {"steradian.bounces", options.bounces},
@@ -120,14 +115,10 @@ void run(const Verb& verb, BakeArguments& options) {
   verb.refuse_without_effect({{"--bounce-error", bake.light.bounces != 0, "--bounces"},
                               {"--environment-rotation", !options.load.environment.empty(), "--environment"}});
   LoadOptions& load = options.load;
-  load.near_origin = true;
-  load.lights = {AddedLight::none};
   const auto start = std::chrono::steady_clock::now();
-  LoadedScene loaded = load_scene(options.scene, load);
+  const LoadedScene loaded = bake::load_to_bake(options.scene, load);
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Scene& scene = loaded.scene;
-  if (scene.area_lights.empty() && scene.punctual_lights.empty() && !scene.environment)
-    throw Error(options.scene, "has no light", "add lamps or emissive meshes, or --environment sky");
 
   std::unique_ptr<Progress> progress;
   std::once_flag once;
@@ -144,7 +135,7 @@ void run(const Verb& verb, BakeArguments& options) {
   progress.reset();
   for (const std::string& warning : map.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
-  const std::string exr = part ? options.output : exr_beside(options.output);
+  const std::string exr = part ? options.output : bake::map_beside(options.output);
   if (bake.target == bake::BakeTarget::texture) write_map(options, map, exr);
   if (!part) {
     scene::GltfFile file = scene::read_gltf_file(options.scene, load.limits);

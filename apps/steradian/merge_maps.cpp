@@ -8,6 +8,7 @@
 
 #include "bake/bake.h"
 #include "bake/baked_file.h"
+#include "bake/scene_to_bake.h"
 #include "image/codecs.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
@@ -59,9 +60,8 @@ void merge_maps(const std::vector<std::string>& parts, const std::string& output
 
   LoadOptions load;
   load.limits = limits;
-  load.near_origin = true;
-  load.lights = {AddedLight::none};
-  const LoadedScene loaded = load_scene(scene_path, load);
+  load.environment = "white";  // the parts hold the light, and any light will do
+  const LoadedScene loaded = bake::load_to_bake(scene_path, load);
   bake::BakeOptions options;
   if (std::sscanf(all.metadata.at("steradian.texels").c_str(), "%lf", &options.texels) != 1 ||
       !(options.texels >= 1e-3 && options.texels <= 1e4))
@@ -73,7 +73,7 @@ void merge_maps(const std::vector<std::string>& parts, const std::string& output
   map.irradiance = all.pixels;
   map.error = all.layers["error"];
   all.metadata.erase("steradian.part");
-  const std::string exr = std::filesystem::path(output).replace_extension(".exr").string();
+  const std::string exr = bake::map_beside(output);
   scene::GltfFile file = scene::read_gltf_file(scene_path, limits);
   bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), limits);
   write_picture(all, exr);

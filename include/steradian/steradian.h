@@ -3,6 +3,7 @@
 
 #include "steradian/albedo.h"
 #include "steradian/area_light.h"
+#include "steradian/bake.h"
 #include "steradian/batch.h"
 #include "steradian/bounces.h"
 #include "steradian/capsule_light.h"

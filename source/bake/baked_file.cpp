@@ -335,4 +335,12 @@ void add_light_map(GltfFile& file, const LoadedScene& loaded, const LightMap& ma
   data.finish();
 }
 
+Picture picture_of(const LightMap& map) {
+  Picture picture(map.width, map.height);
+  picture.pixels = map.irradiance;
+  picture.layers["error"] = map.error;
+  for (const GroupTexels& group : map.groups) picture.layers["group." + group.name] = group.irradiance;
+  return picture;
+}
+
 }  // namespace steradian::bake

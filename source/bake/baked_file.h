@@ -10,6 +10,7 @@
 #include "bake/bake.h"
 #include "scene/gltf/gltf_file.h"
 #include "steradian/load_scene.h"
+#include "steradian/picture.h"
 
 namespace steradian::bake {
 
@@ -17,5 +18,8 @@ namespace steradian::bake {
 //
 // Light at vertices becomes the attribute _IRRADIANCE of three floats, and extras.steradian.irradiance = "_IRRADIANCE".
 void add_light_map(scene::GltfFile& file, const LoadedScene& loaded, const LightMap& map, const std::string& exr, const Limits& limits);
+
+// The map as a picture: irradiance, and layers for its error and its groups of lights.
+Picture picture_of(const LightMap& map);
 
 }  // namespace steradian::bake
