@@ -1,0 +1,240 @@
+// Lights that fit themselves: recovery of seeded lights, bands of illuminance, statements about what is not determined.
+#include "steradian/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random.h"
+#include "solve/box_least_squares.h"
+#include "solve/least_power.h"
+#include "steradian/error.h"
+#include "support/boxes.h"
+
+namespace steradian::solve_test {
+namespace {
+
+using scene::camera_at;
+using scene::quad_mesh;
+
+// A rectangle with its lit side towards -y, turned about x and z.
+AreaLight panel(Vec3d center, double width, double height, Vec3d radiance, Vec3d turn = {}) {
+  const auto turned = [&](Vec3d v) { return rotated(rotated(v, {1, 0, 0}, turn.x), {0, 0, 1}, turn.z); };
+  const Vec3d x = turned({width / 2, 0, 0}), y = turned({0, 0, height / 2});
+  Polygon polygon;
+  polygon.vertices = {center - x - y, center + x - y, center + x + y, center - x + y};
+  AreaLight light;
+  light.shape = polygon;
+  light.radiance = radiance;
+  light.name = "lamp";
+  light.power = luminance(radiance) * width * height;
+  return light;
+}
+
+// A room of 6 x 3 x 6 m without a front wall: a glossy floor, three diffuse walls and a ceiling.
+Scene room() {
+  Scene scene;
+  SurfaceMaterial glossy = scene::grey(0.5f);
+  glossy.specular = 1;
+  glossy.roughness = 0.5f;
+  scene.materials = {scene::grey(0.6f), glossy};
+  const auto add = [&](Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) { scene.meshes.push_back(quad_mesh(a, b, c, d, material)); };
+  add({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, 1);
+  add({-3, 0, -3}, {3, 0, -3}, {3, 3, -3}, {-3, 3, -3}, 0);
+  add({-3, 0, 3}, {-3, 0, -3}, {-3, 3, -3}, {-3, 3, 3}, 0);
+  add({3, 0, -3}, {3, 0, 3}, {3, 3, 3}, {3, 3, -3}, 0);
+  add({-3, 3, -3}, {3, 3, -3}, {3, 3, 3}, {-3, 3, 3}, 0);
+  scene.bounds_min = {-3, 0, -3};
+  scene.bounds_max = {3, 3, 3};
+  scene.cameras = {camera_at({0, 1.5, 6}, {0, -0.1, -1}, 0.8)};
+  return scene;
+}
+
+PictureTarget picture_of(const Scene& scene, int width, int height) {
+  RenderOptions options;
+  options.width = width;
+  options.height = height;
+  PictureTarget target;
+  target.picture = render(scene, options);
+  return target;
+}
+
+const Polygon& polygon_of(const AreaLight& light) { return std::get<Polygon>(light.shape); }
+Vec3d center_of(const AreaLight& light) {
+  const auto& v = polygon_of(light).vertices;
+  return (v[0] + v[1] + v[2] + v[3]) * 0.25;
+}
+
+LightFit everything(std::size_t light) {
+  LightFit fit;
+  fit.light = light;
+  fit.power = fit.position = fit.rotation = fit.size = true;
+  fit.position_x = {-2.5, 2.5};
+  fit.position_y = {1.5, 2.9};
+  fit.position_z = {-2.5, 2.5};
+  fit.most_degrees = 60;
+  fit.size_range = {0.1, 3};
+  return fit;
+}
+
+}  // namespace
+
+// A lamp that is turned by a quarter, with width for height, is a trap: several starts lead past it.
+TEST(Solve, RecoversALampFromItsPicture) {
+  Scene scene = room();
+  scene.area_lights = {panel({0.4, 2.5, -0.5}, 1.2, 0.6, {8, 7, 6}, {0.2, 0, -0.1})};
+  const PictureTarget target = picture_of(scene, 64, 36);
+  scene.area_lights = {panel({-0.3, 2.2, 0.2}, 0.8, 0.8, {6, 5.25, 4.5})};
+  SolveOptions options;
+  options.starts = 8;
+  const Solution found = solve(scene, {everything(0)}, {}, {target}, options);
+  EXPECT_TRUE(found.converged);
+  const double off = length(center_of(found.area_lights[0]) - Vec3d{0.4, 2.5, -0.5});
+  std::printf("lamp recovered to %.1e m, picture to %.1e, %zu steps, %d evaluations\n", off, found.picture_error, found.steps.size() - 1,
+              found.evaluations);
+  EXPECT_LT(off, 1e-5);
+  EXPECT_LT(found.picture_error, 1e-5);
+  ASSERT_EQ(found.parameters.size(), 9u);
+  for (const FittedParameter& p : found.parameters) EXPECT_TRUE(p.determined) << p.name;
+}
+
+TEST(Solve, TakesNoStepsFromItsOwnSolution) {
+  Scene scene = room();
+  scene.area_lights = {panel({0.4, 2.5, -0.5}, 1.2, 0.6, {8, 7, 6}, {0.2, 0, -0.1})};
+  const Solution found = solve(scene, {everything(0)}, {}, {picture_of(scene, 64, 36)});
+  EXPECT_LE(found.steps.size(), 3u);
+  for (const FittedParameter& p : found.parameters) EXPECT_NEAR(p.value, p.start, 1e-5 * std::max(std::fabs(p.start), 1.0)) << p.name;
+}
+
+// Twelve panels under the ceiling, 500 lux within 10 % on a desk, at most 150 elsewhere on the floor.
+TEST(Solve, LightsADeskByTwelvePanels) {
+  Scene scene = room();
+  std::vector<LightFit> fits;
+  for (int i = 0; i < 12; ++i) {
+    scene.area_lights.push_back(panel({-2.25 + 1.5 * (i % 4), 2.99, -2 + 2.0 * (i / 4)}, 0.6, 0.6, {300, 300, 300}));
+    fits.push_back({});
+    fits.back().light = static_cast<std::size_t>(i);
+    fits.back().power = true;
+  }
+  LuxTarget desk, floor;
+  desk.name = "desk";
+  floor.name = "floor";
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 4; ++j) {
+      desk.points.push_back({0.3 + 1.4 * i / 7, 0.75, -0.3 + 0.6 * j / 3});
+      desk.normals.push_back({0, 1, 0});
+    }
+  desk.lux.min = 450;
+  desk.lux.max = 550;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j) {
+      floor.points.push_back({-2.75 + 0.5 * i, 0.0, -2.75 + 0.5 * j});
+      floor.normals.push_back({0, 1, 0});
+    }
+  floor.lux.max = 100;
+  floor.weight = 1e-6;  // the desk comes first
+  SolveOptions options;
+  for (const bool least : {false, true})
+    for (const int bounces : {0, kAllBounces}) {
+      options.render.bounces = bounces;
+      options.render.quality = Quality::draft;
+      options.least_power = least;
+      const Solution found =
+          solve(scene, fits, {}, least ? std::vector<LightTarget>{desk} : std::vector<LightTarget>{desk, floor}, options);
+      EXPECT_TRUE(found.converged);
+      double flux = 0;
+      for (const FittedParameter& p : found.parameters) flux += p.value;
+      std::printf("%s, %s: desk %.0f to %.0f lux, mean %.0f; %.0f lm\n", least ? "least power" : "dark floor",
+                  bounces == 0 ? "direct" : "all bounces", found.lux[0].min, found.lux[0].max, found.lux[0].mean, flux);
+      EXPECT_EQ(found.lux[0].outside, 0u);
+      EXPECT_GE(found.lux[0].min, 449.5);
+      EXPECT_LE(found.lux[0].max, 550.5);
+    }
+}
+
+TEST(Solve, SaysWhatIsNotDetermined) {
+  // Two panels in one place: only the sum of their powers is known.
+  Scene scene = room();
+  scene.area_lights = {panel({0, 2.5, 0}, 1, 1, {5, 5, 5}), panel({0, 2.5, 0}, 1, 1, {5, 5, 5})};
+  const PictureTarget target = picture_of(scene, 32, 18);
+  LightFit one, two;
+  one.power = two.power = true;
+  two.light = 1;
+  const Solution found = solve(scene, {one, two}, {}, {target});
+  for (const FittedParameter& p : found.parameters) {
+    EXPECT_FALSE(p.determined) << p.name;
+    EXPECT_TRUE(std::isinf(p.sigma));
+  }
+}
+
+TEST(Solve, RefusesWhatCannotBeFitted) {
+  Scene scene = room();
+  scene.area_lights = {panel({0, 2.5, 0}, 1, 1, {5, 5, 5})};
+  const PictureTarget target = picture_of(scene, 32, 18);
+  const auto message = [&](const Scene& s, const std::vector<LightFit>& fits, const std::vector<LightTarget>& targets) -> std::string {
+    try {
+      solve(s, fits, {}, targets);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  LightFit fit;
+  EXPECT_NE(message(scene, {}, {target}).find("nothing to fit"), std::string::npos);
+  EXPECT_NE(message(scene, {fit}, {target}).find("nothing to fit"), std::string::npos);
+  fit.power = true;
+  EXPECT_NE(message(scene, {fit}, {}).find("no target"), std::string::npos);
+  fit.light = 3;
+  EXPECT_NE(message(scene, {fit}, {target}).find("not in the scene"), std::string::npos);
+  fit.light = 0;
+  PictureTarget broken = target;
+  broken.picture.pixels[5].x = std::nanf("");
+  EXPECT_NE(message(scene, {fit}, {broken}).find("pixel (5, 0) is not finite"), std::string::npos);
+  broken = target;
+  broken.pixel_weights.assign(broken.picture.pixels.size(), 0.0f);
+  EXPECT_NE(message(scene, {fit}, {broken}).find("no pixel counts"), std::string::npos);
+  broken.pixel_weights.assign(3, 1.0f);
+  EXPECT_NE(message(scene, {fit}, {broken}).find("another size"), std::string::npos);
+  LuxTarget one;
+  one.points = {{0, 0, 0}};
+  one.normals = {{0, 1, 0}};
+  one.lux.min = 5;
+  EXPECT_NE(message(scene, {everything(0)}, {one}).find("for 9 unknowns"), std::string::npos);
+  one.normals = {{0, -1, 0}};
+  EXPECT_NE(message(scene, {fit}, {one}).find("no target sees the light"), std::string::npos);
+  LightFit start_outside = everything(0);
+  start_outside.position_y = {0, 1};
+  EXPECT_NE(message(scene, {start_outside}, {target}).find("outside of its range"), std::string::npos);
+}
+
+// The conditions of Karush, Kuhn and Tucker: free variables have no slope, those at a bound have one outwards.
+TEST(Solve, QuadraticsInABoxSatisfyTheirConditions) {
+  reference::Random random(1);
+  std::size_t solves = 0;
+  for (int round = 0; round < 50; ++round) {
+    const std::size_t n = 12, rows = 30;
+    std::vector<double> j(n * rows), h(n * n), g(n), low(n, 0.0), high(n, 1.0);
+    for (double& x : j) x = random.uniform(0, 1);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const double goal = random.uniform(-1, 3);
+      for (std::size_t a = 0; a < n; ++a) {
+        g[a] -= j[r * n + a] * goal;
+        for (std::size_t b = 0; b < n; ++b) h[a * n + b] += j[r * n + a] * j[r * n + b];
+      }
+    }
+    const solving::BoxStep found = solving::least_in_box(g, h, low, high);
+    solves += found.solves;
+    for (std::size_t a = 0; a < n; ++a) {
+      double slope = g[a];
+      for (std::size_t b = 0; b < n; ++b) slope += h[a * n + b] * found.step[b];
+      EXPECT_GE(found.step[a], 0);
+      EXPECT_LE(found.step[a], 1);
+      EXPECT_TRUE(found.step[a] == 0 || slope <= 1e-9) << slope;
+      EXPECT_TRUE(found.step[a] == 1 || slope >= -1e-9) << slope;
+    }
+  }
+  std::printf("12 variables in a box: %.1f systems of equations on average\n", static_cast<double>(solves) / 50);
+}
+
+}  // namespace steradian::solve_test
