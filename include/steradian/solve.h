@@ -35,6 +35,7 @@ struct FitRange {
 // The parameters of one light that are free. Lights are numbered: area lights first, then punctual lights.
 struct LightFit {
   std::size_t light = 0;
+  std::string name{};     // in the names of parameters and in messages; empty: the light's own
   bool power = false;     // one factor for all channels
   bool color = false;     // each channel by itself; `power` must then be false
   bool position = false;  // of the centre
@@ -109,6 +110,16 @@ struct LuxResult {
   std::size_t points = 0;
 };
 
+// How a light has changed from the scene's.
+struct LightChange {
+  std::size_t light = 0;          // as LightFit::light
+  Vec3d move{};                   // of its centre [m]
+  Vec3d rotation{};               // about the centre: axis times angle [rad]
+  double size_1 = 1, size_2 = 1;  // factors on width or length, and on height or diameter
+  bool color = false;             // false: `radiance` is a multiple of the scene's
+  Vec3d radiance{};               // intensity of a punctual light
+};
+
 struct SolveOptions {
   RenderOptions render{};  // method, quality, shadows, bounces, threads; size and camera are the targets'
   int starts = 1;          // the scene's own, and random ones within the ranges
@@ -122,6 +133,7 @@ struct SolveOptions {
 struct Solution {
   std::vector<AreaLight> area_lights;          // all of the scene's, the fitted ones changed
   std::vector<PunctualLight> punctual_lights;  // likewise
+  std::vector<LightChange> changes;            // of the fitted lights and of those tied to them
   std::vector<FittedParameter> parameters;
   std::vector<SolveStep> steps;
   std::vector<LuxResult> lux;  // by illuminance target

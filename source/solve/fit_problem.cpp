@@ -15,7 +15,7 @@ constexpr double kFloor = 0.01;   // of the mean, below which root and log see n
 constexpr double kCauchy = 0.05;  // residual at which the loss turns from squares to logarithms
 constexpr std::size_t kMostPixels = std::size_t{1} << 21;
 constexpr double kInside = 1e-3;      // bands are narrowed by this fraction, so that a solution is inside of them
-constexpr double kDifference = 1e-3;  // step of differences, in typical changes
+constexpr double kDifference = 2e-4;  // step of differences, in typical changes: rounding of floats over it is 5e-4 of the light
 
 // Residual space: value and slope of the function.
 struct Compared {
@@ -141,6 +141,7 @@ FitProblem::FitProblem(const Scene& scene, const FittedLights& lights, const std
     }
     part.last_tile = tiles_->tiles().size();
   }
+  for (const Unknown& u : lights.unknowns()) residuals_ += u.keep > 0 ? 1u : 0u;
   const std::size_t unknowns = lights.unknowns().size();
   if (problems.empty() && residuals_ < unknowns)
     problems.push_back("the targets have " + count_of(residuals_, "value") + " for " + count_of(unknowns, "unknown") +

@@ -165,6 +165,7 @@ FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits
       continue;
     }
     add_light(fit.light);
+    if (!fit.name.empty()) lights_.back().name = fit.name;
     add_unknowns(fit, lights_.size() - 1, room, problems);
   }
   for (const LightTie& tie : ties) {
@@ -298,7 +299,7 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
     const double value = x[i], factor = linear_ ? value : std::exp(value);
     switch (unknowns_[i].kind) {
       case UnknownKind::power: light.scale = light.scale * factor; continue;
-      case UnknownKind::red: light.scale.x *= factor; continue;
+      case UnknownKind::red: light.scale.x *= factor, light.change.color = true; continue;
       case UnknownKind::green: light.scale.y *= factor; continue;
       case UnknownKind::blue: light.scale.z *= factor; continue;
       case UnknownKind::position_x: by.x = value - from.x; break;
@@ -321,6 +322,10 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
   }
   motion.by = by;
   motion.rotation = rotation;
+  light.change.move = by;
+  light.change.rotation = rotation;
+  light.change.size_1 = motion.f1;
+  light.change.size_2 = motion.f2;
   if (light.is_punctual) {
     light.punctual.position = motion.moved(light.punctual.position);
     light.punctual.direction = normalized(motion.turned(light.punctual.direction));

@@ -29,6 +29,7 @@ struct FittedLight {
   AreaLight area;
   PunctualLight punctual;
   Vec3d scale{1, 1, 1};
+  LightChange change{};
 };
 
 // The channels of the radiance that a light has in the computation. A fit of colours gives each channel the luminance.

@@ -178,6 +178,7 @@ class ReceivingTiles::LampTable {
   }
 
   std::size_t count() const { return by_number_.size(); }
+  bool shines() const { return !lights_.empty(); }
 
   enum class For { values, patches };
   void add(std::size_t number, SurfaceTile& tile, For purpose) {
@@ -229,7 +230,7 @@ void ReceivingTiles::add_fixed_light() {
   each(tiles_.size(), [&](std::size_t index) {
     for (std::size_t number = 0; number < table.count(); ++number) table.add(number, *tiles_[index].surfaces, LampTable::For::values);
   });
-  if (room.options.bounces != 0)
+  if (room.options.bounces != 0 && table.shines())
     add_bounces(table, 0, table.count(), [&](std::size_t index) -> TileVector& { return tiles_[index].surfaces->radiance; });
 }
 

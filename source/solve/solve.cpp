@@ -18,12 +18,15 @@ using namespace solving;
 constexpr int kCoarseSteps = 25;  // of each starting point
 constexpr int kCoarser = 4;       // pixels of a coarse picture are means of so many in each direction
 
+constexpr int kLeastSide = 36;      // of a coarse picture: smaller ones lead into traps
+constexpr double kRounding = 2e-6;  // rms residual of pictures in single precision
+
 // Targets at a quarter of the resolution, for the choice among starting points.
 std::vector<LightTarget> coarse_targets(const std::vector<LightTarget>& targets) {
   std::vector<LightTarget> coarse = targets;
   for (LightTarget& target : coarse) {
     auto* picture = std::get_if<PictureTarget>(&target);
-    if (picture == nullptr || std::min(picture->picture.width, picture->picture.height) < 8 * kCoarser) continue;
+    if (picture == nullptr || std::min(picture->picture.width, picture->picture.height) < kLeastSide * kCoarser) continue;
     const Picture& fine = picture->picture;
     Picture small(fine.width / kCoarser, fine.height / kCoarser);
     std::vector<float> weights(small.pixels.size());
@@ -73,6 +76,7 @@ class Solver {
       settings_.typical.push_back(u.typical);
     }
     settings_.max_steps = options.max_steps;
+    settings_.rounding = 0.5 * static_cast<double>(problem_.picture_residual_count()) * kRounding * kRounding;
     settings_.tolerance = options.tolerance;
   }
 
@@ -204,6 +208,9 @@ class Solver {
     solution_.area_lights = scene_.area_lights;
     solution_.punctual_lights = scene_.punctual_lights;
     for (const FittedLight& light : lights_.at(found.x)) {
+      LightChange& change = solution_.changes.emplace_back(light.change);
+      change.light = light.number;
+      change.radiance = (light.is_punctual ? light.punctual.intensity : light.area.radiance) * light.scale;
       if (light.is_punctual) {
         PunctualLight& to = solution_.punctual_lights[light.number - scene_.area_lights.size()];
         to = light.punctual;
