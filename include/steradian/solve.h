@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -62,6 +63,9 @@ enum class ResidualSpace { root, linear, log };
 // squares: least squares. cauchy: residuals far above 0.05 hardly count, such as those of wrong pixels.
 enum class ResidualLoss { squares, cauchy };
 
+// The light of a surface that a picture compares. A painted highlight is specular: as plain radiance, a lamp over it would do.
+enum class LightPart { all, diffuse, specular };
+
 struct PictureTarget {
   Picture picture;                     // linear; its size is the size of the fit
   std::string camera;                  // empty: the first
@@ -69,6 +73,7 @@ struct PictureTarget {
   double weight = 1;
   ResidualSpace space = ResidualSpace::root;
   ResidualLoss loss = ResidualLoss::squares;
+  LightPart part = LightPart::all;
 };
 
 // Wanted illuminances [lux], where radiances are in nits. A band costs nothing inside.
@@ -150,6 +155,42 @@ struct Solution {
 // residuals than parameters, lights that no target sees. The same arguments give the same bytes at any number of threads.
 Solution solve(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties,
                const std::vector<LightTarget>& targets, const SolveOptions& options = {});
+
+// The values of all targets as a function of the free parameters, with exact derivatives where the light has them: for other optimizers.
+//
+//   const LightModel model(scene, fits, {}, targets);
+//   const LightModel::Values v = model.with_slopes(model.start());
+class LightModel {
+ public:
+  // The arguments must outlive this object. Throws Error as solve does.
+  LightModel(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties,
+             const std::vector<LightTarget>& targets, const SolveOptions& options = {});
+  ~LightModel();
+  LightModel(const LightModel&) = delete;
+  LightModel& operator=(const LightModel&) = delete;
+
+  // Variables: metres, radians, and factors on the power. The factors are logarithms if a position, rotation or size is free too.
+  struct Variable {
+    std::string name;
+    double start = 0, low = 0, high = 0;
+  };
+  std::vector<Variable> variables() const;
+  std::vector<double> start() const;
+
+  // Pictures: red, green and blue of the pixels that count, row by row. Illuminances: one a point. Targets follow each other.
+  struct Values {
+    std::vector<double> value;
+    std::vector<double> slopes;  // one row of variables a value; empty without slopes
+  };
+  Values at(const std::vector<double>& x) const;
+  Values with_slopes(const std::vector<double>& x) const;
+  // The pictures' values; a quiet NaN for an illuminance, whose target is a band.
+  std::vector<double> wanted() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 // Flux of a light [lm where radiances are in nits]: pi times luminance of the radiance times emitting area; 4 pi times the intensity of a
 // point or spot light; the illuminance of a directional light.

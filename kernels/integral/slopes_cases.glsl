@@ -1,4 +1,5 @@
 // Parity cases of slopes.glsl; tests/parity/case.glsl says how to write one.
+// Error analysis finds no bound for the poles of GGX, whose iteration ends at different steps.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Derivatives by both ends as one vector.
@@ -36,6 +37,7 @@ vec4 case_ltc_edge_slopes(CaseInput i) {
 //   b.w    log(0.1, 1)
 //   c.w    range(0, 1)
 // Values: 3
+// Bound: statistical
 vec4 case_ggx_edge_slopes(CaseInput i) {
     GgxView view = ggx_view(polygon_direction(case_xyz(i.a) + vec3(0.0, 0.0, 0.2)), i.a.w, i.b.w);
     vec3 b = polygon_direction(case_xyz(i.b) + vec3(0.0, 0.0, 0.1));

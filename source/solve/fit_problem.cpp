@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "render/frame/frame_surfaces.h"
 #include "render/surface/gbuffer.h"
+#include "solve/tile_slopes.h"
 #include "steradian/error.h"
+#include "steradian/polygon_derivatives.h"
 
 namespace steradian::solving {
 namespace {
@@ -107,8 +110,9 @@ struct FitProblem::Sums {
   }
 };
 
-FitProblem::FitProblem(const Scene& scene, const FittedLights& lights, const std::vector<LightTarget>& targets, const SolveOptions& options)
-    : lights_(lights), targets_(targets) {
+FitProblem::FitProblem(const Scene& scene, const FittedLights& lights, const std::vector<LightTarget>& targets, const SolveOptions& options,
+                       float least_alpha)
+    : lights_(lights), targets_(targets), least_alpha_(least_alpha) {
   std::vector<std::string> problems;
   if (targets.empty()) problems.push_back("no target (give a picture or illuminances)");
   if (options.render.bounces != 0 && !lights.is_linear())
@@ -182,9 +186,11 @@ void FitProblem::add_picture(const PictureTarget& target, const std::string& nam
     luminances += luminance(static_cast<Vec3d>(p));
   }
   if (!(luminances > 0)) return complain("the picture is black (give one with light)");
-  tiles_->add_camera(target.camera, picture.width, picture.height);
-  const std::vector<char> shown = lamps_shown(picture, luminances / static_cast<double>(count)),
-                          fitted = tiles_->pixels_of_fitted(target.camera, picture.width, picture.height);
+  tiles_->add_camera(target.camera, picture.width, picture.height, target.part, least_alpha_);
+  const std::vector<char> fitted = tiles_->pixels_of_fitted(target.camera, picture.width, picture.height);
+  // A painted part shows no lamps.
+  const std::vector<char> shown =
+      target.part == LightPart::all ? lamps_shown(picture, luminances / static_cast<double>(count)) : std::vector<char>(count, 0);
   for (std::size_t i = 0; i < count; ++i)
     if (shown[i] != 0 || fitted[i] != 0) part.weights[i] = 0;
   double sum = 0, counted = 0;
@@ -198,11 +204,53 @@ void FitProblem::add_picture(const PictureTarget& target, const std::string& nam
   if (counted == 0) return complain("no pixel counts: all are masked, show no surface or show a lamp (widen the mask)");
   if (!(sum > 0)) return complain("all pixels that count are black (give a target with light)");
   part.mean = sum / counted;
+  part.row.assign(count, kNoValue);
+  for (std::size_t index = part.first_tile; index < tiles_->tiles().size(); ++index)
+    for (const std::uint32_t pixel : tiles_->tiles()[index].value)
+      if (pixel != kNoValue && part.weights[pixel] > 0) part.row[pixel] = 0;
+  for (std::uint32_t& row : part.row)
+    if (row != kNoValue) row = static_cast<std::uint32_t>(part.counted++);
   residuals_ += static_cast<std::size_t>(counted);
   picture_residuals_ += static_cast<std::size_t>(counted);
 }
 
-// The lights' value, and its derivative by every unknown.
+namespace {
+
+std::vector<Vec3d> vertices_of(const PolygonLight& light) {
+  std::vector<Vec3d> all = light.vertices;
+  for (const auto& hole : light.holes) all.insert(all.end(), hole.begin(), hole.end());
+  return all;
+}
+
+// A polygon whose vertices move with some unknowns.
+struct MovingPolygon {
+  std::size_t light;  // among the fitted ones
+  PolygonLight stored;
+  PreparedPolygon prepared;
+  PackLight pack;
+  std::vector<VertexMotion> motions;
+  std::vector<std::size_t> unknowns;  // by motion
+
+  MovingPolygon(std::size_t number, const AreaLight& area)
+      : light(number), stored(flat_polygon(area)), prepared(prepare_polygon(stored)), pack(prepare_light(prepared)) {}
+
+  // The motion from one place to another in a time.
+  void add(std::size_t unknown, const AreaLight& from, const AreaLight& to, double time) {
+    const std::vector<Vec3d> first = vertices_of(flat_polygon(from)), last = vertices_of(flat_polygon(to));
+    VertexMotion motion;
+    for (const std::size_t i : stored_vertices(stored, prepared)) motion.push_back(static_cast<Vec3f>((last[i] - first[i]) / time));
+    motions.push_back(std::move(motion));
+    unknowns.push_back(unknown);
+  }
+};
+
+bool is_plain_polygon(const FittedLight& light) {
+  return !light.is_punctual && std::holds_alternative<Polygon>(light.area.shape) && !light.area.texture && !light.area.emission;
+}
+
+}  // namespace
+
+// The lights' value, and its derivative by every unknown: by the boundary for polygons without shadows, else by central differences.
 void FitProblem::each_tile(const std::vector<double>& x, Wants wants,
                            const std::function<void(std::size_t, const TileVector&, const TileLight&)>& use) const {
   const std::vector<FittedLight> lights = lights_.at(x);
@@ -215,7 +263,12 @@ void FitProblem::each_tile(const std::vector<double>& x, Wants wants,
   std::vector<Term> value;
   std::vector<std::vector<Term>> slopes(unknowns);
   LampList list;
-  for (std::size_t i = 0; i < lights.size(); ++i) value.push_back({list.add(lights[i]), lights[i].scale});
+  std::vector<MovingPolygon> moving;
+  const bool by_boundary = tiles_->has_slopes();
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    value.push_back({list.add(lights[i]), lights[i].scale});
+    if (by_boundary && unknowns > 0 && !lights_.is_linear() && is_plain_polygon(lights[i])) moving.emplace_back(i, lights[i].area);
+  }
   for (std::size_t u = 0; u < unknowns; ++u) {
     const Unknown& unknown = lights_.unknowns()[u];
     const double step = kDifference * unknown.typical;
@@ -228,6 +281,16 @@ void FitProblem::each_tile(const std::vector<double>& x, Wants wants,
                                : unknown.kind == UnknownKind::green ? Vec3d{0, 1, 0}
                                                                     : Vec3d{0, 0, 1};
         slopes[u].push_back({value[i].lamp, lights_.is_linear() ? channels : channels * lights[i].scale});
+        continue;
+      }
+      if (const auto polygon = std::find_if(moving.begin(), moving.end(), [&](const MovingPolygon& m) { return m.light == i; });
+          polygon != moving.end()) {
+        there[u] = x[u] - step;
+        const FittedLight from = lights_.at(there)[i];
+        there[u] = x[u] + step;
+        const FittedLight to = lights_.at(there)[i];
+        polygon->add(u, from.area, to.area, 2 * step);
+        slopes[u].push_back({value[i].lamp, (to.scale - from.scale) / (2 * step)});
         continue;
       }
       for (const double side : {1.0, -1.0}) {
@@ -251,6 +314,12 @@ void FitProblem::each_tile(const std::vector<double>& x, Wants wants,
     TileLight by(unknowns);
     for (std::size_t u = 0; u < unknowns; ++u)
       for (const Term& term : slopes[u]) add(by[u], light[place(term.lamp)], term.factor);
+    for (const MovingPolygon& polygon : moving) {
+      TileLight motions(polygon.motions.size());
+      tile_slopes_for(active_simd()).find(*tiles_->tiles()[tile].surfaces, polygon.pack, polygon.motions, motions.data());
+      for (std::size_t k = 0; k < motions.size(); ++k)
+        add(by[polygon.unknowns[k]], motions[k], lights[polygon.light].area.radiance * lights[polygon.light].scale);
+    }
     use(tile, all, by);
   };
   if (lights_.is_linear())
@@ -382,6 +451,57 @@ Evaluation FitProblem::evaluate(const std::vector<double>& x, Wants wants) const
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j) all.hessian[i * n + j] = all.hessian[j * n + i];
   return {all.cost, pictures, std::move(all.gradient), std::move(all.hessian)};
+}
+
+FitProblem::Lux FitProblem::values(const std::vector<double>& x, Wants wants) const {
+  std::vector<std::size_t> first;  // value of each target
+  std::size_t all = 0;
+  for (const Part& part : parts_) {
+    first.push_back(all);
+    all += 3 * part.counted + part.last_value - part.first_value;
+  }
+  const std::size_t n = wants == Wants::derivatives ? unknown_count() : 0;
+  Lux result{std::vector<double>(all), std::vector<double>(all * n)};
+  Lux lux;
+  lux.value.resize(points_);
+  lux.slopes.resize(points_ * n);
+  each_tile(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
+    take_lux(number, value, slopes, lux);
+    for (std::size_t t = 0; t < parts_.size(); ++t) {
+      const Part& part = parts_[t];
+      if (part.counted == 0 || number < part.first_tile || number >= part.last_tile) continue;
+      for (std::size_t i = 0; i < kTilePixels; ++i) {
+        const std::uint32_t pixel = tiles_->tiles()[number].value[i];
+        if (pixel == kNoValue || part.row[pixel] == kNoValue) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t at = first[t] + 3 * std::size_t{part.row[pixel]} + c;
+          result.value[at] = static_cast<double>(channel(value, c, i));
+          for (std::size_t u = 0; u < n; ++u) result.slopes[at * n + u] = static_cast<double>(channel(slopes[u], c, i));
+        }
+      }
+    }
+  });
+  for (std::size_t t = 0; t < parts_.size(); ++t)
+    for (std::size_t p = parts_[t].first_value; p < parts_[t].last_value; ++p) {
+      const std::size_t at = first[t] + p - parts_[t].first_value;
+      result.value[at] = lux.value[p];
+      for (std::size_t u = 0; u < n; ++u) result.slopes[at * n + u] = lux.slopes[p * n + u];
+    }
+  return result;
+}
+
+std::vector<double> FitProblem::wanted() const {
+  std::vector<double> all;
+  for (std::size_t t = 0; t < parts_.size(); ++t) {
+    if (const auto* picture = std::get_if<PictureTarget>(&targets_[t]))
+      for (std::size_t pixel = 0; pixel < parts_[t].row.size(); ++pixel) {
+        if (parts_[t].row[pixel] == kNoValue) continue;
+        const Vec3f p = picture->picture.pixels[pixel];
+        for (const float c : {p.x, p.y, p.z}) all.push_back(static_cast<double>(c));
+      }
+    all.resize(all.size() + parts_[t].last_value - parts_[t].first_value, std::numeric_limits<double>::quiet_NaN());
+  }
+  return all;
 }
 
 double FitProblem::brightness(const std::vector<double>& x) const {

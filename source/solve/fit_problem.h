@@ -22,8 +22,9 @@ enum class Wants { cost, derivatives };
 
 class FitProblem {
  public:
-  // All arguments must outlive this object. Throws Error with all problems.
-  FitProblem(const Scene& scene, const FittedLights& lights, const std::vector<LightTarget>& targets, const SolveOptions& options);
+  // All arguments must outlive this object. least_alpha: the least width of specular lobes. Throws Error with all problems.
+  FitProblem(const Scene& scene, const FittedLights& lights, const std::vector<LightTarget>& targets, const SolveOptions& options,
+             float least_alpha = 0);
 
   Evaluation evaluate(const std::vector<double>& x, Wants wants) const;
 
@@ -37,6 +38,9 @@ class FitProblem {
     std::vector<double> value, slopes;
   };
   Lux illuminances(const std::vector<double>& x, Wants wants) const;
+  // The values of all targets: the radiances of pictures' pixels that count, in three channels, and illuminances. `wanted` as LightModel.
+  Lux values(const std::vector<double>& x, Wants wants) const;
+  std::vector<double> wanted() const;
   // The points of target `i` in them: the first, and one past the last.
   std::pair<std::size_t, std::size_t> lux_range(std::size_t target) const {
     return {parts_[target].first_value, parts_[target].last_value};
@@ -51,6 +55,8 @@ class FitProblem {
     std::size_t first_value = 0, last_value = 0;  // of points
     double mean = 1;                              // of a picture's counted values
     std::vector<float> weights;                   // of a picture, by pixel
+    std::vector<std::uint32_t> row;               // of a picture: number of each pixel among those that count; kNoValue for others
+    std::size_t counted = 0;                      // number of these pixels
   };
   struct Sums;
   void add_picture(const PictureTarget& target, const std::string& name, Part& part, std::vector<std::string>& problems);
@@ -64,6 +70,7 @@ class FitProblem {
 
   const FittedLights& lights_;
   const std::vector<LightTarget>& targets_;
+  const float least_alpha_;
   std::vector<Part> parts_;  // by target
   std::unique_ptr<ReceivingTiles> tiles_;
   std::vector<TileLight> columns_;  // of a linear problem: the light of each lamp at its start, by tile

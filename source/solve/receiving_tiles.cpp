@@ -91,7 +91,29 @@ void ReceivingTiles::each(std::size_t count, const std::function<void(std::size_
   });
 }
 
-void ReceivingTiles::add_camera(const std::string& camera, int width, int height) {
+namespace {
+
+// Leaves a part of a tile's light, and widens its specular lobes.
+void restrict_to(LightPart part, float least_alpha, SurfaceTile& tile) {
+  for (TilePlane* plane : {&tile.alpha_x, &tile.alpha_y, &tile.coat_alpha})
+    for (float& alpha : *plane) alpha = std::max(alpha, least_alpha);
+  const auto clear = [](TileVector& v) {
+    for (TilePlane* plane : {&v.x, &v.y, &v.z}) plane->fill(0);
+  };
+  if (part == LightPart::specular) {
+    clear(tile.albedo);
+    tile.any_diffuse = false;
+  }
+  if (part == LightPart::diffuse) {
+    for (TileVector* v : {&tile.f0, &tile.f90, &tile.sheen}) clear(*v);
+    tile.coat.fill(0);
+    tile.any_specular = tile.any_coat = tile.any_sheen = tile.any_override = false;
+  }
+}
+
+}  // namespace
+
+void ReceivingTiles::add_camera(const std::string& camera, int width, int height, LightPart part, float least_alpha) {
   RenderOptions options = room_->options;
   options.camera = camera;
   options.width = width;
@@ -105,6 +127,7 @@ void ReceivingTiles::add_camera(const std::string& camera, int width, int height
     tile.value.fill(kNoValue);
     const int number = static_cast<int>(index);
     surfaces.fill(number, 0, *tile.surfaces);
+    restrict_to(part, least_alpha, *tile.surfaces);
     surfaces.add_environment(number, 0, *tile.surfaces);
     const TileArea a = surfaces.area(number);
     for (int y = 0; y < a.height; ++y)
@@ -223,6 +246,13 @@ void add_gathered(const radiosity::Gather& gather, const SurfaceTile& tile, Tile
 }
 
 }  // namespace
+
+bool ReceivingTiles::has_slopes() const {
+  return room_->options.shadows == Shadows::off && room_->options.bounces == 0 && room_->method.ggx == Method::closed_form &&
+         std::none_of(tiles_.begin(), tiles_.end(), [](const ReceivingTile& tile) {
+           return tile.surfaces->any_sheen || tile.surfaces->any_coat || tile.surfaces->any_override;
+         });
+}
 
 void ReceivingTiles::add_fixed_light() {
   Room& room = *room_;

@@ -13,6 +13,7 @@
 #include "render/radiosity/gather.h"
 #include "render/tile/tile.h"
 #include "steradian/render.h"
+#include "steradian/solve.h"
 
 namespace steradian::solving {
 
@@ -42,7 +43,8 @@ class ReceivingTiles {
 
   // Adds the surfaces that a camera sees, as if the fitted lights were not visible. Pixels without a surface, and those that show
   // another light, have no value.
-  void add_camera(const std::string& camera, int width, int height);
+  // least_alpha: widths of specular lobes below it are raised to it.
+  void add_camera(const std::string& camera, int width, int height, LightPart part = LightPart::all, float least_alpha = 0);
   // By pixel: 1 where the camera sees a fitted light in its place in the scene.
   std::vector<char> pixels_of_fitted(const std::string& camera, int width, int height) const;
   // Adds white surfaces at points, with unit normals.
@@ -51,6 +53,8 @@ class ReceivingTiles {
   void add_fixed_light();
 
   const std::vector<ReceivingTile>& tiles() const { return tiles_; }
+  // True if TileSlopes knows the light of polygons on all tiles: no shadows, and no lobes but diffuse ones and GGX in closed form.
+  bool has_slopes() const;
 
   // Calls use(number of the tile, light) for every tile, on all threads, in any order. Direct light, with the options' shadows; with
   // bounces, also the light of each lamp that other surfaces send.

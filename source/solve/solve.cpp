@@ -84,6 +84,7 @@ class Solver {
     refuse_blind_lights();
     std::vector<double> x = lights_.start();
     if (options_.starts > 1 && !lights_.is_linear()) x = best_start(x);
+    if (has_highlights() && !lights_.is_linear()) x = annealed(x);
     BoxMinimum found = solution_.stopped ? BoxMinimum{x, 0, {}, 0, 0, false, true} : minimize(problem_, x, 0, settings_);
     if (options_.least_power && lights_.is_linear() && !found.stopped) take_least_power(found);
     gather(found);
@@ -105,6 +106,27 @@ class Solver {
         });
     solution_.evaluations += found.evaluations;
     return found;
+  }
+
+  bool has_highlights() const {
+    return std::any_of(targets_.begin(), targets_.end(), [](const LightTarget& target) {
+      const auto* picture = std::get_if<PictureTarget>(&target);
+      return picture != nullptr && picture->part == LightPart::specular;
+    });
+  }
+
+  // A few steps with wide lobes, then narrower ones: a narrow highlight that does not touch its target has no slope towards it.
+  std::vector<double> annealed(std::vector<double> x) {
+    BoxSettings settings = settings_;
+    settings.max_steps = kCoarseSteps;
+    for (const float alpha : {0.5f, 0.25f, 0.12f}) {
+      if (solution_.stopped) break;
+      const FitProblem problem(scene_, lights_, targets_, options_, alpha);
+      BoxMinimum found = minimize(problem, x, 0, settings);
+      solution_.stopped = found.stopped;
+      x = std::move(found.x);
+    }
+    return x;
   }
 
   // The best of the scene's own start and random ones, each after a few steps at a lower resolution.

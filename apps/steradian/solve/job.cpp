@@ -179,6 +179,30 @@ void SolveJobReader::add_picture(const Place& place, const std::string& path, co
   }
 }
 
+// Painted pixels want the radiance, and all others none of the part, with less weight.
+void SolveJobReader::add_strokes(const Place& place, const std::string& path, Vec3d radiance, double around, PictureTarget target) {
+  try {
+    Picture strokes = read_picture(path);
+    if (defaults_.width > 0) {
+      const auto alpha = strokes.layers.find("alpha");
+      if (alpha != strokes.layers.end()) strokes.pixels = alpha->second;
+      strokes = resampled(strokes, defaults_.width, defaults_.height);
+    } else if (const auto alpha = strokes.layers.find("alpha"); alpha != strokes.layers.end()) {
+      strokes.pixels = alpha->second;
+    }
+    target.picture = Picture(strokes.width, strokes.height);
+    for (std::size_t i = 0; i < strokes.pixels.size(); ++i) {
+      const Vec3f& p = strokes.pixels[i];
+      const float painted = std::min(std::max({p.x, p.y, p.z}), 1.0f);
+      if (painted > 0.01f) target.picture.pixels[i] = static_cast<Vec3f>(radiance);
+      target.pixel_weights.push_back(painted > 0.01f ? painted : static_cast<float>(around));
+    }
+    job_.targets.emplace_back(std::move(target));
+  } catch (const Error& e) {
+    problems_.add(place, e.what());
+  }
+}
+
 void SolveJobReader::add_target(const std::string& picture, const std::string& mask) {
   const Place top;
   check_camera(top.in("--camera"), defaults_.camera);
@@ -344,7 +368,10 @@ void add_zone(Problems& problems, const Place& place, Json value, LuxTarget& tar
 
 // All keys of a target: which of them go together is judged afterwards.
 struct SolveJobReader::TargetKeys {
-  std::string picture, camera, mask, mesh, name;
+  std::string picture, paint, camera, mask, mesh, name;
+  Vec3d radiance{1, 1, 1};
+  LightPart part = LightPart::all;
+  double around = 0.1;
   std::optional<ResidualSpace> space;
   std::optional<ResidualLoss> loss;
   LuxTarget lux;
@@ -412,6 +439,15 @@ void SolveJobReader::add_mesh_points(const Place& place, const std::string& glob
 void SolveJobReader::read_target(const Place& place, Json value, const std::string& folder) {
   static constexpr Field<TargetKeys> kFields[] = {
       {"picture", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.picture = read_string(p, at, v), ++k.kinds; }},
+      {"paint", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.paint = read_string(p, at, v), ++k.kinds; }},
+      {"radiance", into<read_colour, &TargetKeys::radiance>},
+      {"around", into<read_not_negative, &TargetKeys::around>},
+      {"part",
+       [](Problems& p, const Place& at, Json v, TargetKeys& k) {
+         const auto part = words::find<LightPart>(read_string(p, at, v));
+         if (!part) return p.add(at, "is not known", words::choices<LightPart>());
+         k.part = *part;
+       }},
       {"camera", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.camera = read_string(p, at, v); }},
       {"mask", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.mask = read_string(p, at, v); }},
       {"space",
@@ -445,16 +481,18 @@ void SolveJobReader::read_target(const Place& place, Json value, const std::stri
   read_fields(problems_, place, value, {}, std::span<const Field<TargetKeys>>(kFields), keys);
   if (!(keys.weight > 0)) problems_.add(place.in("weight"), "must be above 0");
   if (keys.kinds != 1)
-    return problems_.add(place, keys.kinds == 0 ? "has no target" : "has several targets", "one of picture, zone, mesh, points");
+    return problems_.add(place, keys.kinds == 0 ? "has no target" : "has several targets", "one of picture, paint, zone, mesh, points");
   const auto beside = [&](const std::string& path) { return path.empty() || path.front() == '/' ? path : folder + path; };
-  if (!keys.picture.empty()) {
+  if (!keys.picture.empty() || !keys.paint.empty()) {
     if (keys.has_lux) problems_.add(place.in("lux"), "a picture has none", "leave the key out");
     PictureTarget target;
     target.camera = keys.camera.empty() ? defaults_.camera : keys.camera;
     target.space = keys.space.value_or(defaults_.space);
     target.loss = keys.loss.value_or(defaults_.loss);
     target.weight = keys.weight;
+    target.part = keys.part;
     check_camera(place.in("camera"), target.camera);
+    if (!keys.paint.empty()) return add_strokes(place.in("paint"), beside(keys.paint), keys.radiance, keys.around, std::move(target));
     return add_picture(place.in("picture"), beside(keys.picture), beside(keys.mask), std::move(target));
   }
   if (!keys.has_lux) problems_.add(place.in("lux"), "missing", "what illuminance is wanted");
@@ -468,15 +506,18 @@ void SolveJobReader::read_target(const Place& place, Json value, const std::stri
 void SolveJobReader::add_file(const std::string& path) {
   Budget budget(limits_);
   const Bytes bytes = read_file(path, path, budget);
+  const std::size_t slash = path.rfind('/');
+  add_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, slash == std::string::npos ? "" : path.substr(0, slash + 1));
+}
+
+void SolveJobReader::add_text(std::string_view text, const std::string& place_text, const std::string& folder) {
   simdjson::dom::parser parser;
   Json root;
-  const Place top, file = top.in(path);
-  const auto error = parser.parse(simdjson::padded_string(reinterpret_cast<const char*>(bytes.data()), bytes.size())).get(root);
+  const Place top, file = place_text.empty() ? top : top.in(place_text);
+  const auto error = parser.parse(simdjson::padded_string(text)).get(root);
   if (error != simdjson::SUCCESS) return problems_.add(file, std::string("not JSON: ") + simdjson::error_message(error));
   simdjson::dom::object object;
   if (root.get(object) != simdjson::SUCCESS) return wrong_type(problems_, file, "an object", root);
-  const std::size_t slash = path.rfind('/');
-  const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
   for (const auto [key, value] : object) {
     const Place place = file.in(key);
     if (key == "least") {

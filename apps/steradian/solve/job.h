@@ -37,6 +37,8 @@ class SolveJobReader {
   void add_target(const std::string& picture, const std::string& mask);
   // The keys are in docs/solve.md. Paths are relative to the file.
   void add_file(const std::string& path);
+  // The same for the bytes of such a file. place: for messages; folder: of relative paths, empty or ending in a slash.
+  void add_text(std::string_view text, const std::string& place, const std::string& folder);
 
   // Throws Error with all problems of everything that was added.
   SolveJob finish();
@@ -53,6 +55,7 @@ class SolveJobReader {
   void read_tie(const Place& place, Json value);
   void read_target(const Place& place, Json value, const std::string& folder);
   void add_picture(const Place& place, const std::string& path, const std::string& mask, PictureTarget target);
+  void add_strokes(const Place& place, const std::string& path, Vec3d radiance, double around, PictureTarget target);
   void check_camera(const Place& place, const std::string& name);
   void add_mesh_points(const Place& place, const std::string& glob, double grid, LuxTarget& target);
 
