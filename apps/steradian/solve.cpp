@@ -124,7 +124,7 @@ void add_solve(CommandLine& line) {
   verb.add("-o,--output", options->output, "the scene with the fitted lights: .gltf, .glb").writes(Writes::file).required();
   verb.add("--target", options->target, "wanted picture: .exr, .hdr, .png, .jpg").existing_file();
   verb.add("--fit", options->fits, "LIGHT[:PARAMETER,...], * matches any name; again for more");
-  verb.add("--spec", options->spec, "JSON file of parameters with ranges, ties and targets (docs/solve.md)").existing_file();
+  verb.add("--spec", options->spec, "JSON file of parameters, ties and targets (docs/solve-questions.md)").existing_file();
   verb.add("--mask", options->mask, "picture of weights for the target's pixels").existing_file().needs("--target");
   verb.add("--camera", options->picture.camera, "name of the target's camera; default: the file's first").group("Target");
   verb.add("--size", options->size, "WIDTHxHEIGHT to which targets are resampled; default: their own").group("Target");

@@ -67,7 +67,7 @@ def solve(scene: Path, spec: Dict[str, Any], output: Path = "", *, shadows: str 
           progress: Optional[Callable[[int, int, float], Any]] = None) -> Solved:
     """Finds lights of a glTF file whose light equals the targets.
 
-    spec      "fit", "tie", "targets" and "least", as docs/solve.md has them; a target's "picture" and "mask" may be arrays
+    spec      "fit", "tie", "targets" and "least", as docs/solve-questions.md has them; a target's "picture" and "mask" may be arrays
     output    .gltf or .glb: the scene with the fitted lights; empty: it is not written
     progress  called as progress(start, step, cost) after each step; what it raises ends the search
 

@@ -35,7 +35,7 @@ class SolveJobReader {
   // "lamp*:position,power"
   void add_fit(const std::string& text);
   void add_target(const std::string& picture, const std::string& mask);
-  // The keys are in docs/solve.md. Paths are relative to the file.
+  // The keys are in docs/solve-questions.md. Paths are relative to the file.
   void add_file(const std::string& path);
   // The same for the bytes of such a file. place: for messages; folder: of relative paths, empty or ending in a slash.
   void add_text(std::string_view text, const std::string& place, const std::string& folder);
