@@ -1,6 +1,8 @@
 // `steradian solve` as a process: pictures, illuminances, the written file, and errors.
+#include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "program.h"
 #include "support/gltf_test_file.h"
@@ -111,6 +113,21 @@ TEST_F(Program, SolveCopiesALightThatNodesShare) {
   const Outcome one = run({"solve", scene, "--spec", folder / "desk.json", "-o", folder / "one.gltf", "--threads", "1"});
   ASSERT_EQ(one.status, 0);
   EXPECT_EQ(contents(folder / "one.gltf"), contents(solved));
+}
+
+TEST_F(Program, SolveWritesTheBestWhenItIsInterrupted) {
+  const std::string truth = RoomFile({{0.5, 2.1, -0.4}, {-0.8, 2, 0.5}}, 7, 0.9).write(folder / "truth.gltf");
+  const std::string scene = RoomFile({{-0.2, 1.9, 0.3}, {0.3, 1.8, 0}}).write(folder / "scene.gltf");
+  const std::string target = folder / "target.exr", solved = folder / "solved.gltf";
+  ASSERT_EQ(run({"render", truth, "-o", target, "--size", "640x360"}).status, 0);
+  const Child child =
+      start({"solve", scene, "--target", target, "--fit", "*:position,rotation,size,power", "--starts", "1000", "-o", solved}, [] {});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  kill(child.pid, SIGINT);
+  const Outcome made = finish(child);
+  EXPECT_EQ(made.status, 128 + SIGINT) << made.err;
+  EXPECT_EQ(json::parse(contents(solved))["extensions"]["EXT_lights_area"]["lights"].size(), 2u);
+  EXPECT_NE(made.out.find("stopped"), std::string::npos) << made.out;
 }
 
 TEST_F(Program, SolveSaysEverythingThatIsWrong) {

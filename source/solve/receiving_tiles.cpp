@@ -111,6 +111,11 @@ void restrict_to(LightPart part, float least_alpha, SurfaceTile& tile) {
   }
 }
 
+// True for a slot that shows a surface by its own light: neither a lamp nor what light passes.
+bool counts(const SurfaceTile& tile, std::size_t slot) {
+  return tile.material[slot] != nullptr && !tile.material[slot]->emits() && !(tile.any_passing && weighs(get(tile.passes, slot)));
+}
+
 }  // namespace
 
 void ReceivingTiles::add_camera(const std::string& camera, int width, int height, LightPart part, float least_alpha) {
@@ -132,7 +137,7 @@ void ReceivingTiles::add_camera(const std::string& camera, int width, int height
     const TileArea a = surfaces.area(number);
     for (int y = 0; y < a.height; ++y)
       for (int x = 0; x < a.width; ++x)
-        if (const std::size_t slot = tile_slot(x, y); tile.surfaces->material[slot] != nullptr && !tile.surfaces->material[slot]->emits())
+        if (const std::size_t slot = tile_slot(x, y); counts(*tile.surfaces, slot))
           tile.value[slot] = static_cast<std::uint32_t>((a.y + y) * width + a.x + x);
   });
 }

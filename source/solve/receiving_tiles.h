@@ -42,7 +42,7 @@ class ReceivingTiles {
   ReceivingTiles(const ReceivingTiles&) = delete;
 
   // Adds the surfaces that a camera sees, as if the fitted lights were not visible. Pixels without a surface, and those that show
-  // another light, have no value.
+  // another light or what light passes, have no value.
   // least_alpha: widths of specular lobes below it are raised to it.
   void add_camera(const std::string& camera, int width, int height, LightPart part = LightPart::all, float least_alpha = 0);
   // By pixel: 1 where the camera sees a fitted light in its place in the scene.

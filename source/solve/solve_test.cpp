@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlopt.hpp>
 #include <numbers>
 
 #include "core/random.h"
@@ -152,6 +153,57 @@ TEST(Solve, RecoversLampsFromAnywhere) {
   }
   std::printf("%d of %d lamps found to 0.1 mm\n", found_again, kLamps);
   EXPECT_GE(found_again, kLamps * 95 / 100);
+}
+
+// The same residuals by an optimizer without derivatives, which stops at an rms residual of 1e-5.
+TEST(Solve, NeedsATenthOfTheEvaluationsOfBobyqa) {
+  Scene scene = room();
+  scene.area_lights = {panel({0.4, 2.5, -0.5}, 1.2, 0.6, {8, 7, 6})};
+  const std::vector<LightTarget> targets = {picture_of(scene, 64, 36)};
+  scene.area_lights = {panel({-0.3, 2.2, 0.2}, 0.8, 0.8, {6, 5.25, 4.5})};
+  LightFit fit = everything(0);
+  fit.rotation = false;
+  fit.power_range = {1, 1000};
+  const std::vector<LightFit> fits = {fit};
+  const Solution ours = solve(scene, fits, {}, targets);
+  EXPECT_LT(ours.picture_error, 1e-5);
+
+  const LightModel model(scene, fits, {}, targets);
+  struct Count {
+    const LightModel& model;
+    std::vector<double> wanted;
+    double mean;
+    int evaluations = 0;
+  } count{model, model.wanted(), 0};
+  for (const double v : count.wanted) count.mean += v / static_cast<double>(count.wanted.size());
+  nlopt::opt bobyqa(nlopt::LN_BOBYQA, static_cast<unsigned>(model.start().size()));
+  std::vector<double> low, high, x = model.start();
+  for (const LightModel::Variable& v : model.variables()) low.push_back(v.low), high.push_back(v.high);
+  bobyqa.set_lower_bounds(low);
+  bobyqa.set_upper_bounds(high);
+  bobyqa.set_min_objective(
+      [](const std::vector<double>& at, std::vector<double>&, void* data) {
+        Count& c = *static_cast<Count*>(data);
+        ++c.evaluations;
+        double sum = 0;
+        const std::vector<double> value = c.model.at(at).value;
+        for (std::size_t i = 0; i < value.size(); ++i) {
+          const double r = std::sqrt(value[i] / c.mean + 0.01) - std::sqrt(c.wanted[i] / c.mean + 0.01);
+          sum += r * r;
+        }
+        return std::sqrt(sum / static_cast<double>(value.size()));
+      },
+      &count);
+  bobyqa.set_stopval(1e-5);
+  bobyqa.set_maxeval(3000);
+  double reached = 0;
+  try {
+    bobyqa.optimize(x, reached);
+  } catch (const nlopt::roundoff_limited&) {  // counts as far as it came
+  }
+  std::printf("six parameters: ours %d evaluations to %.1e, BOBYQA %d to %.1e\n", ours.evaluations, ours.picture_error, count.evaluations,
+              reached);
+  EXPECT_LT(10 * ours.evaluations, count.evaluations);
 }
 
 TEST(Solve, TakesNoStepsFromItsOwnSolution) {
