@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|morph|plane|textured_floor|ring|arcade|hall|stadium ...]
+"""Makes the scenes of this folder: make_scenes.py FOLDER [gallery|hall|room ...]
 
 Standard library only; the same bytes on every machine.
 """
@@ -9,6 +9,7 @@ import os
 import struct
 import sys
 
+import all_light_scenes
 from gltf_writer import Gltf, Shape, box, lathe, looking, plate, png, rounded, sphere, tube
 
 HALF = math.sqrt(0.5)
@@ -600,7 +601,8 @@ def stadium():
 
 
 SCENES = {"glass": glass, "room": room, "office": office, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes, "lobes": lobes,
-          "ring": ring, "arcade": arcade, "hall": hall, "stadium": stadium}
+          "ring": ring, "arcade": arcade, "hall": hall, "stadium": stadium,
+          **all_light_scenes.SCENES}
 
 
 def main():

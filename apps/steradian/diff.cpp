@@ -20,7 +20,7 @@ namespace {
 struct DiffArguments {
   std::string a, b;
   bool json = false;
-  std::vector<std::string> fail_above;
+  std::vector<std::string> fail_above, covered_by;
   Limits limits;
 };
 
@@ -67,6 +67,8 @@ void run(const DiffArguments& options, Exit& exit) {
   const Picture reference = read_picture(options.b, options.limits);
   const Picture picture = read_picture(options.a, options.limits);
   const Difference d = difference(picture, reference);
+  std::optional<Coverage> covered;
+  if (!options.covered_by.empty()) covered = coverage(picture, reference, options.covered_by);
   const std::optional<double> alpha = largest_of_alpha(picture, reference);
   say_what_is_left_out(options.a, picture, alpha.has_value());
   say_what_is_left_out(options.b, reference, alpha.has_value());
@@ -75,11 +77,15 @@ void run(const DiffArguments& options, Exit& exit) {
     nlohmann::ordered_json j = {
         {"rmse", d.rmse}, {"relative_l2", d.relative_l2}, {"max", d.max}, {"mean_ratio", d.mean_ratio}, {"white", white}};
     if (alpha) j["alpha_max"] = *alpha;
+    if (covered) j["covered"] = covered->fraction, j["worst_of_errors"] = covered->worst;
     fmt::print("{}\n", j.dump());
   } else {
     fmt::print("rmse         {:.6g}\nrelative L2  {:.6g}\nmax          {:.6g} at ({}, {})\nmean ratio   {:.6g}\nwhite        {:.6g}\n",
                d.rmse, d.relative_l2, d.max, d.max_x, d.max_y, d.mean_ratio, white);
     if (alpha) fmt::print("alpha max    {:.6g}\n", *alpha);
+    if (covered)
+      fmt::print("covered      {:.6g} of the pixels; worst {:.4g} times its error at ({}, {})\n", covered->fraction, covered->worst,
+                 covered->worst_x, covered->worst_y);
   }
   for (const Limit& limit : limits) {
     const double value = limit.metric == "rmse" ? d.rmse : limit.metric == "max" ? d.max : d.relative_l2;
@@ -99,6 +105,7 @@ void add_diff(CommandLine& line) {
   verb.add("B", options->b, "reference picture").required();
   verb.add_flag("--json", options->json, "print JSON");
   verb.add("--fail-above", options->fail_above, "METRIC=VALUE of rmse, relative_l2, max: exit 1 above it");
+  verb.add("--covered-by", options->covered_by, "print the fraction of pixels within these error layers of A: LAYER,LAYER").separator(',');
   verb.add_limits(options->limits);
   verb.callback([options, &exit = line.exit()] { run(*options, exit); });
 }

@@ -70,7 +70,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"specular_residual", stats.specular_residual},
           {"patches", stats.patches},
           {"bounce_iterations", stats.bounce_iterations},
-          {"bounce_residual", stats.bounce_residual},
+          {"bounce_left_out", stats.bounce_left_out},
           {"bounce_error", stats.bounce_error},
           {"environment_shadow_error", stats.environment_shadow_error},
           {"shadow_fallback", stats.shadow_fallback},
@@ -290,6 +290,8 @@ void run(const Verb& verb, RenderArguments& options) {
   if (stats.patches > 0)
     fmt::print(stderr, "steradian: --bounces: {} patches, {} iterations; the light between surfaces is estimated to {:.2g} % rms\n",
                stats.patches, stats.bounce_iterations, 100 * stats.bounce_error);
+  if (stats.patches > 0 && stats.bounce_left_out < 0)
+    fmt::print(stderr, "warning: --bounces: surfaces that reflect all light keep it; no bound of the bounces left out is known\n");
 
   if (loaded.scene.environment && stats.method != "sampled" && stats.method != "reference")
     fmt::print(

@@ -94,7 +94,7 @@ struct RenderStats {
   double environment_shadow_error = 0;  // rms error of the shadows of the rest's light over its mean; 0 where no ray is blocked
   std::size_t patches = 0;              // that carry light from surface to surface (docs/bounces.md)
   int bounce_iterations = 0;            // over all patches
-  double bounce_residual = 0;           // largest change of the last iteration over the largest radiance
+  double bounce_left_out = 0;           // bound of the radiance that further bounces would add; negative: none is known
   double bounce_error = 0;              // estimated rms error of the light between surfaces over the picture's mean
   bool light_tree = false;              // many lights were summed together; the layer "light_bound" gives each pixel's possible error
   double light_elements = 0;            // lights that were one or four elements at a point by themselves, on average over diffuse points

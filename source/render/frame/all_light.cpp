@@ -19,13 +19,13 @@ void add(TileVector& to, std::size_t i, Vec3f r) {
 }  // namespace
 
 AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
-                   const AddDirect& add_to_patches, AddDirect add_direct)
+                   const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct)
     : width_(options.width),
       reflections_(options.reflections),
       eye_(surfaces.camera().origin()),
       patches_([&] {
         const auto start = Clock::now();
-        radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_to_patches);
+        radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_to_patches, find_incident);
         solve_ms_ = ms_since(start);
         return light;
       }()),
@@ -34,7 +34,7 @@ AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfa
       add_direct_(std::move(add_direct)) {}
 
 void AllLight::begin(Picture& picture) {
-  for (const char* layer : {"indirect", "bounce_error"}) picture.layers[layer].resize(picture.pixels.size());
+  for (const char* layer : {"indirect", "bounce_error", "bounce_bound"}) picture.layers[layer].resize(picture.pixels.size());
 }
 
 // Adds the light that a tile's surfaces gather to `light`.
@@ -53,7 +53,8 @@ void AllLight::gather(SurfaceTile& tile, int sample, TileVector& light, TileVect
 
 // Adds the light of the surfaces that mirrors show, which are lit like those that the camera sees. The lobes' integrals over the lamps
 // already hold the lamps' light.
-void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const {
+void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light,
+                            TileVector& error) const {
   if (depth == 0) return;
   const auto ways = std::make_unique<PassedRays::Ways>();
   if (!radiosity::find_mirrored(surfaces_.rays(), tile, distance, *ways)) return;
@@ -66,13 +67,16 @@ void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, 
     surfaces_.passed_rays().fill(*ways, PassedRays::Lamps::hidden, *shown);
     if (!shown->any_surface) return;
     add_direct_(*shown);
-    TileVector error{};
-    gather(*shown, sample, shown->radiance, error);
+    TileVector error_of_shown{};
+    gather(*shown, sample, shown->radiance, error_of_shown);
     TilePlane onwards;
     for (std::size_t i = 0; i < kTilePixels; ++i) onwards[i] = ways->length[i] + length(get(shown->position, i) - get(ways->origin, i));
-    add_mirrored(*shown, onwards, sample, depth - 1, shown->radiance);
-    for (std::size_t i = 0; i < kTilePixels; ++i)
-      if (shown->material[i] != nullptr) steradian::add(light, i, get(shown->radiance, i) * get(ways->shares, i));
+    add_mirrored(*shown, onwards, sample, depth - 1, shown->radiance, error_of_shown);
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      if (shown->material[i] == nullptr) continue;
+      steradian::add(light, i, get(shown->radiance, i) * get(ways->shares, i));
+      steradian::add(error, i, get(error_of_shown, i) * get(ways->shares, i));
+    }
     if (!shown->any_passing) return;
   }
 }
@@ -83,11 +87,16 @@ void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVecto
     gather(tile, sample, light, error);
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
-    add_mirrored(tile, distance, sample, reflections_, light);
+    add_mirrored(tile, distance, sample, reflections_, light, error);
     for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));
   });
   add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);
   add_to_picture(error, area, shares, weight, picture.layers.at("bounce_error"), width_);
+  const float left_out = patches_.left_out().value_or(0);
+  TileVector bound{};
+  for (std::size_t i = 0; i < kTilePixels; ++i)  // no surface reflects more than arrives
+    if (tile.material[i] != nullptr) put(bound, i, {left_out, left_out, left_out});
+  add_to_picture(bound, area, shares, weight, picture.layers.at("bounce_bound"), width_);
 }
 
 void AllLight::report(int threads, RenderStats& stats, const Picture& picture) const {
@@ -95,7 +104,7 @@ void AllLight::report(int threads, RenderStats& stats, const Picture& picture) c
   stats.passes.push_back(clock_.time(threads));
   stats.patches = patches_.patches().side_count() / 2;
   stats.bounce_iterations = patches_.iterations();
-  stats.bounce_residual = patches_.residual();
+  stats.bounce_left_out = static_cast<double>(patches_.left_out().value_or(-1));
   double squares = 0, light = 0;
   for (const Vec3f& e : picture.layers.at("bounce_error")) squares += std::pow(luminance(static_cast<Vec3d>(e)), 2);
   for (const Vec3f& p : picture.pixels) light += luminance(static_cast<Vec3d>(p));

@@ -17,11 +17,12 @@ class AllLight {
   using AddDirect = radiosity::PatchLight::AddDirect;
 
   // Solves the light of all patches. add_to_patches and add_direct add the direct light of a tile's surfaces, the second also where other
-  // surfaces of the tile's pixels are being lit. Scene, parts and surfaces must outlive this object.
+  // surfaces of the tile's pixels are being lit. find_incident: the same light by direction. Scene, parts and surfaces must outlive this
+  // object.
   AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
-           const AddDirect& add_to_patches, AddDirect add_direct);
+           const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct);
 
-  // Makes the layers "indirect" and "bounce_error".
+  // Makes the layers "indirect", "bounce_error" and "bounce_bound".
   static void begin(Picture& picture);
   // Adds the light of other surfaces to a tile's radiance, and `weight` of it to the layers. shares: fraction that arrives; null for all.
   void add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture);
@@ -30,7 +31,7 @@ class AllLight {
 
  private:
   void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
-  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light) const;
+  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light, TileVector& error) const;
 
   const int width_, reflections_;
   const Vec3f eye_;

@@ -50,6 +50,10 @@ TilePlane FrameSurfaces::fill(int index, int sample, SurfaceTile& tile, const Ti
   tile.seed = seed(index, sample);
   rays_clock_.run([&] { trace_tile(*rays_, camera_, area(index), pixel_place(sample, options_.aa), hits, behind); });
   gbuffer_clock_.run([&] {
+    const float offset = rays_->offset_from_edges();
+    for (std::size_t i = 0; i < kTilePixels; ++i)
+      if (hits.geometry[i] != RTC_INVALID_GEOMETRY_ID)
+        keep_within(scene_.meshes[hits.geometry[i]], hits.triangle[i], offset, hits.u[i], hits.v[i]);
     shade_tile(scene_, shading_, hits, tile);
     if (environment_ && options_.background) show_background(hits.direction, tile, behind);
   });

@@ -317,6 +317,14 @@ class Renderer {
             if (tile.any_surface) light_directly(tile, true);
             if (options_.progress) options_.progress(++done_, steps_);
           },
+          [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
+            constexpr std::size_t kMostLights = 64, kMostPlaces = 16, kPlaces = 32;
+            DirectSampler& sampler = *samplers_.local();
+            const std::size_t lights = sampler.light_count() + (environment() != nullptr ? 1 : 0);
+            if (lights == 0 || lights > kMostLights) return;
+            reference::Random random(number);
+            sampler.find_incident(surface, static_cast<int>(std::clamp(kPlaces / lights, std::size_t{1}, kMostPlaces)), random, found);
+          },
           [this](SurfaceTile& tile) { light_directly(tile, false); });
     });
   }

@@ -17,10 +17,9 @@ void BounceRays::set(std::size_t lane, const Surface& from, Vec3f direction) {
   asked_ |= 1u << lane;
 }
 
-std::array<std::uint32_t, BounceRays::kLanes> BounceRays::trace() {
-  std::array<std::uint32_t, kLanes> sides;
-  sides.fill(kNoSide);
-  if (asked_ == 0) return sides;
+std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
+  std::array<PatchPlace, kLanes> places;
+  if (asked_ == 0) return places;
   alignas(64) int valid[kLanes];
   std::array<unsigned, kLanes> met;  // mesh
   met.fill(RTC_INVALID_GEOMETRY_ID);
@@ -58,10 +57,10 @@ std::array<std::uint32_t, BounceRays::kLanes> BounceRays::trace() {
     if ((asked_ >> i & 1) == 0 || met[i] == RTC_INVALID_GEOMETRY_ID) continue;
     // Embree's normal is that of the winding.
     const float towards = packet_.hit.Ng_x[i] * ray.dir_x[i] + packet_.hit.Ng_y[i] * ray.dir_y[i] + packet_.hit.Ng_z[i] * ray.dir_z[i];
-    sides[i] = patches_.side_at(met[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
+    places[i] = patches_.place_at(met[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
   }
   asked_ = 0;
-  return sides;
+  return places;
 }
 
 }  // namespace steradian::radiosity

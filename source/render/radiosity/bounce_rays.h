@@ -1,4 +1,4 @@
-// BounceRays: the sides of patches that rays of fixed directions meet.
+// BounceRays: the places on patches that rays of fixed directions meet.
 #pragma once
 
 #include <array>
@@ -19,8 +19,10 @@ class BounceRays {
 
   // Sets ray `lane` from a surface, and asks for it. Rays that begin below the surface's triangle meet nothing.
   void set(std::size_t lane, const Surface& from, Vec3f direction);
-  // Traces the rays that were set since the last call. Returns the side that each meets, or kNoSide.
-  std::array<std::uint32_t, kLanes> trace();
+  // Traces the rays that were set since the last call. Returns the place that each meets; its side may be kNoSide.
+  std::array<PatchPlace, kLanes> trace();
+  // Length of a ray to what it met in the last call.
+  float distance(std::size_t lane) const { return packet_.ray.tfar[lane]; }
 
  private:
   const RayScene& rays_;

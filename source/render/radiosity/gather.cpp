@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
-#include "core/box.h"
 #include "core/lattices.h"
 #include "lobes/lobe.h"
 #include "render/environment/environment_light.h"  // mean_grazing
@@ -39,13 +39,10 @@ bool is_gathered(const SurfaceLobe& lobe) {
 class BlockFit {
  public:
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
-  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked) : surfaces_(surfaces), asked_(asked) {
-    Box3f box;
-    SixteenSurfaces::each(asked, [&](std::size_t i) { box.add(surfaces.surface[i].position); });
-    reach_ = kFlat * length(box.size());
-  }
+  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked) : surfaces_(surfaces), asked_(asked) {}
 
-  // The value of the fit at a pixel, and the standard error of the fit. Few pixels keep their own value and error.
+  // The value of the fit at a pixel, and an estimate of its error: two standard errors, and the distance from the pixel's own value. Where
+  // the values differ more than their rays explain, the pixel's own value takes the place of the fit's. Few pixels keep their own.
   struct Value {
     Vec3f value, error;
   };
@@ -54,11 +51,11 @@ class BlockFit {
     const Surface& here = surfaces_.surface[lane];
     SixteenSurfaces::each(asked_, [&](std::size_t i) {
       const Surface& there = surfaces_.surface[i];
-      if (dot(here.normal, there.normal) > kSameDirection && std::fabs(dot(there.position - here.position, here.normal)) <= reach_)
-        same |= 1u << i;
+      const Vec3f way = there.position - here.position;
+      if (dot(here.normal, there.normal) > kSameDirection && std::fabs(dot(way, here.normal)) <= kFlat * length(way)) same |= 1u << i;
     });
     const int count = std::popcount(same);
-    if (count < kFewest) return {values[lane], errors[lane]};
+    if (count < kFewest) return {values[lane], errors[lane] * kDeviations};
     // Least squares in coordinates about the mean: the two slopes and the mean are nearly independent.
     float mean_x = 0, mean_y = 0;
     Vec3f mean{};
@@ -90,11 +87,13 @@ class BlockFit {
       slope_y = (vy * xx - vx * xy) * (1 / determinant);
     }
     const auto fit = [&](std::size_t i) { return mean + slope_x * (x_of(i) - mean_x) + slope_y * (y_of(i) - mean_y); };
-    Vec3f squares{};
+    Vec3f squares{}, of_rays{};
     SixteenSurfaces::each(same, [&](std::size_t i) {
       const Vec3f d = values[i] - fit(i);
       squares += d * d;
+      of_rays += errors[i] * errors[i];
     });
+    of_rays = of_rays * over;
     const Vec3f variance = squares * (1 / static_cast<float>(count - 3));
     // Slopes that the differences between the rays explain shrink to zero: they would show as steps from block to block.
     const auto shrunk = [&](Vec3f slope, float moment) {
@@ -105,21 +104,29 @@ class BlockFit {
     slope_y = shrunk(slope_y, yy);
     const Vec3f value = fit(lane);
     const float share = 3 * over;  // of three parameters
-    return {{std::clamp(value.x, low.x, high.x), std::clamp(value.y, low.y, high.y), std::clamp(value.z, low.z, high.z)},
-            {std::sqrt(variance.x * share), std::sqrt(variance.y * share), std::sqrt(variance.z * share)}};
+    const auto joined = [&](float own, float fitted, float ray_variance, float fit_variance) {
+      const float kept = fit_variance > kDoubt * ray_variance ? 1 - kDoubt * ray_variance / fit_variance : 0;  // of the own value
+      const float deviation = std::sqrt((1 - kept) * (1 - kept) * share * fit_variance + kept * kept * kDoubt * ray_variance);
+      return std::pair{fitted + (own - fitted) * kept, kDeviations * deviation + (1 - kept) * std::fabs(own - fitted)};
+    };
+    const Vec3f own = values[lane];
+    const auto x = joined(own.x, std::clamp(value.x, low.x, high.x), of_rays.x, variance.x);
+    const auto y = joined(own.y, std::clamp(value.y, low.y, high.y), of_rays.y, variance.y);
+    const auto z = joined(own.z, std::clamp(value.z, low.z, high.z), of_rays.z, variance.z);
+    return {{x.first, y.first, z.first}, {x.second, y.second, z.second}};
   }
 
  private:
   static constexpr float kSameDirection = 0.98f;  // cosine
-  static constexpr float kFlat = 0.1f;            // distance from the plane over the extent of all pixels
+  static constexpr float kFlat = 0.1f;            // distance from the plane over the distance
   static constexpr int kFewest = 6;               // pixels of a fit
+  static constexpr float kDeviations = 2;         // standard errors of an error
   static constexpr float kDoubt = 4;              // variances below which a slope counts as chance
   static float x_of(std::size_t lane) { return static_cast<float>(lane % 4); }
   static float y_of(std::size_t lane) { return static_cast<float>(lane / 4); }
 
   const SixteenSurfaces& surfaces_;
   const std::uint32_t asked_;
-  float reach_;
 };
 
 }  // namespace
@@ -127,6 +134,8 @@ class BlockFit {
 Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, double error, int samples)
     : light_(light), rays_(rays), samples_(std::min(samples, kMostShifts)), tolerance_(static_cast<float>(error * light.mean_radiance())) {
   for (int level = 0; level <= (error > 0 ? kFinest : 0); ++level) add_grids(rows_for(quality) << level);
+  const auto rays_over_sphere = static_cast<float>(grids_[0][0].size());
+  near_ = std::sqrt(kLanes * light.bright_area() * rays_over_sphere / (4 * std::numbers::pi_v<float>));
 }
 
 // Adds the grids of a level, one for each primary sample.
@@ -149,9 +158,9 @@ void Gather::add_grids(int rows) {
   }
 }
 
-// Adds the irradiance over pi that the bright sides send. A place counts as a disk of the area that it stands for.
-void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
-                        std::array<Vec3f, kLanes>& mean) const {
+// Adds the irradiance over pi that bright sides beyond near_ send, half of it to each half. A place counts as a disk of the area that it
+// stands for.
+void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, Halves& halves) const {
   const std::size_t every = kLanes >> (2 * level);  // a pixel takes one of so many places
   const std::vector<BrightPlace>& places = light_.bright_places();
   const float soft = light_.bright_area() / std::numbers::pi_v<float>;
@@ -167,19 +176,22 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       const Vec3d end = rays_.off_surface(static_cast<Vec3d>(place.position), static_cast<Vec3d>(place.normal));
       const Vec3f way = static_cast<Vec3f>(end - from);
       const float here = dot(way, s.normal), there = -dot(way, place.normal), square = dot(way, way);
-      if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0)) return;
-      light[i] = place.power * (static_cast<float>(every) * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
+      if (!(here > 0) || !(there > 0) || !(dot(way, s.geometric_normal) > 0) || square <= near_ * near_) return;
+      light[i] = light_.radiance_towards(place, way * (-1 / std::sqrt(square))) *
+                 (static_cast<float>(every) * place.area * here * there / (square * (square + soft)) / std::numbers::pi_v<float>);
       rays.set(i, from, end - from);
       traced |= 1u << i;
     });
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { mean[i] += light[i]; });
+    const std::size_t half = first / every % 2;
+    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { halves[i][half] += light[i]; });
   }
 }
 
 // The mean radiance about each surface, weighted by the cosine, times its albedo.
 Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const {
-  std::array<std::array<Vec3f, 2>, kLanes> light{};  // by half of the rays
+  Halves light{}, bright{};
   std::array<std::array<float, 2>, kLanes> weight{};
+  std::array<Vec3f, kLanes> basis{};  // what the size of the patches changes
   BounceRays rays(rays_, light_.patches());
   const std::vector<Cell>& cells = grids_[level][static_cast<std::size_t>(sample % samples_)];
   for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -192,17 +204,24 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
       rays.set(i, surfaces.surface[i], to);
     });
     const auto met = rays.trace();
-    for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i] != kNoSide && !light_.is_bright(met[i])) light[i][k % 2] += light_.radiance(met[i]) * cosine[i];
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (met[i].side == kNoSide) continue;
+      if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
+      light[i][k % 2] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
+      const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
+      light[i][k % 2] += radiance;
+      basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
+    }
   }
+  add_bright(surfaces, asked, sample, level, bright);
   std::array<Vec3f, kLanes> mean{}, error{};
   SixteenSurfaces::each(asked, [&](std::size_t i) {
     const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
-    mean[i] = over(light[i][0] + light[i][1], weight[i][0] + weight[i][1]);
-    const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f;
-    error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+    mean[i] = over(light[i][0] + light[i][1], weight[i][0] + weight[i][1]) + bright[i][0] + bright[i][1];
+    const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f, b = bright[i][0] - bright[i][1];
+    error[i] = {std::hypot(d.x, b.x), std::hypot(d.y, b.y), std::hypot(d.z, b.z)};
+    basis[i] = over(basis[i], weight[i][0] + weight[i][1]);
   });
-  add_bright(surfaces, asked, sample, level, mean);
   const BlockFit fit(surfaces, asked);
   Result result;
   SixteenSurfaces::each(asked, [&](std::size_t i) {
@@ -211,7 +230,7 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
     const auto passed = static_cast<float>(1 - static_cast<double>(s.fresnel_loss) * environment::mean_grazing(cos_view));
     const BlockFit::Value value = fit.at(i, mean, error);
     result.radiance[i] = s.albedo * value.value * passed;
-    result.error[i] = s.albedo * value.error * passed;
+    result.error[i] = s.albedo * (value.error + Vec3f{std::fabs(basis[i].x), std::fabs(basis[i].y), std::fabs(basis[i].z)}) * passed;
   });
   return result;
 }
@@ -237,7 +256,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
   for (std::size_t k = 0; k < count; ++k) {
     const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
-    std::array<Vec3f, kLanes> weight{};
+    std::array<Vec3f, kLanes> weight{}, to{};
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (!walkers[i]) continue;
       const lobes::Lobe& lobe = walkers[i]->lobe;
@@ -246,11 +265,12 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
       const double pdf = lobe.pdf(l);
       if (!(pdf > 0)) continue;
       weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) / (pdf * static_cast<double>(count)));
-      rays.set(i, surfaces.surface[i], static_cast<Vec3f>(walkers[i]->frame.to_world(l)));
+      to[i] = static_cast<Vec3f>(walkers[i]->frame.to_world(l));
+      rays.set(i, surfaces.surface[i], to[i]);
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i] != kNoSide) halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
+      if (met[i].side != kNoSide) halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i])) * weight[i];
   }
   Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {

@@ -29,8 +29,8 @@ class Gather {
   Result reflected(const SixteenSurfaces& surfaces, int sample) const;
 
  private:
-  void add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
-                  std::array<Vec3f, kLanes>& mean) const;
+  using Halves = std::array<std::array<Vec3f, 2>, kLanes>;  // light by half of the rays
+  void add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, Halves& light) const;
   Result diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const;
   Result glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, std::size_t level) const;
   template <class Of>
@@ -41,6 +41,7 @@ class Gather {
   const PatchLight& light_;
   const RayScene& rays_;
   const int samples_;
+  float near_ = 0;  // distance within which rays meet bright sides more often than places stand for them
   const float tolerance_;
   struct Cell {
     std::array<Vec3f, kLanes> direction;  // of each pixel

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -17,7 +18,8 @@ namespace steradian::radiosity {
 namespace {
 
 constexpr std::size_t kMostLinks = std::size_t{1} << 25;  // of all sides: 128 MB
-constexpr double kSmallChange = 1e-4;                     // of the largest radiance, at which the iterations end
+constexpr float kSmallChange = 1e-4f;                     // of the largest radiance, at which the iterations end
+constexpr float kNoChange = 1e-6f;                        // the same where the factor from bounce to bounce is not yet below 1
 constexpr int kMostIterations = 500;
 
 struct PatchSize {
@@ -33,13 +35,17 @@ PatchSize size_for(Quality quality) {
   return {40'000, 128};
 }
 
-// Fraction of even light from above that a surface reflects, diffuse and glossy together.
+// Fractions of even light from above that a surface reflects: all, and by its glossy lobe.
 // The mean of Schlick's (1 - cos)^5 over the cosine is 1/21.
-Vec3f reflectance_of(const Surface& s) {
+struct Reflectance {
+  Vec3f all{}, glossy{};
+};
+Reflectance reflectance_of(const Surface& s) {
   if (s.material->unlit) return {};
   constexpr float kGrazing = 1.0f / 21;
-  const Vec3f all = s.albedo * (1 - s.fresnel_loss * kGrazing) + s.f0 + (s.f90 - s.f0) * kGrazing;
-  return {std::clamp(all.x, 0.0f, 1.0f), std::clamp(all.y, 0.0f, 1.0f), std::clamp(all.z, 0.0f, 1.0f)};
+  const auto within = [](Vec3f c) { return Vec3f{std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)}; };
+  const Vec3f glossy = s.f0 + (s.f90 - s.f0) * kGrazing;
+  return {within(s.albedo * (1 - s.fresnel_loss * kGrazing) + glossy), within(glossy)};
 }
 
 // Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Each side turns it by its own angle.
@@ -76,19 +82,22 @@ void each(std::size_t count, Work work) {
 }  // namespace
 
 PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
-                       const AddDirect& add_direct)
-    : scene_(scene), rays_(rays), maps_(maps), patches_(scene, size_for(options.quality).patches) {
+                       const AddDirect& add_direct, const FindIncident& find_incident)
+    : scene_(scene), rays_(rays), maps_(maps), patches_(scene, size_for(options.quality).patches), glossy_(patches_.side_count()) {
   const std::size_t sides = patches_.side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
+  parts_of_.assign(sides, kNoSide);
   find_direct(add_direct);
   refine_direct(add_direct);
+  find_glossy(find_incident);
   radiance_ = direct_;
   if (sides == 0) return;
   if (options.bounces != 1) {
     find_links(std::clamp(kMostLinks / sides, std::size_t{16}, size_for(options.quality).rays) / BounceRays::kLanes * BounceRays::kLanes);
     iterate(options.bounces);
   }
+  find_coarse();
   find_bright_sides();
 }
 
@@ -126,7 +135,7 @@ void PatchLight::find_direct(const AddDirect& add_direct) {
       put_nothing(*tile, i);
       if (side == kNoSide) continue;
       const Surface s = surface_of(side);
-      reflectance_[side] = reflectance_of(s);
+      reflectance_[side] = reflectance_of(s).all;
       if (!weighs(reflectance_[side])) continue;
       put_white(*tile, i, s);
     }
@@ -136,10 +145,10 @@ void PatchLight::find_direct(const AddDirect& add_direct) {
   });
 }
 
-// Sides beside which the direct light changes a lot take the mean over sixteen places: a border of light or shadow crosses them.
+// Sides beside which the direct light changes a lot get a light for each part, and its mean: a border of light or shadow crosses them.
 void PatchLight::refine_direct(const AddDirect& add_direct) {
   constexpr double kChange = 0.1;  // of the mean light of the sides
-  constexpr std::size_t kPlaces = 16, kTileSides = kTilePixels / kPlaces;
+  constexpr std::size_t kTileSides = kTilePixels / kPatchParts;
   const auto sides = static_cast<std::uint32_t>(patches_.side_count());
   const auto light = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(direct_[side])); };
   double power = 0, area = 0;
@@ -154,12 +163,14 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
     const Patches::Site& at = patches_.site(side);
     const auto changes_to = [&](float u, float v) {
       if (!(u > 0) || !(v > 0) || !(u + v < 1)) return false;
-      return std::fabs(light(patches_.side_at(at.mesh, at.triangle, u, v, Patches::is_front(side))) - light(side)) > least;
+      return std::fabs(light(patches_.place_at(at.mesh, at.triangle, u, v, Patches::is_front(side)).side) - light(side)) > least;
     };
     if (changes_to(at.u + at.step, at.v) || changes_to(at.u - at.step, at.v) || changes_to(at.u, at.v + at.step) ||
         changes_to(at.u, at.v - at.step))
       refined.push_back(side);
   }
+  change_in_parts_.resize(refined.size());
+  for (std::uint32_t k = 0; k < refined.size(); ++k) parts_of_[refined[k]] = k;
   const std::size_t tiles = (refined.size() + kTileSides - 1) / kTileSides;
   each(tiles, [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
@@ -167,22 +178,77 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
     tile->seed = number;
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       put_nothing(*tile, i);
-      const std::size_t k = number * kTileSides + i / kPlaces;
-      if (k < refined.size()) put_white(*tile, i, surface_at_site(refined[k], patches_.place_in(refined[k], i % kPlaces)));
+      const std::size_t k = number * kTileSides + i / kPatchParts;
+      if (k >= refined.size()) continue;
+      put_white(*tile, i, surface_at_site(refined[k], patches_.site({refined[k], static_cast<std::uint32_t>(i % kPatchParts)})));
     }
     add_direct(*tile);
     for (std::size_t k = 0; k < kTileSides && number * kTileSides + k < refined.size(); ++k) {
       const std::uint32_t side = refined[number * kTileSides + k];
-      Vec3f sum{};
-      for (std::size_t i = 0; i < kPlaces; ++i) sum += get(tile->radiance, k * kPlaces + i);
-      direct_[side] = sum * (1.0f / kPlaces) * reflectance_[side];
+      std::array<Vec3f, kPatchParts>& parts = change_in_parts_[parts_of_[side]];
+      Vec3f mean{};
+      for (std::size_t i = 0; i < kPatchParts; ++i) {
+        parts[i] = get(tile->radiance, k * kPatchParts + i) * reflectance_[side];
+        mean += parts[i] * (1.0f / kPatchParts);
+      }
+      direct_[side] = mean;
+      for (Vec3f& part : parts) part = part - mean;
     }
   });
+}
+
+// Takes the light that glossy lobes send on out of the sides' even radiance, and keeps it by direction.
+void PatchLight::find_glossy(const FindIncident& find_incident) {
+  constexpr double kLeast = 0.02;  // of the mean direct radiance: less light goes on as if the side were diffuse
+  constexpr std::size_t kBatch = 4096;
+  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  even_glossy_.resize(sides);
+  double power = 0, area = 0;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    power += luminance(static_cast<Vec3d>(direct_[side])) * static_cast<double>(area_of(side));
+    area += weighs(direct_[side]) ? static_cast<double>(area_of(side)) : 0;
+  }
+  if (!(area > 0)) return;
+  const double least = kLeast * power / area;
+  struct Found {
+    Surface surface;
+    Vec3f share;  // of the radiance
+    std::vector<IncidentLight> incident;
+  };
+  for (std::uint32_t first = 0; first < sides; first += kBatch) {
+    std::vector<Found> found(std::min(kBatch, std::size_t{sides - first}));
+    each(found.size(), [&](std::size_t k) {
+      const auto side = static_cast<std::uint32_t>(first + k);
+      if (!weighs(direct_[side])) return;
+      const Surface surface = surface_of(side);
+      if (!GlossySides::has_lobe(surface)) return;
+      const Vec3f all = reflectance_[side], glossy = reflectance_of(surface).glossy;
+      const auto ratio = [](float a, float b) { return b > 0 ? std::min(a / b, 1.0f) : 0; };
+      const Vec3f share = {ratio(glossy.x, all.x), ratio(glossy.y, all.y), ratio(glossy.z, all.z)};
+      if (luminance(static_cast<Vec3d>(direct_[side] * share)) <= least) return;
+      found[k] = {surface, share, {}};
+      find_incident(surface, side, found[k].incident);
+    });
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const auto side = static_cast<std::uint32_t>(first + k);
+      const Vec3f all = reflectance_[side];
+      const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
+      const Vec3f irradiance =
+          Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} * std::numbers::pi_v<float>;
+      if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance, turn_of(side))) continue;
+      const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
+      even_glossy_[side] = direct_[side] * found[k].share;
+      direct_[side] = direct_[side] * rest;
+      if (parts_of_[side] == kNoSide) continue;
+      for (Vec3f& part : change_in_parts_[parts_of_[side]]) part = part * rest;
+    }
+  }
 }
 
 void PatchLight::find_links(std::size_t rays) {
   links_per_side_ = rays;
   links_.resize(rays * patches_.side_count());
+  from_glossy_.resize(patches_.side_count());
   each(patches_.side_count(), [&](std::size_t side) {
     const Surface surface = surface_of(static_cast<std::uint32_t>(side));
     const Frame frame = Frame::from_normal(normalized(static_cast<Vec3d>(surface.geometric_normal)));
@@ -190,38 +256,73 @@ void PatchLight::find_links(std::size_t rays) {
     const double turn = random.uniform();
     BounceRays bounce(rays_, patches_);
     for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
-      for (std::size_t i = 0; i < BounceRays::kLanes; ++i)
-        bounce.set(i, surface, static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn))));
+      std::array<Vec3f, BounceRays::kLanes> to;
+      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
+        to[i] = static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn)));
+        bounce.set(i, surface, to[i]);
+      }
       const auto met = bounce.trace();
-      std::copy(met.begin(), met.end(), links_.begin() + static_cast<std::ptrdiff_t>(side * rays + k));
+      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
+        links_[side * rays + k + i] = met[i].side;
+        if (met[i].side != kNoSide) from_glossy_[side] += glossy_.radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
+      }
     }
   });
 }
 
-// Adds bounces until the picture's last one, or until none changes much.
+// Adds bounces until the picture's last one, or until those that are left out are within kSmallChange.
+//
+// Every bounce is the same positive linear map of the one before. So if it is nowhere more than a factor f of the one before, all that
+// follow are within f / (1 - f) of it.
 void PatchLight::iterate(int bounces) {
   const std::size_t sides = patches_.side_count();
-  std::vector<Vec3f> next(sides);
+  const float over_links = 1.0f / static_cast<float>(links_per_side_);
+  std::vector<Vec3f> bounce = radiance_, next(sides);  // radiance after exactly so many bounces
+  const auto largest_of = [](Vec3f v) { return std::max({v.x, v.y, v.z}); };
   const int most = bounces == kAllBounces ? kMostIterations : bounces - 1;
   for (iterations_ = 0; iterations_ < most;) {
     each(sides, [&](std::size_t side) {
       Vec3f sum{};
       for (std::size_t k = 0; k < links_per_side_; ++k) {
         const std::uint32_t met = links_[side * links_per_side_ + k];
-        if (met != kNoSide) sum += radiance_[met];
+        if (met != kNoSide) sum += bounce[met];
       }
-      next[side] = direct_[side] + reflectance_[side] * sum * (1.0f / static_cast<float>(links_per_side_));
+      // Light from glossy lobes of other sides is direct light that has bounced once.
+      next[side] = reflectance_[side] * (sum * over_links + (iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
     });
-    double change = 0, largest = 0;
+    float factor = 0, largest_bounce = 0, largest = 0;
+    const auto grows = [](float from, float to) { return to > 0 ? (from > 0 ? to / from : std::numeric_limits<float>::infinity()) : 0.0f; };
     for (std::size_t side = 0; side < sides; ++side) {
-      const Vec3f d = next[side] - radiance_[side];
-      change = std::max(change, static_cast<double>(std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)})));
-      largest = std::max(largest, static_cast<double>(std::max({next[side].x, next[side].y, next[side].z})));
+      const Vec3f a = bounce[side], b = next[side];
+      radiance_[side] += b;
+      factor = std::max({factor, grows(a.x, b.x), grows(a.y, b.y), grows(a.z, b.z)});
+      largest_bounce = std::max(largest_bounce, largest_of(b));
+      largest = std::max(largest, largest_of(radiance_[side]));
     }
-    radiance_.swap(next);
+    bounce.swap(next);
     ++iterations_;
-    residual_ = largest > 0 ? change / largest : 0;
-    if (bounces == kAllBounces && residual_ <= kSmallChange) break;
+    if (bounces != kAllBounces) continue;
+    // The first bounce holds light of glossy lobes that the direct light does not.
+    left_out_.reset();
+    if (iterations_ > 1 && factor < 1) left_out_ = largest_bounce * factor / (1 - factor);
+    if (largest_bounce <= kNoChange * largest || (left_out_ && *left_out_ <= kSmallChange * largest)) break;
+  }
+}
+
+// Joins the sides of each group, whose patches have equal areas.
+void PatchLight::find_coarse() {
+  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  std::vector<Vec3f> sum(sides);
+  std::vector<float> count(sides);
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    const std::uint32_t group = patches_.group_of(side);
+    sum[group] += radiance_[side];
+    count[group] += 1;
+  }
+  coarse_.resize(sides);
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    const std::uint32_t group = patches_.group_of(side);
+    coarse_[side] = sum[group] * (1 / count[group]);
   }
 }
 
@@ -232,12 +333,22 @@ float PatchLight::area_of(std::uint32_t side) const {
   return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * at.step * at.step;
 }
 
+// Largest angle between the normals at a patch's middle and its corners, where vertices have normals.
+float PatchLight::turn_of(std::uint32_t side) const {
+  const Patches::Site& at = patches_.site(side);
+  const Mesh& mesh = scene_.meshes[at.mesh];
+  if (mesh.normals.empty()) return 0;
+  const auto corner = [&](std::size_t i) { return mesh.normals[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
+  const Vec3f middle = (corner(0) + corner(1) + corner(2)) * (1.0f / 3);
+  return std::max({length(corner(0) - middle), length(corner(1) - middle), length(corner(2) - middle)}) * at.step;
+}
+
 // Spreads places over the bright sides in proportion to their light.
 void PatchLight::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
   constexpr std::size_t kPlaces = 1024;
   const auto sides = static_cast<std::uint32_t>(patches_.side_count());
-  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side])); };
+  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side] + even_glossy_[side])); };
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (!(brightness(side) > 0)) continue;
@@ -261,7 +372,7 @@ void PatchLight::find_bright_sides() {
     before += brightness(side) * static_cast<double>(area_of(side));
     while (places_.size() < kPlaces && (static_cast<double>(places_.size()) + 0.5) * bright_power < before * kPlaces) {
       const Surface s = surface_of(side);
-      places_.push_back({s.position, s.geometric_normal, radiance_[side] * static_cast<float>(bright_power / kPlaces / brightness(side))});
+      places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
     }
   }
   bright_ = std::move(bright);

@@ -57,32 +57,59 @@ Patches::Patches(const Scene& scene, std::size_t wanted) {
   }
 }
 
-Patches::Site Patches::place_in(std::uint32_t side, std::size_t part) const {
-  constexpr std::uint32_t kParts = 4;  // along a side
+namespace {
+
+constexpr std::uint32_t kPartsAlong = 4;  // a side of a patch
+
+// A cell of a triangle that is cut `n` times along each side: row, column, and the half of the square at its corner. The upper half is
+// turned by half a turn, and so are the coordinates within it.
+struct TriangleCell {
+  std::uint32_t row, column;
+  bool upper;
+  float u, v;  // within the cell
+
+  TriangleCell(float x, float y, std::uint32_t n) {
+    const auto cell = [&](float at, std::uint32_t most) { return at > 0 ? std::min(static_cast<std::uint32_t>(at), most) : 0u; };
+    row = cell(x * static_cast<float>(n), n - 1);
+    column = cell(y * static_cast<float>(n), n - 1 - row);
+    u = x * static_cast<float>(n) - static_cast<float>(row);
+    v = y * static_cast<float>(n) - static_cast<float>(column);
+    upper = u + v > 1 && row + column + 1 < n;
+    if (upper) u = 1 - u, v = 1 - v;
+  }
+  std::uint32_t number(std::uint32_t n) const { return patches_before(row, n) + 2 * column + (upper ? 1 : 0); }
+};
+
+}  // namespace
+
+Patches::Site Patches::site(PatchPlace place) const {
   std::uint32_t row = 0;
-  while (row + 1 < kParts && part >= patches_before(row + 1, kParts)) ++row;
-  const auto k = static_cast<std::uint32_t>(part) - patches_before(row, kParts);
+  while (row + 1 < kPartsAlong && place.part >= patches_before(row + 1, kPartsAlong)) ++row;
+  const std::uint32_t k = place.part - patches_before(row, kPartsAlong);
   const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
-  const float x = (static_cast<float>(row) + third) / kParts - 1.0f / 3, y = (static_cast<float>(k / 2) + third) / kParts - 1.0f / 3;
-  Site at = site(side);
+  const float x = (static_cast<float>(row) + third) / kPartsAlong - 1.0f / 3;
+  const float y = (static_cast<float>(k / 2) + third) / kPartsAlong - 1.0f / 3;
+  Site at = site(place.side);
   // Every other patch of a grid is turned by half a turn.
   const float cell = at.u / at.step;
   const float scale = cell - std::floor(cell) > 0.5f ? -at.step : at.step;
   at.u += x * scale;
   at.v += y * scale;
-  at.step /= kParts;
+  at.step /= kPartsAlong;
   return at;
 }
 
-std::uint32_t Patches::side_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const {
+PatchPlace Patches::place_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const {
   const Grid grid = grids_[mesh][triangle];
-  const std::uint32_t n = grid.cells;
-  const auto cell = [&](float x, std::uint32_t most) { return x > 0 ? std::min(static_cast<std::uint32_t>(x), most) : 0u; };
-  const float x = u * static_cast<float>(n), y = v * static_cast<float>(n);
-  const std::uint32_t i = cell(x, n - 1), j = cell(y, n - 1 - i);
-  const bool upper = x - static_cast<float>(i) + y - static_cast<float>(j) > 1 && i + j + 1 < n;
-  const std::uint32_t patch = grid.first + patches_before(i, n) + 2 * j + (upper ? 1 : 0);
-  return 2 * patch + (front ? 0 : 1);
+  const TriangleCell cell(u, v, grid.cells), part(cell.u, cell.v, kPartsAlong);
+  return {2 * (grid.first + cell.number(grid.cells)) + (front ? 0 : 1), part.number(kPartsAlong)};
+}
+
+std::uint32_t Patches::group_of(std::uint32_t side) const {
+  const Site& at = site(side);
+  const Grid grid = grids_[at.mesh][at.triangle];
+  const TriangleCell cell(at.u, at.v, grid.cells);
+  return 2 * (grid.first + patches_before(cell.row / 2 * 2, grid.cells) + 2 * (cell.column / 2 * 2)) + side % 2;
 }
 
 }  // namespace steradian::radiosity

@@ -10,6 +10,13 @@
 namespace steradian::radiosity {
 
 inline constexpr std::uint32_t kNoSide = UINT32_MAX;
+inline constexpr std::size_t kPatchParts = 16;  // equal parts of a patch
+
+// A place on the patches, to a part of a side.
+struct PatchPlace {
+  std::uint32_t side = kNoSide;
+  std::uint32_t part = 0;
+};
 
 class Patches {
  public:
@@ -17,8 +24,8 @@ class Patches {
   Patches(const Scene& scene, std::size_t wanted);
 
   std::size_t side_count() const { return 2 * sites_.size(); }
-  // The side that a ray meets at a triangle's barycentric coordinates. front: on the side of the triangle's winding.
-  std::uint32_t side_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const;
+  // The place that a ray meets at a triangle's barycentric coordinates. front: on the side of the triangle's winding.
+  PatchPlace place_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const;
 
   // True if light goes through a mesh, which then neither meets bounced light nor sends any.
   bool lets_through(std::size_t mesh) const { return lets_through_[mesh] != 0; }
@@ -30,8 +37,10 @@ class Patches {
     float step;  // side of the grid's cells in these coordinates
   };
   const Site& site(std::uint32_t side) const { return sites_[side / 2]; }
-  // The middle of one of sixteen equal parts of a side's patch.
-  Site place_in(std::uint32_t side, std::size_t part) const;
+  // The middle of a part.
+  Site site(PatchPlace place) const;
+  // The group of up to eight neighbouring sides of a triangle that a side belongs to, by its first side.
+  std::uint32_t group_of(std::uint32_t side) const;
   static bool is_front(std::uint32_t side) { return side % 2 == 0; }
 
  private:

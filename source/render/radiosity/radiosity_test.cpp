@@ -9,6 +9,7 @@
 #include "paths.h"
 #include "render/radiosity/patches.h"
 #include "steradian/area_light.h"
+#include "steradian/compare.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 #include "support/boxes.h"
@@ -45,12 +46,12 @@ TEST(Patches, MiddlesLieInTheirPatches) {
   EXPECT_LE(patches.side_count(), 2u * 500u);
   for (std::uint32_t side = 0; side < patches.side_count(); ++side) {
     const auto& site = patches.site(side);
-    EXPECT_EQ(patches.side_at(site.mesh, site.triangle, site.u, site.v, radiosity::Patches::is_front(side)), side);
+    EXPECT_EQ(patches.place_at(site.mesh, site.triangle, site.u, site.v, radiosity::Patches::is_front(side)).side, side);
   }
   // Corners and edges, with the roundings of a ray.
   for (const float u : {-1e-7f, 0.0f, 0.5f, 1.0f, 1.0000001f})
     for (const float v : {-1e-7f, 0.0f, 0.5f, 1.0f, 1.0000001f})
-      EXPECT_LT(patches.side_at(0, 0, u, std::min(v, 1 - u), true), patches.side_count());
+      EXPECT_LT(patches.place_at(0, 0, u, std::min(v, 1 - u), true).side, patches.side_count());
 }
 
 // In a closed box whose sides shine with 1 and reflect r, the reflected radiance is r + r^2 + ... : every mean is one of equal values, so
@@ -63,12 +64,22 @@ TEST(Radiosity, TheFurnaceIsTheGeometricSeries) {
       RenderOptions options = options_for(16, bounces);
       options.shadows = Shadows::off;
       double worst = 0;
-      for (const Vec3f& p : render(closed_box(r, true), options).pixels)
-        worst = std::max(worst, std::fabs(static_cast<double>(p.x) / truth - 1));
+      const Picture picture = render(closed_box(r, true), options);
+      for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const double off = std::fabs(static_cast<double>(picture.pixels[i].x) - truth);
+        worst = std::max(worst, off / truth);
+        EXPECT_LE(off, static_cast<double>(picture.layers.at("bounce_bound")[i].x) + 1e-5 * truth);
+      }
       std::printf("albedo %.1f, %d bounces: %.6f, off by at most %.1e\n", static_cast<double>(r), bounces, truth, worst);
-      // The iterations end at a change of 1e-4, of which a geometric series leaves r / (1 - r) more.
-      EXPECT_LT(worst, bounces == kAllBounces ? 1e-4 * r / (1 - r) + 1e-5 : 1e-5);
+      EXPECT_LT(worst, bounces == kAllBounces ? 1.1e-4 : 1e-5);  // the iterations leave out at most 1e-4
     }
+}
+
+// Walls that reflect all light keep it: the iterations end, at finite values and without a bound.
+TEST(Radiosity, WhiteRoomsHaveNoBound) {
+  RenderStats stats;
+  for (const Vec3f& p : render(closed_box(1, true), options_for(4, kAllBounces), &stats).pixels) EXPECT_TRUE(is_finite(p));
+  EXPECT_LT(stats.bounce_left_out, 0);
 }
 
 // A closed box in the light of a lamp outside, whatever its walls reflect.
@@ -164,8 +175,8 @@ TEST(Radiosity, RoomsAgreeWithPaths) {
     // Half of the reference's noise of 1.5 % is left in the difference, and patches are 1 % of their room's side. A mirror of roughness 0.1
     // spreads light by some degrees, and its image here is sharp: 1 % more.
     EXPECT_LT(error, k % 2 == 0 ? 0.03 : 0.02) << k;
-    // 16 x 16 pixels of 1.5 % noise each, and patches of a 40,000th of the room.
-    EXPECT_NEAR(ratio, 1, 0.005) << k;
+    // 16 x 16 pixels of 1.5 % noise each, and patches of a 40,000th of the room. Few paths meet the lamp by way of a mirror.
+    EXPECT_NEAR(ratio, 1, k % 2 == 0 ? 0.01 : 0.005) << k;
   }
   std::printf("%d rooms: worst %.2f %%\n", rooms, 100 * worst);
 }
@@ -182,14 +193,100 @@ TEST(Radiosity, CutsLargeTrianglesBesideManySmallOnes) {
   for (std::uint32_t side = 0; side < 2000; side += 2) {
     const radiosity::Patches::Site middle = patches.site(side);
     float u = 0, v = 0;
-    for (std::size_t k = 0; k < 16; ++k) {
-      const radiosity::Patches::Site at = patches.place_in(side, k);
-      EXPECT_EQ(patches.side_at(at.mesh, at.triangle, at.u, at.v, true), side) << k;
+    for (std::uint32_t k = 0; k < radiosity::kPatchParts; ++k) {
+      const radiosity::Patches::Site at = patches.site(radiosity::PatchPlace{side, k});
+      const radiosity::PatchPlace place = patches.place_at(at.mesh, at.triangle, at.u, at.v, true);
+      EXPECT_EQ(place.side, side) << k;
+      EXPECT_EQ(place.part, k);
       u += at.u / 16;
       v += at.v / 16;
     }
     EXPECT_NEAR(u, middle.u, 1e-6f);
     EXPECT_NEAR(v, middle.v, 1e-6f);
+  }
+  // A group begins with a side of its own, on the same triangle.
+  for (std::uint32_t side = 0; side < 2000; ++side) {
+    const std::uint32_t group = patches.group_of(side);
+    EXPECT_EQ(patches.group_of(group), group);
+    EXPECT_EQ(group % 2, side % 2);
+    EXPECT_EQ(patches.site(group).triangle, patches.site(side).triangle);
+  }
+}
+
+// A beam meets brass, which sends it on to one part of the walls.
+TEST(Radiosity, GlossySurfacesSendLightInItsDirection) {
+  Scene scene = closed_box(0.5f, false);
+  SurfaceMaterial brass = grey(0.8f);
+  brass.metallic = 1;
+  brass.roughness = 0.45f;
+  scene.materials.push_back(brass);
+  scene.meshes.push_back(quad_mesh({-0.5f, -0.9f, 0.5f}, {0.5f, -0.9f, 0.5f}, {0.5f, -0.9f, -0.5f}, {-0.5f, -0.9f, -0.5f}, 1));
+  PunctualLight beam;
+  beam.kind = PunctualKind::spot;
+  beam.position = {0.7, 0.3, 0.1};
+  beam.direction = normalized(Vec3d{-0.7, -1.2, -0.1});
+  beam.intensity = {1, 1, 1};
+  beam.cos_inner = std::cos(0.2);
+  beam.cos_outer = std::cos(0.25);
+  scene.punctual_lights = {beam};
+  scene.cameras = {camera_at({0.9, -0.3, 0.6}, {-1, 0.3, -0.2}, 1)};
+  RenderOptions options = options_for(24, kAllBounces);
+  const Picture ours = render(scene, options);
+  options.method = "sampled";
+  options.spp = 2048;
+  const Picture paths = render(scene, options);
+  double squares = 0, noise = 0;
+  for (std::size_t i = 0; i < paths.pixels.size(); ++i) {
+    squares += std::pow(luminance(static_cast<Vec3d>(ours.pixels[i]) - static_cast<Vec3d>(paths.pixels[i])), 2);
+    noise += luminance(static_cast<Vec3d>(paths.layers.at("variance")[i]));  // all channels are equal
+  }
+  const double mean = mean_luminance(paths), ratio = mean_luminance(ours) / mean;
+  const double error = std::sqrt(std::max(squares - noise, 0.0) / static_cast<double>(paths.pixels.size())) / mean;
+  std::printf("error %.2f %%, mean ratio %.4f\n", 100 * error, ratio);
+  EXPECT_LT(error, 0.1);  // 60 % where brass sends light on evenly
+  EXPECT_NEAR(ratio, 1, 0.02);
+}
+
+// The error of each pixel covers its difference from paths, nearly everywhere, and is not much larger than that.
+TEST(Radiosity, ErrorsCoverTheDifferenceFromPaths) {
+  std::vector<std::string> names = {"cornell", "room"};
+  if (test::by_day_or_night(1, 2) == 2) names.insert(names.end(), {"gallery", "lamp_shade"});
+  for (const std::string& name : names) {
+    const Scene scene = load_scene(test::kSourceDir + "/scenes/" + name + ".glb").scene;
+    RenderOptions options = options_for(0, kAllBounces);
+    options.width = 48;
+    options.height = 27;
+    options.quality = Quality::normal;
+    const Picture ours = render(scene, options);
+    options.method = "sampled";
+    options.spp = test::by_day_or_night(512, 4096);
+    const Picture paths = render(scene, options);
+    const Coverage covered = coverage(ours, paths, {"bounce_error"});
+    std::printf("%s: %.2f %% of the pixels are covered, worst %.2f\n", name.c_str(), 100 * covered.fraction, covered.worst);
+    EXPECT_GT(covered.fraction, 0.97) << name;
+    double error = 0, light = 0;
+    for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
+      error += luminance(static_cast<Vec3d>(ours.layers.at("bounce_error")[i]));
+      light += luminance(static_cast<Vec3d>(ours.layers.at("indirect")[i]));
+    }
+    EXPECT_LT(error, 0.2 * light) << name;
+  }
+}
+
+// Pixels whose centres meet a crease of a room exactly see the room, not the inside of a wall.
+TEST(Radiosity, CreasesAreNotBlack) {
+  Scene scene = closed_box(0.5f, false);
+  AreaLight lamp;
+  lamp.shape = Ellipsoid{{0, 0.5, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
+  lamp.radiance = {10, 10, 10};
+  scene.area_lights = {lamp};
+  scene.cameras = {camera_at({0, 0, 0.5}, {0, 0, -1}, 1.5)};
+  for (const int side : {31, 32, 33}) {
+    const Picture picture = render(scene, options_for(side, 0));
+    std::vector<double> light;
+    for (const Vec3f& p : picture.pixels) light.push_back(luminance(static_cast<Vec3d>(p)));
+    const double least = *std::min_element(light.begin(), light.end());
+    EXPECT_GT(least, 0.05 * *std::max_element(light.begin(), light.end())) << side;
   }
 }
 

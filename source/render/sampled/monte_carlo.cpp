@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/lattices.h"
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
 #include "reference/spherical_region.h"
@@ -77,6 +78,8 @@ DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const 
 
 DirectSampler::~DirectSampler() = default;
 
+std::size_t DirectSampler::light_count() const { return lights_.size() + scene_.punctual_lights.size(); }
+
 Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp, reference::Random& random) {
   std::vector<SurfaceLobe> rest = lobes_of(surface, fitted_);
   if (choice == LobeChoice::specular) std::erase_if(rest, [](const SurfaceLobe& l) { return l.diffuse; });
@@ -123,14 +126,13 @@ Estimate DirectSampler::estimate_environment(const Frame& frame, Vec3d p, Vec3d 
   return mean.estimate();
 }
 
-Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random) {
+template <class Punctual, class Area>
+Vec3d DirectSampler::visit_lights(const Frame& frame, const Surface& surface, Punctual punctual, Area area) {
   Scratch& scratch = *scratch_;
-  const std::vector<Lobe>& lobes = scratch.lobes;
   // With shadows, the point is where closed forms look from (shadow::Viewpoint): off the triangle, and never below it.
   const auto geometric = static_cast<Vec3d>(surface.geometric_normal);
   auto p = static_cast<Vec3d>(surface.position);
   if (shadows_ != nullptr) p = shadows_->off_surface(p, geometric);
-  Estimate result;
 
   for (const PunctualLight& light : scene_.punctual_lights) {
     const auto incident = shapes::incident<double>(packed::prepare(light), shapes::to_kernel<double>(p));
@@ -141,35 +143,8 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
       if (light.kind == PunctualKind::directional ? shadows_->blocked_towards(p, to) : shadows_->between(p, light.position, Casters::all))
         continue;
     }
-    result.mean += light.intensity * incident.irradiance.v * evaluate(lobes, l);
+    punctual(l, light.intensity * incident.irradiance.v);
   }
-
-  // A sampled direction in the shading frame, the density of the light there, and the radiance that arrives. Density 0: no light.
-  struct Incident {
-    Vec3d direction;
-    double density = 0;
-    Vec3d radiance{};
-  };
-  const auto by_both = [&](auto from_light, auto towards) {
-    const auto contribution = [&](const Incident& to) -> Vec3d {
-      double pdf = to.density;
-      for (const Lobe& lobe : lobes) pdf += lobe.pdf(to.direction);
-      if (!(to.density > 0) || !(pdf > 0)) return {};
-      return evaluate(lobes, to.direction) * (1 / pdf) * to.radiance;
-    };
-    RunningMean mean;
-    for (int i = 0; i < spp; ++i) {
-      const double u = random.uniform(), w = random.uniform();
-      Vec3d x = contribution(from_light(u, w));
-      for (const Lobe& lobe : lobes) {
-        const double a = random.uniform(), b = random.uniform();
-        const Vec3d by_lobe = lobe.sample(a, b);
-        if (by_lobe.z > 0) x += contribution(towards(by_lobe));
-      }
-      mean.add(x);
-    }
-    return mean.estimate();
-  };
 
   for (const Light& light : lights_) {
     const LightEmission* emission = light.area->emission ? &*light.area->emission : nullptr;
@@ -184,8 +159,8 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
           return {};
         return {l, place.density, emission != nullptr ? emitted_radiance(*emission, -place.direction) : light.area->radiance};
       };
-      result += by_both([&](double u, double w) { return incident(sampler.sample(u, w)); },
-                        [&](Vec3d l) { return incident(sampler.towards(frame.to_world(l))); });
+      area([&](double u, double w) { return incident(sampler.sample(u, w)); },
+           [&](Vec3d l) { return incident(sampler.towards(frame.to_world(l))); });
       continue;
     }
     const PreparedPolygon& polygon = *light.polygon;
@@ -214,15 +189,75 @@ Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, 
       if (!(density > 0)) return {};
       return {l, density, incident(l)};
     };
-    result += by_both(
+    area(
         [&](double u, double w) {
           const Vec3d l = sampler.sample(u, w);
           return with_density(l, sampler.pdf_within(l));
         },
         [&](Vec3d l) { return with_density(l, sampler.pdf(l)); });
   }
-  if (around_ != nullptr) result += estimate_environment(frame, p, geometric, spp, random);
+  return p;
+}
+
+Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random) {
+  const std::vector<Lobe>& lobes = scratch_->lobes;
+  Estimate result;
+  const auto contribution = [&](const Incident& to) -> Vec3d {
+    double pdf = to.density;
+    for (const Lobe& lobe : lobes) pdf += lobe.pdf(to.direction);
+    if (!(to.density > 0) || !(pdf > 0)) return {};
+    return evaluate(lobes, to.direction) * (1 / pdf) * to.radiance;
+  };
+  const Vec3d p = visit_lights(
+      frame, surface, [&](Vec3d l, Vec3d irradiance) { result.mean += irradiance * evaluate(lobes, l); },
+      [&](auto sample, auto towards) {
+        RunningMean mean;
+        for (int i = 0; i < spp; ++i) {
+          const double u = random.uniform(), w = random.uniform();
+          Vec3d x = contribution(sample(u, w));
+          for (const Lobe& lobe : lobes) {
+            const double a = random.uniform(), b = random.uniform();
+            const Vec3d by_lobe = lobe.sample(a, b);
+            if (by_lobe.z > 0) x += contribution(towards(by_lobe));
+          }
+          mean.add(x);
+        }
+        result += mean.estimate();
+      });
+  if (around_ != nullptr) result += estimate_environment(frame, p, static_cast<Vec3d>(surface.geometric_normal), spp, random);
   return result;
+}
+
+void DirectSampler::find_incident(const Surface& surface, int places, reference::Random& random, std::vector<IncidentLight>& found) {
+  const auto geometric = static_cast<Vec3d>(surface.geometric_normal);
+  const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
+  const double shift = random.uniform() * 4096;
+  std::uint32_t number = 0;  // of the light
+  const auto add = [&](const Incident& x) {
+    if (!(x.density > 0) || !(x.direction.z > 0)) return;
+    const double solid_angle = 1 / (x.density * places);
+    found.push_back({static_cast<Vec3f>(frame.to_world(x.direction)), static_cast<Vec3f>(x.radiance * (x.direction.z * solid_angle)),
+                     static_cast<float>(solid_angle), number});
+  };
+  const Vec3d p = visit_lights(
+      frame, surface,
+      [&](Vec3d l, Vec3d irradiance) {
+        found.push_back({static_cast<Vec3f>(frame.to_world(l)), static_cast<Vec3f>(irradiance * l.z), 0, number++});
+      },
+      [&](auto sample, auto) {
+        for (int i = 0; i < places; ++i) {
+          const auto [u, v] = r2_place(shift + i);
+          add(sample(u, v));
+        }
+        ++number;
+      });
+  for (int i = 0; i < places && around_ != nullptr; ++i) {
+    const auto [u, v] = r2_place(shift + i);
+    const Vec3d to = around_->sample(u, v);
+    if (shadows_ != nullptr && (!above(geometric, to) || shadows_->blocked_towards(p, to))) continue;
+    add({frame.to_local(to), around_->pdf(to), around_->radiance(to)});
+  }
+  std::erase_if(found, [](const IncidentLight& light) { return !weighs(light.irradiance); });
 }
 
 }  // namespace steradian

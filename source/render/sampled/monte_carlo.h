@@ -2,6 +2,7 @@
 // density, with the balance heuristic and optional shadow rays.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,14 @@ struct Estimate {
   }
 };
 
+// Light that arrives at a surface from one direction.
+struct IncidentLight {
+  Vec3f direction;
+  Vec3f irradiance;     // on the surface
+  float solid_angle;    // that it stands for; 0: a punctual light
+  std::uint32_t light;  // number of the light
+};
+
 // Lobes to estimate; the others are computed elsewhere.
 enum class LobeChoice { all, specular };
 
@@ -43,9 +52,23 @@ class DirectSampler {
   // which keeps scratch memory.
   Estimate estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp, reference::Random& random);
 
+  // Appends the light that arrives from `places` directions of each area light and the environment, and from each punctual light.
+  void find_incident(const Surface& surface, int places, reference::Random& random, std::vector<IncidentLight>& found);
+  std::size_t light_count() const;
+
  private:
   struct Light;
   struct Scratch;
+  // A direction in a surface's frame, the density of a light there, and the radiance that arrives. Density 0: no light.
+  struct Incident {
+    Vec3d direction;
+    double density = 0;
+    Vec3d radiance{};
+  };
+  // Visits the lights above a surface: punctual(direction, irradiance) and area(sample, towards), two functions that return Incident, for a
+  // place of the unit square and for a direction. Returns the point from which the surface sees them.
+  template <class Punctual, class Area>
+  Vec3d visit_lights(const Frame& frame, const Surface& surface, Punctual punctual, Area area);
   // Estimates the environment's light by scratch_->lobes, which share the frame's normal.
   Estimate estimate_environment(const Frame& frame, Vec3d position, Vec3d geometric, int spp, reference::Random& random) const;
   // True if a direction lies above the triangle's horizon, or if that horizon occludes nothing (smooth terminator).

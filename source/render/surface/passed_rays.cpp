@@ -130,6 +130,7 @@ void PassedRays::fill(const Ways& ways, Lamps lamps, SurfaceTile& tile) const {
     const Mesh& mesh = scene_.meshes[hit.hit.geomID];
     const SurfaceFootprint footprint =
         footprint_on(*shading_.maps, mesh, hit.hit.primID, direction, ways.length[i] + hit.ray.tfar, steps_about(direction, pixel_));
+    keep_within(mesh, hit.hit.primID, rays_.offset_from_edges(), hit.hit.u, hit.hit.v);
     Surface surface = surface_at(scene_, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -direction, footprint);
     if (shading_.terminator == Terminator::smooth)
       surface.position = smooth_position(mesh, hit.hit.primID, hit.hit.u, hit.hit.v, surface.geometric_normal);

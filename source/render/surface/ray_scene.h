@@ -65,6 +65,8 @@ class RayScene {
   double offset_from_surface(Vec3d position) const { return shadow::offset_from_surface(position, static_cast<double>(reach_), 0x1p-24); }
   // A position moved off its surface along the surface's normal, where shadow rays begin and end.
   Vec3d off_surface(Vec3d position, Vec3d normal) const { return position + normal * offset_from_surface(position); }
+  // The same for the way of a hit from the edges of its triangle, at any place in the scene.
+  float offset_from_edges() const { return static_cast<float>(offset_from_surface({double{reach_}, 0, 0})); }
   float reach() const { return reach_; }  // largest coordinate of the meshes
 
   bool blocked_towards(Vec3d from, Vec3d direction) const;  // blocked by any mesh; direction: unit

@@ -152,6 +152,24 @@ Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, flo
   return base_color(scene, mesh, Corner(mesh, triangle, u, v), m);
 }
 
+void keep_within(const Mesh& mesh, unsigned triangle, float distance, float& u, float& v) {
+  constexpr float kNear = 1.0f / 512;  // tested first: most hits are farther from all edges
+  if (std::min({u, v, 1 - u - v}) >= kNear) return;
+  const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{triangle} + i]]; };
+  const std::array<Vec3f, 3> p = {corner(0), corner(1), corner(2)};
+  const float twice_area = length(cross(p[1] - p[0], p[2] - p[0]));
+  if (!(twice_area > 0)) return;
+  std::array<float, 3> weight = {1 - u - v, u, v};
+  float sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float least = distance * length(p[(i + 1) % 3] - p[(i + 2) % 3]) / twice_area;  // distance over the triangle's height
+    weight[i] = std::max(weight[i], std::min(least, 1.0f / 3));
+    sum += weight[i];
+  }
+  u = weight[1] / sum;
+  v = weight[2] / sum;
+}
+
 Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec3f outside) {
   const Corner at(mesh, triangle, u, v);
   const Vec3f hit = at(mesh.positions);

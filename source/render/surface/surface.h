@@ -34,6 +34,10 @@ struct Surface {
 // Base colour with alpha at barycentric coordinates u, v (weights of the second and third vertex) of a mesh's triangle.
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v);
 
+// Moves a hit away from the edges of its triangle, to `distance` from each or, in a smaller triangle, towards the middle. Within roundings
+// of a wall that stands on the edge, it would be inside the wall and see nothing.
+void keep_within(const Mesh& mesh, unsigned triangle, float distance, float& u, float& v);
+
 // Moves a hit to the curved surface that the normals of the triangle's vertices describe, if that lies outside the triangle (surface_lift).
 //
 //   outside  the triangle's normal, turned to the viewer

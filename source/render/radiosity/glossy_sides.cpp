@@ -1,0 +1,79 @@
+#include "render/radiosity/glossy_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lobes/lobe_parts.h"
+#include "steradian/area_light.h"  // luminance
+
+namespace steradian::radiosity {
+namespace {
+
+constexpr float kLeastWidth = 0.1f;  // alpha: few rays would meet the light of a narrower lobe
+constexpr float kSmall = 0.5f;       // half radius of a light over the lobe's width
+
+Kernels<float>::vec3 in_kernel(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+
+}  // namespace
+
+bool GlossySides::has_lobe(const Surface& surface) { return !surface.material->unlit && weighs(surface.f0 + surface.f90); }
+
+bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance,
+                       float turn) {
+  const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
+  Vec3f sum{};
+  for (const IncidentLight& light : incident) sum += light.irradiance;
+  const double of_places = luminance(static_cast<Vec3d>(sum)), of_all = luminance(static_cast<Vec3d>(irradiance));
+  if (!(of_places > 0) || !(of_all > 0)) return false;
+  const auto scale = static_cast<float>(of_all / of_places);
+  const float alpha_x = std::max(std::hypot(surface.alpha_x, turn), kLeastWidth);
+  const float alpha_y = std::max(std::hypot(surface.alpha_y, turn), kLeastWidth);
+  const auto first = static_cast<std::uint32_t>(places_.size());
+  // Adds the light of some places as that of one, a cone of their solid angle. Half vectors turn by half of its radius.
+  const auto half_radius = [](float solid_angle) { return 0.5f * std::sqrt(solid_angle / std::numbers::pi_v<float>); };
+  const auto add = [&](std::size_t begin, std::size_t end) {
+    Vec3f light{}, direction{};
+    float solid_angle = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      light += incident[i].irradiance;
+      direction += incident[i].direction * static_cast<float>(luminance(static_cast<Vec3d>(incident[i].irradiance)));
+      solid_angle += incident[i].solid_angle;
+    }
+    const auto l = static_cast<Vec3f>(frame.to_local(static_cast<Vec3d>(normalized(direction))));
+    if (!(l.z > 0)) return;
+    const float wider = half_radius(solid_angle);
+    places_.push_back({l, light * (scale / l.z), std::hypot(alpha_x, wider), std::hypot(alpha_y, wider)});
+  };
+  for (std::size_t begin = 0; begin < incident.size();) {
+    std::size_t end = begin;
+    float solid_angle = 0;
+    for (; end < incident.size() && incident[end].light == incident[begin].light; ++end) solid_angle += incident[end].solid_angle;
+    const bool is_small = half_radius(solid_angle) <= kSmall * std::min(alpha_x, alpha_y);
+    for (std::size_t i = begin; i < end && !is_small; ++i) add(i, i + 1);
+    if (is_small) add(begin, end);
+    begin = end;
+  }
+  of_side_[side] = static_cast<std::uint32_t>(lobes_.size());
+  lobes_.push_back({static_cast<Vec3f>(frame.x), static_cast<Vec3f>(frame.y), static_cast<Vec3f>(frame.z), surface.f0, surface.f90, first,
+                    static_cast<std::uint32_t>(places_.size()) - first});
+  return true;
+}
+
+Vec3f GlossySides::sent(const KeptLobe& lobe, Vec3f to) const {
+  const Vec3f v = {dot(lobe.x, to), dot(lobe.y, to), dot(lobe.z, to)};
+  if (!(v.z > 0)) return {};
+  Kernels<float> k;
+  const auto view = in_kernel(v);
+  Vec3f sum{};
+  for (std::uint32_t i = lobe.first; i < lobe.first + lobe.count; ++i) {
+    const Place& place = places_[i];
+    const auto l = in_kernel(place.direction), h = k.microfacet_half_vector(l, view);
+    const auto shape = k.ggx_lobe(l, view, place.alpha_x, place.alpha_y);
+    const float grazing = k.fresnel_schlick(0.0f, 1.0f, dot(view, h)).v;
+    sum += place.light * (lobe.f0 * (1 - grazing) + lobe.f90 * grazing) * shape.v;
+  }
+  return sum;
+}
+
+}  // namespace steradian::radiosity

@@ -1,0 +1,49 @@
+// GlossySides: the direct light that the glossy lobes of sides send on, by direction.
+//
+// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened by
+// the spacing of the places and by the turn of the normals within the side. The places of a light that is small beside the lobe become one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/sampled/monte_carlo.h"
+#include "render/surface/surface.h"
+#include "steradian/vector.h"
+
+namespace steradian::radiosity {
+
+class GlossySides {
+ public:
+  explicit GlossySides(std::size_t sides) : of_side_(sides, kNone) {}
+
+  // True if a surface's glossy lobe is one that these sides can keep.
+  static bool has_lobe(const Surface& surface);
+  // Keeps the lobe of a side's surface and its light. irradiance: of all direct light on the surface; the light is scaled to it.
+  // turn: angle between the normals in the middle and at the border. Returns false, and keeps nothing, if no light arrives. Each side at
+  // most once, one at a time.
+  bool keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn);
+
+  // Radiance that a side's lobe sends in a direction of the scene.
+  Vec3f radiance(std::uint32_t side, Vec3f to) const { return of_side_[side] == kNone ? Vec3f{} : sent(lobes_[of_side_[side]], to); }
+
+ private:
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  struct Place {
+    Vec3f direction;         // in the lobe's frame
+    Vec3f light;             // radiance times solid angle
+    float alpha_x, alpha_y;  // of the lobe, widened
+  };
+  struct KeptLobe {
+    Vec3f x, y, z;  // frame
+    Vec3f f0, f90;
+    std::uint32_t first, count;  // places
+  };
+  Vec3f sent(const KeptLobe& lobe, Vec3f to) const;
+
+  std::vector<std::uint32_t> of_side_;  // index of the lobe
+  std::vector<KeptLobe> lobes_;
+  std::vector<Place> places_;
+};
+
+}  // namespace steradian::radiosity
