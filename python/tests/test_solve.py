@@ -30,6 +30,18 @@ class SolveTest(unittest.TestCase):
         power, = steradian.solve(ROOM, spec).parameters
         self.assertAlmostEqual(power.value / power.start, 2, delta=1e-5)
 
+    def test_every_kind_of_light_is_written(self):
+        # A panel, a disk, a sphere and an emissive star, all twice as bright.
+        scene = os.path.join(SOURCE, "scenes", "gallery.glb")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "bright.glb")
+            found = steradian.solve(scene, {"fit": [{"light": "*", "power": True}], "targets": [{"picture": steradian.render(scene, 96, 54) * 2}]}, path)
+            self.assertTrue(found.converged)
+            before, after = steradian.load_scene(scene).lights, steradian.load_scene(path).lights
+        self.assertEqual(len(before), 4)
+        for a, b in zip(before, after):
+            np.testing.assert_allclose(b["radiance"], 2 * np.array(a["radiance"]), rtol=1e-4)
+
     def test_jacobian_is_that_of_differences(self):
         model = steradian.LightModel(OFFICE, {"fit": [{"light": "panel 7", "position": True, "power": True}], "targets": [DESK]}, shadows="off")
         self.assertEqual(model.names, ["panel 7: power", "panel 7: position x", "panel 7: position y", "panel 7: position z"])

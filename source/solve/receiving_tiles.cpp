@@ -10,6 +10,7 @@
 
 #include "core/float_mode.h"
 #include "render/frame/frame_surfaces.h"
+#include "render/sampled/monte_carlo.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/error.h"
 
@@ -239,6 +240,20 @@ void clear(TileVector& v) {
   for (TilePlane* plane : {&v.x, &v.y, &v.z}) plane->fill(0);
 }
 
+// A scene of some lights alone, by their numbers, with the images of textured ones.
+Scene only_lights(const Scene& scene, std::size_t first, std::size_t last) {
+  Scene lights;
+  const std::size_t area = scene.area_lights.size();
+  for (std::size_t number = first; number < last; ++number)
+    if (number < area)
+      lights.area_lights.push_back(scene.area_lights[number]);
+    else
+      lights.punctual_lights.push_back(scene.punctual_lights[number - area]);
+  if (std::any_of(lights.area_lights.begin(), lights.area_lights.end(), [](const AreaLight& l) { return l.texture.has_value(); }))
+    lights.images = scene.images;
+  return lights;
+}
+
 // Adds the light that patches send to a tile's surfaces.
 void add_gathered(const radiosity::Gather& gather, const SurfaceTile& tile, TileVector& light) {
   SixteenSurfaces some;
@@ -272,14 +287,28 @@ void ReceivingTiles::add_fixed_light() {
 void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_t last,
                                  const std::function<TileVector&(std::size_t)>& light) const {
   Room& room = *room_;
+  const Scene lamps = only_lights(room.scene, first, last);
+  // One quality below that of a picture: each lamp has patches of its own, and their light differs by 1e-3 from that of finer ones.
+  const Quality quality = room.options.quality == Quality::high ? Quality::normal : Quality::draft;
+  tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers([&] {
+    return std::make_unique<DirectSampler>(lamps, room.options.shadows != Shadows::off ? room.parts.rays.get() : nullptr, nullptr,
+                                           room.options.terminator, room.method.table.get());
+  });
   room.arena.execute([&] {
     const auto direct = [&](SurfaceTile& tile) {
       if (!tile.any_surface) return;
       for (std::size_t number = first; number < last; ++number) table.add(number, tile, LampTable::For::patches);
     };
-    const radiosity::PatchLight patches(room.scene, *room.parts.rays, *room.parts.maps, {room.options.bounces, room.options.quality},
-                                        direct);
-    const radiosity::Gather gather(patches, *room.parts.rays, room.options.quality, room.options.bounce_error, 1);
+    // Glossy surfaces send the light of few lamps on in its directions, and of many evenly.
+    const auto incident = [&](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
+      constexpr std::size_t kMostLights = 64;
+      DirectSampler& sampler = *samplers.local();
+      if (sampler.light_count() == 0 || sampler.light_count() > kMostLights) return;
+      reference::Random random(number);
+      sampler.find_incident(surface, 16, random, found);
+    };
+    const radiosity::PatchLight patches(room.scene, *room.parts.rays, *room.parts.maps, {room.options.bounces, quality}, direct, incident);
+    const radiosity::Gather gather(patches, *room.parts.rays, quality, room.options.bounce_error, 1);
     each(tiles_.size(), [&](std::size_t index) { add_gathered(gather, *tiles_[index].surfaces, light(index)); });
   });
 }

@@ -253,7 +253,25 @@ class Solver {
     solution_.converged = found.converged;
     solution_.stopped = solution_.stopped || found.stopped;
     gather_parameters(found.x, end);
+    note_missing_light(found.x);
     gather_lux(found.x);
+  }
+
+  // States that the pictures are brighter nearly everywhere: they may hold light that the fit leaves out.
+  void note_missing_light(const std::vector<double>& x) {
+    if (problem_.picture_residual_count() == 0) return;
+    const std::vector<double> have = problem_.values(x, Wants::cost).value, wanted = problem_.wanted();
+    std::size_t brighter = 0, darker = 0, all = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (std::isnan(wanted[i])) continue;
+      ++all;
+      brighter += wanted[i] > 1.1 * have[i] ? 1u : 0u;
+      darker += wanted[i] < 0.9 * have[i] ? 1u : 0u;
+    }
+    if (brighter > all / 10 && brighter > 4 * darker)
+      solution_.notes.push_back(
+          "the target is more than a tenth brighter than the result over much of the picture: it may hold light that the fit leaves out, "
+          "such as bounces (use the loss cauchy, or a mask)");
   }
 
   void gather_parameters(const std::vector<double>& x, const Evaluation& end) {
