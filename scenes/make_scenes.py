@@ -417,7 +417,7 @@ def office():
     panel = g.lamp("panel", {"type": "rect", "color": [1.0, 0.97, 0.92], "intensity": 900.0, "size": 0.6})
     for i in range(12):
         panel(translation=[rounded(-2.25 + 1.5 * (i % 4)), h - 0.01, rounded(-1.6 + 1.6 * (i // 4))], rotation=[-0.7071068, 0, 0, 0.7071068])
-    g.camera("main", [-0.6, 1.6, 5.9], [0.2, 1.15, 0.0], 0.7)
+    g.camera("main", [-0.6, 1.6, 5.9], [0.1, 1.2, 0.0], 0.65)
     return g
 
 
