@@ -21,6 +21,8 @@ constexpr int kCoarser = 4;       // pixels of a coarse picture are means of so 
 constexpr int kLeastSide = 36;      // of a coarse picture: smaller ones lead into traps
 constexpr double kRounding = 2e-6;  // rms residual of pictures in single precision
 
+constexpr double kMeanSlack = 1e-3;  // of a wanted mean, for the search of the least power
+
 // Targets at a quarter of the resolution, for the choice among starting points.
 std::vector<LightTarget> coarse_targets(const std::vector<LightTarget>& targets) {
   std::vector<LightTarget> coarse = targets;
@@ -207,7 +209,10 @@ class Solver {
           result.push_back(std::move(c));
         }
       }
-      if (band.mean) add(1, mean, -*band.mean);  // not below; the least power keeps it from above
+      if (band.mean) {
+        add(1, mean, -*band.mean);
+        add(-1, mean, *band.mean * (1 + kMeanSlack));
+      }
     }
     return result;
   }

@@ -260,6 +260,50 @@ TEST(Solve, LightsADeskByTwelvePanels) {
     }
 }
 
+// Places free: six panels bunched in the middle move apart until the least illuminance is over 0.65 of the mean. With all powers at once,
+// the conditions are those of the least power.
+TEST(Solve, MakesIlluminancesUniform) {
+  Scene scene = room();
+  LuxTarget floor;
+  floor.name = "floor";
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      floor.points.push_back({-1.75 + 0.5 * i, 0.0, -1.75 + 0.5 * j});
+      floor.normals.push_back({0, 1, 0});
+    }
+  floor.lux.mean = 300;
+  floor.lux.uniformity = 0.65;
+  std::vector<LightFit> fits;
+  for (int i = 0; i < 6; ++i) {
+    scene.area_lights.push_back(panel({-0.5 + 0.5 * (i % 3), 2.9, -0.25 + 0.5 * (i / 3)}, 0.4, 0.4, {500, 500, 500}));
+    LightFit fit;
+    fit.light = static_cast<std::size_t>(i);
+    fit.power = fit.position = true;
+    fit.position_x = fit.position_z = {-2.5, 2.5};
+    fit.position_y = {2.9, 2.9};
+    fits.push_back(fit);
+  }
+  const Solution spread = solve(scene, fits, {}, {floor});
+  std::printf("places free: min/mean %.3f, mean %.1f after %d steps\n", spread.lux[0].min / spread.lux[0].mean, spread.lux[0].mean,
+              spread.steps.back().step);
+  EXPECT_GE(spread.lux[0].min, 0.65 * spread.lux[0].mean);
+  EXPECT_NEAR(spread.lux[0].mean, 300, 0.3);
+
+  scene.area_lights = spread.area_lights;
+  for (LightFit& fit : fits) fit.position = false;
+  SolveOptions options;
+  options.least_power = true;
+  floor.lux.uniformity = 0.6;
+  const Solution least = solve(scene, fits, {}, {floor}, options);
+  EXPECT_NEAR(least.lux[0].mean, 300, 0.3);
+  EXPECT_GE(least.lux[0].min, 0.6 * least.lux[0].mean * (1 - 1e-5));
+  double before = 0, after = 0;
+  for (const FittedParameter& p : least.parameters) before += p.start, after += p.value;
+  EXPECT_LT(after, before);
+  floor.lux.min = 1e4;  // not with this mean
+  EXPECT_NE(solve(scene, fits, {}, {floor}, options).notes.front().find("no powers satisfy"), std::string::npos);
+}
+
 // A painted highlight on a glossy floor. Its light is the middle of the specular light that is at least half as bright as the brightest.
 TEST(Solve, PutsAHighlightWhereItIsPainted) {
   constexpr int kWidth = 96, kHeight = 54, kStrokes = 20;
