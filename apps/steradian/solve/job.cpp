@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 
 #include "core/files.h"
 #include "core/words.h"
 #include "solve/solved_file.h"
+#include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 #include "wrong_use.h"
 
@@ -50,25 +51,49 @@ bool set_parameter(const std::string& word, LightFit& fit) {
 
 const std::vector<std::string> kParameters = {"power", "color", "position", "rotation", "size"};
 
-// A mean over the pixels that a coarser or finer picture has in the same place.
+// Calls use(pixel, fraction) for the pixels of a picture within pixel (x, y) of another size.
+template <class Use>
+void each_within(const Picture& from, const Picture& to, int x, int y, Use use) {
+  const double sx = static_cast<double>(from.width) / to.width, sy = static_cast<double>(from.height) / to.height;
+  const double x0 = x * sx, x1 = (x + 1) * sx, y0 = y * sy, y1 = (y + 1) * sy;
+  for (int j = static_cast<int>(y0); j < std::min(static_cast<int>(std::ceil(y1)), from.height); ++j)
+    for (int i = static_cast<int>(x0); i < std::min(static_cast<int>(std::ceil(x1)), from.width); ++i)
+      use(from.at(i, j),
+          (std::min(x1, i + 1.0) - std::max(x0, static_cast<double>(i))) * (std::min(y1, j + 1.0) - std::max(y0, static_cast<double>(j))));
+}
+
+// Means over the pixels that a coarser or finer picture has in the same place.
 Picture resampled(const Picture& from, int width, int height) {
   Picture to(width, height);
-  const double sx = static_cast<double>(from.width) / width, sy = static_cast<double>(from.height) / height;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const double x0 = x * sx, x1 = (x + 1) * sx, y0 = y * sy, y1 = (y + 1) * sy;
       Vec3d sum{};
       double area = 0;
-      for (int j = static_cast<int>(y0); j < std::min(static_cast<int>(std::ceil(y1)), from.height); ++j)
-        for (int i = static_cast<int>(x0); i < std::min(static_cast<int>(std::ceil(x1)), from.width); ++i) {
-          const double part = (std::min(x1, i + 1.0) - std::max(x0, static_cast<double>(i))) *
-                              (std::min(y1, j + 1.0) - std::max(y0, static_cast<double>(j)));
-          sum += static_cast<Vec3d>(from.at(i, j)) * part;
-          area += part;
-        }
+      each_within(from, to, x, y, [&](Vec3f p, double part) {
+        sum += static_cast<Vec3d>(p) * part;
+        area += part;
+      });
       to.at(x, y) = static_cast<Vec3f>(sum / std::max(area, 1e-30));
     }
   return to;
+}
+
+// Weights of a resampled picture: 0 where a pixel mixes a lamp with what it lights.
+std::vector<float> unmixed(const Picture& from, const Picture& to) {
+  double mean = 0;
+  for (const Vec3f& p : from.pixels) mean += luminance(static_cast<Vec3d>(p)) / static_cast<double>(from.pixels.size());
+  std::vector<float> weights;
+  for (int y = 0; y < to.height; ++y)
+    for (int x = 0; x < to.width; ++x) {
+      double least = std::numeric_limits<double>::infinity(), most = 0;
+      each_within(from, to, x, y, [&](Vec3f p, double) {
+        const double l = luminance(static_cast<Vec3d>(p));
+        least = std::min(least, l);
+        most = std::max(most, l);
+      });
+      weights.push_back(most > 4 * mean && least < 0.5 * most ? 0.0f : 1.0f);
+    }
+  return weights;
 }
 
 }  // namespace
@@ -160,7 +185,11 @@ void SolveJobReader::add_picture(const Place& place, const std::string& path, co
     target.picture = read_picture(path);
     const bool resample = defaults_.width > 0 && (target.picture.width != defaults_.width || target.picture.height != defaults_.height);
     const int width = target.picture.width, height = target.picture.height;
-    if (resample) target.picture = resampled(target.picture, defaults_.width, defaults_.height);
+    if (resample) {
+      Picture other = resampled(target.picture, defaults_.width, defaults_.height);
+      target.pixel_weights = unmixed(target.picture, other);
+      target.picture = std::move(other);
+    }
     if (!mask.empty()) {
       Picture weights = read_picture(mask);
       if (weights.width != width || weights.height != height) {
@@ -171,7 +200,11 @@ void SolveJobReader::add_picture(const Place& place, const std::string& path, co
         return;
       }
       if (resample) weights = resampled(weights, defaults_.width, defaults_.height);
-      for (const Vec3f& p : weights.pixels) target.pixel_weights.push_back((p.x + p.y + p.z) / 3);
+      target.pixel_weights.resize(weights.pixels.size(), 1.0f);
+      for (std::size_t i = 0; i < weights.pixels.size(); ++i) {
+        const Vec3f& p = weights.pixels[i];
+        target.pixel_weights[i] *= (p.x + p.y + p.z) / 3;
+      }
     }
     job_.targets.emplace_back(std::move(target));
   } catch (const Error& e) {
