@@ -187,6 +187,14 @@ TEST_F(Program, SolveSaysEverythingThatIsWrong) {
           .find("bounces count where"),
       std::string::npos);
   EXPECT_EQ(run({"solve", scene, "--fit", "panel", "-o", solved, "--mask", scene}).status, 2);
+  // 3,000 lamps on a picture of a million pixels: refused before the memory is taken.
+  std::vector<Vec3d> many;
+  for (int i = 0; i < 3000; ++i) many.push_back({0.001 * i - 1.5, 2, 0});
+  const std::string crowd = RoomFile(many).write(folder / "crowd.gltf");
+  ASSERT_EQ(run({"render", scene, "-o", folder / "large.exr", "--size", "1280x800"}).status, 0);
+  const Outcome crowded = run({"solve", crowd, "--target", folder / "large.exr", "--fit", "*", "-o", solved});
+  EXPECT_EQ(crowded.status, 1);
+  EXPECT_NE(crowded.err.find("GB (choose a smaller --size"), std::string::npos) << crowded.err;
 }
 
 }  // namespace steradian::solve_program_test

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kFloor = 0.01;   // of the mean, below which root and log see no difference
 constexpr double kCauchy = 0.05;  // residual at which the loss turns from squares to logarithms
+constexpr double kMostBytes = 4e9;
 constexpr std::size_t kMostPixels = std::size_t{1} << 21;
 constexpr double kInside = 1e-3;      // bands are narrowed by this fraction, so that a solution is inside of them
 constexpr double kDifference = 2e-4;  // step of differences, in typical changes: rounding of floats over it is 5e-4 of the light
@@ -150,6 +151,13 @@ FitProblem::FitProblem(const Scene& scene, const FittedLights& lights, const std
   if (problems.empty() && residuals_ < unknowns)
     problems.push_back("the targets have " + count_of(residuals_, "value") + " for " + count_of(unknowns, "unknown") +
                        " (fit fewer parameters, or add targets)");
+  // Sums of each tile, the light of each lamp on it, and the slopes of illuminances.
+  const double tiles = static_cast<double>(tiles_->tiles().size()), n = static_cast<double>(unknowns);
+  const double bytes = tiles * (8 * n * n + (lights.is_linear() ? sizeof(TileVector) * static_cast<double>(lights.light_count()) : 0)) +
+                       8 * n * static_cast<double>(points_);
+  if (problems.empty() && bytes > kMostBytes)
+    problems.push_back("the fit would take " + std::to_string(static_cast<int>(bytes / 1e9)) +
+                       " GB (choose a smaller --size, or fit fewer lights)");
   if (!problems.empty()) {
     std::string text;
     for (const std::string& p : problems) text += (text.empty() ? "" : "\n") + p;

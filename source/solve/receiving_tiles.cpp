@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "core/float_mode.h"
@@ -25,6 +26,7 @@ struct ReceivingTiles::Room {
   DirectMethod method;
   SceneParts parts;
   tbb::task_arena arena;
+  std::mutex one_at_a_time;  // of the computations, which take turns with the scene's lights and the tiles' radiance
 
   Room(const Scene& all, const RenderOptions& render, const std::vector<bool>& fitted)
       : lamp_meshes(only_lamps(all, fitted)),
@@ -315,6 +317,7 @@ void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_
 
 void ReceivingTiles::light(const Lamps& lamps, const std::function<void(std::size_t, const TileLight&)>& use) const {
   Room& room = *room_;
+  const std::lock_guard<std::mutex> lock(room.one_at_a_time);
   const std::size_t first = room.take(lamps);
   LampTable table(room.scene, room.options, room.method, room.parts);
   const auto direct = [&](std::size_t index, TileLight& light) {
