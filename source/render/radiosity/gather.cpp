@@ -31,6 +31,21 @@ int rows_for(Quality quality) {
   return 16;
 }
 
+// Quarter of the directions that one of the grid belongs to: every other row and column.
+std::size_t quarter_of(std::size_t direction, std::size_t count) {
+  const auto columns = static_cast<std::size_t>(std::lround(std::sqrt(2.0 * static_cast<double>(count))));  // twice the rows
+  return direction / columns % 2 * 2 + direction % 2;
+}
+
+Vec3f absolute(Vec3f v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+// Standard error of a mean from the values of four quarters.
+Vec3f error_of_quarters(const std::array<Vec3f, 4>& values, Vec3f mean) {
+  Vec3f squares{};
+  for (const Vec3f& v : values) squares += (v - mean) * (v - mean);
+  return {std::sqrt(squares.x / 12), std::sqrt(squares.y / 12), std::sqrt(squares.z / 12)};
+}
+
 bool is_gathered(const SurfaceLobe& lobe) {
   return lobe.material.brdf == Brdf::lambert || std::min(lobe.material.alpha_x, lobe.material.alpha_y) >= double{Gather::kLeastWidth};
 }
@@ -41,12 +56,16 @@ class BlockFit {
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
   BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked) : surfaces_(surfaces), asked_(asked) {}
 
-  // The value of the fit at a pixel, and an estimate of its error: two standard errors, and the distance from the pixel's own value. Where
-  // the values differ more than their rays explain, the pixel's own value takes the place of the fit's. Few pixels keep their own.
+  // The value of the fit at a pixel, and an estimate of its error: two standard errors, and the distance from the pixel's own value. Few
+  // pixels keep their own.
+  //
+  //   errors  of the values, from their rays. keeps: the pixel's own value takes the place of the fit's where the values differ more than
+  //           that
   struct Value {
     Vec3f value, error;
   };
-  Value at(std::size_t lane, const std::array<Vec3f, kLanes>& values, const std::array<Vec3f, kLanes>& errors) const {
+  enum class Keeps { nothing, own_values };
+  Value at(std::size_t lane, const std::array<Vec3f, kLanes>& values, const std::array<Vec3f, kLanes>& errors, Keeps keeps) const {
     std::uint32_t same = 0;
     const Surface& here = surfaces_.surface[lane];
     SixteenSurfaces::each(asked_, [&](std::size_t i) {
@@ -105,7 +124,8 @@ class BlockFit {
     const Vec3f value = fit(lane);
     const float share = 3 * over;  // of three parameters
     const auto joined = [&](float own, float fitted, float ray_variance, float fit_variance) {
-      const float kept = fit_variance > kDoubt * ray_variance ? 1 - kDoubt * ray_variance / fit_variance : 0;  // of the own value
+      const bool keep = keeps == Keeps::own_values && fit_variance > kDoubt * ray_variance;
+      const float kept = keep ? 1 - kDoubt * ray_variance / fit_variance : 0;  // of the own value
       const float deviation = std::sqrt((1 - kept) * (1 - kept) * share * fit_variance + kept * kept * kDoubt * ray_variance);
       return std::pair{fitted + (own - fitted) * kept, kDeviations * deviation + (1 - kept) * std::fabs(own - fitted)};
     };
@@ -158,9 +178,10 @@ void Gather::add_grids(int rows) {
   }
 }
 
-// Adds the irradiance over pi that bright sides beyond near_ send, half of it to each half. A place counts as a disk of the area that it
+// Adds the irradiance over pi that bright sides beyond near_ send, to each quarter its part. A place counts as a disk of the area that it
 // stands for.
-void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, Halves& halves) const {
+void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
+                        Quarters<Vec3f>& quarters) const {
   const std::size_t every = kLanes >> (2 * level);  // a pixel takes one of so many places
   const std::vector<BrightPlace>& places = light_.bright_places();
   const float soft = light_.bright_area() / std::numbers::pi_v<float>;
@@ -182,45 +203,55 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       rays.set(i, from, end - from);
       traced |= 1u << i;
     });
-    const std::size_t half = first / every % 2;
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all), [&](std::size_t i) { halves[i][half] += light[i]; });
+    const std::size_t quarter = first / every % 4;
+    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all),
+                          [&](std::size_t i) { quarters[i][quarter] += light[i]; });
   }
 }
 
 // The mean radiance about each surface, weighted by the cosine, times its albedo.
 Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const {
-  Halves light{}, bright{};
-  std::array<std::array<float, 2>, kLanes> weight{};
+  Quarters<Vec3f> light{}, bright{};
+  Quarters<float> weight{};
   std::array<Vec3f, kLanes> basis{};  // what the size of the patches changes
   BounceRays rays(rays_, light_.patches());
   const std::vector<Cell>& cells = grids_[level][static_cast<std::size_t>(sample % samples_)];
   for (std::size_t k = 0; k < cells.size(); ++k) {
+    const std::size_t quarter = quarter_of(k, cells.size());
     std::array<float, kLanes> cosine{};
     SixteenSurfaces::each(asked, [&](std::size_t i) {
       const Vec3f to = cells[k].direction[i];
       cosine[i] = dot(surfaces.surface[i].normal, to);
       if (!(cosine[i] > 0)) return;
-      weight[i][k % 2] += cosine[i];
+      weight[i][quarter] += cosine[i];
       rays.set(i, surfaces.surface[i], to);
     });
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
       if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
-      light[i][k % 2] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
+      light[i][quarter] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
       const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
-      light[i][k % 2] += radiance;
+      light[i][quarter] += radiance;
       basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
     }
   }
   add_bright(surfaces, asked, sample, level, bright);
-  std::array<Vec3f, kLanes> mean{}, error{};
+  std::array<Vec3f, kLanes> mean{}, error{}, of_bright{}, error_of_bright{};
   SixteenSurfaces::each(asked, [&](std::size_t i) {
+    const std::array<float, 4>& w = weight[i];
+    const float whole = w[0] + w[1] + w[2] + w[3];
     const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
-    mean[i] = over(light[i][0] + light[i][1], weight[i][0] + weight[i][1]) + bright[i][0] + bright[i][1];
-    const Vec3f d = (over(light[i][0], weight[i][0]) - over(light[i][1], weight[i][1])) * 0.5f, b = bright[i][0] - bright[i][1];
-    error[i] = {std::hypot(d.x, b.x), std::hypot(d.y, b.y), std::hypot(d.z, b.z)};
-    basis[i] = over(basis[i], weight[i][0] + weight[i][1]);
+    std::array<Vec3f, 4> of_rays, of_places;
+    for (std::size_t q = 0; q < 4; ++q) {
+      mean[i] += over(light[i][q], whole);
+      of_bright[i] += bright[i][q];
+      of_rays[q] = over(light[i][q], w[q]);
+      of_places[q] = bright[i][q] * 4;
+    }
+    error[i] = error_of_quarters(of_rays, mean[i]);
+    error_of_bright[i] = error_of_quarters(of_places, of_bright[i]);
+    basis[i] = absolute(over(basis[i], whole));
   });
   const BlockFit fit(surfaces, asked);
   Result result;
@@ -228,9 +259,11 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
     const Surface& s = surfaces.surface[i];
     const double cos_view = std::max(static_cast<double>(dot(s.normal, surfaces.view[i])), 0.0);
     const auto passed = static_cast<float>(1 - static_cast<double>(s.fresnel_loss) * environment::mean_grazing(cos_view));
-    const BlockFit::Value value = fit.at(i, mean, error);
-    result.radiance[i] = s.albedo * value.value * passed;
-    result.error[i] = s.albedo * (value.error + Vec3f{std::fabs(basis[i].x), std::fabs(basis[i].y), std::fabs(basis[i].z)}) * passed;
+    const BlockFit::Value rays_value = fit.at(i, mean, error, BlockFit::Keeps::own_values);
+    // The places of a pixel lie between those of its neighbours: its quarters are nearer to each other than to the truth.
+    const BlockFit::Value bright_value = fit.at(i, of_bright, error_of_bright, BlockFit::Keeps::nothing);
+    result.radiance[i] = s.albedo * (rays_value.value + bright_value.value) * passed;
+    result.error[i] = s.albedo * (rays_value.error + bright_value.error + basis[i]) * passed;
   });
   return result;
 }
@@ -242,6 +275,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;
+    float wider;  // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss their highlights
   };
   std::array<std::optional<Walker>, kLanes> walkers;
   for (std::size_t i = 0; i < kLanes; ++i) {
@@ -250,7 +284,8 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     const Vec3d tangent = of[i]->material.tangent == Vec3d{} ? static_cast<Vec3d>(s.tangent) : of[i]->material.tangent;
     const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(of[i]->normal)), tangent);
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
-    if (lobe.above_surface()) walkers[i] = Walker{frame, lobe};
+    if (lobe.above_surface())
+      walkers[i] = Walker{frame, lobe, static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
   }
   BounceRays rays(rays_, light_.patches());
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
@@ -270,7 +305,8 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i].side != kNoSide) halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i])) * weight[i];
+      if (met[i].side != kNoSide)
+        halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider)) * weight[i];
   }
   Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {

@@ -29,8 +29,10 @@ class Gather {
   Result reflected(const SixteenSurfaces& surfaces, int sample) const;
 
  private:
-  using Halves = std::array<std::array<Vec3f, 2>, kLanes>;  // light by half of the rays
-  void add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, Halves& light) const;
+  // Sums by quarter of the rays. The differences between the quarters estimate the error of all.
+  template <class T>
+  using Quarters = std::array<std::array<T, 4>, kLanes>;
+  void add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, Quarters<Vec3f>& light) const;
   Result diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const;
   Result glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, std::size_t level) const;
   template <class Of>

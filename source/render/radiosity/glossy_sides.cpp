@@ -10,8 +10,8 @@
 namespace steradian::radiosity {
 namespace {
 
-constexpr float kLeastWidth = 0.1f;  // alpha: few rays would meet the light of a narrower lobe
-constexpr float kSmall = 0.5f;       // half radius of a light over the lobe's width
+constexpr float kLeastWidth = 0.18f;  // alpha: few rays would meet the light of a narrower lobe
+constexpr float kSmall = 0.5f;        // half radius of a light over the lobe's width
 
 Kernels<float>::vec3 in_kernel(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
@@ -60,7 +60,7 @@ bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::ve
   return true;
 }
 
-Vec3f GlossySides::sent(const KeptLobe& lobe, Vec3f to) const {
+Vec3f GlossySides::sent(const KeptLobe& lobe, Vec3f to, float wider) const {
   const Vec3f v = {dot(lobe.x, to), dot(lobe.y, to), dot(lobe.z, to)};
   if (!(v.z > 0)) return {};
   Kernels<float> k;
@@ -69,7 +69,9 @@ Vec3f GlossySides::sent(const KeptLobe& lobe, Vec3f to) const {
   for (std::uint32_t i = lobe.first; i < lobe.first + lobe.count; ++i) {
     const Place& place = places_[i];
     const auto l = in_kernel(place.direction), h = k.microfacet_half_vector(l, view);
-    const auto shape = k.ggx_lobe(l, view, place.alpha_x, place.alpha_y);
+    const bool plain = wider == 0;
+    const auto shape = k.ggx_lobe(l, view, plain ? place.alpha_x : std::hypot(place.alpha_x, wider),
+                                  plain ? place.alpha_y : std::hypot(place.alpha_y, wider));
     const float grazing = k.fresnel_schlick(0.0f, 1.0f, dot(view, h)).v;
     sum += place.light * (lobe.f0 * (1 - grazing) + lobe.f90 * grazing) * shape.v;
   }

@@ -24,8 +24,10 @@ class GlossySides {
   // most once, one at a time.
   bool keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn);
 
-  // Radiance that a side's lobe sends in a direction of the scene.
-  Vec3f radiance(std::uint32_t side, Vec3f to) const { return of_side_[side] == kNone ? Vec3f{} : sent(lobes_[of_side_[side]], to); }
+  // Radiance that a side's lobe sends in a direction of the scene. wider: width to add to the lobe, for few rays.
+  Vec3f radiance(std::uint32_t side, Vec3f to, float wider = 0) const {
+    return of_side_[side] == kNone ? Vec3f{} : sent(lobes_[of_side_[side]], to, wider);
+  }
 
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -39,7 +41,7 @@ class GlossySides {
     Vec3f f0, f90;
     std::uint32_t first, count;  // places
   };
-  Vec3f sent(const KeptLobe& lobe, Vec3f to) const;
+  Vec3f sent(const KeptLobe& lobe, Vec3f to, float wider) const;
 
   std::vector<std::uint32_t> of_side_;  // index of the lobe
   std::vector<KeptLobe> lobes_;

@@ -47,8 +47,8 @@ class PatchLight {
     const std::uint32_t parts = parts_of_[at.side];
     return parts == kNoSide ? radiance_[at.side] : radiance_[at.side] + change_in_parts_[parts][at.part];
   }
-  // Radiance of direct light that a side's glossy lobe sends on in a direction. It comes on top of radiance().
-  Vec3f glossy_radiance(std::uint32_t side, Vec3f to) const { return glossy_.radiance(side, to); }
+  // Radiance of direct light that a side's glossy lobe sends on in a direction. It comes on top of radiance(). wider: width to add to it.
+  Vec3f glossy_radiance(std::uint32_t side, Vec3f to, float wider = 0) const { return glossy_.radiance(side, to, wider); }
   Vec3f radiance_towards(const BrightPlace& place, Vec3f to) const { return radiance_[place.side] + glossy_.radiance(place.side, to); }
   // Mean radiance over the group of sides around it: what patches of twice the size would send.
   Vec3f coarse_radiance(PatchPlace at) const { return coarse_[at.side]; }

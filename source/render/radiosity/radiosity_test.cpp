@@ -175,8 +175,8 @@ TEST(Radiosity, RoomsAgreeWithPaths) {
     // Half of the reference's noise of 1.5 % is left in the difference, and patches are 1 % of their room's side. A mirror of roughness 0.1
     // spreads light by some degrees, and its image here is sharp: 1 % more.
     EXPECT_LT(error, k % 2 == 0 ? 0.03 : 0.02) << k;
-    // 16 x 16 pixels of 1.5 % noise each, and patches of a 40,000th of the room. Few paths meet the lamp by way of a mirror.
-    EXPECT_NEAR(ratio, 1, k % 2 == 0 ? 0.01 : 0.005) << k;
+    // 16 x 16 pixels of 1.5 % noise each, and patches of a 40,000th of the room.
+    EXPECT_NEAR(ratio, 1, 0.005) << k;
   }
   std::printf("%d rooms: worst %.2f %%\n", rooms, 100 * worst);
 }
