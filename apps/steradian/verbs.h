@@ -11,6 +11,7 @@ void add_diff(CommandLine& line);
 void add_render(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_fit(CommandLine& line);
+void add_solve(CommandLine& line);
 void add_methods(CommandLine& line);
 void add_info(CommandLine& line);
 void add_viewfactor(CommandLine& line);
