@@ -322,6 +322,39 @@ float steradian_trig_atan2_unwrapped(float y, float x) {
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
 }
 
+// Degree 8: the derivative of steradian_trig_angle_over_sine_24_bits.
+float steradian_trig_angle_over_sine_slope_24_bits(float t) {
+    float p = 0.10046541803578893;
+    p = p * t - 0.260733509871977744;
+    p = p * t + 0.35683030933043466;
+    p = p * t - 0.201317986747964946;
+    p = p * t + 0.15029587985498284;
+    p = p * t + 0.080653959220667552;
+    p = p * t + 0.173933404541325117;
+    p = p * t + 0.2665331445100177;
+    p = p * t + 0.33333538143391106;
+    return p;
+}
+
+// Minus the derivative of angle over sine by the cosine, of an angle in [0, pi].
+//
+//   c        cosine, in [-1, 1]
+//   s2       sine squared, computed on its own
+//   f        steradian_trig_angle_over_sine(c, s2)
+//   returns  1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond
+//
+// Degenerate: it grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
+// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
+float steradian_trig_angle_over_sine_slope(float c, float s2, float f) {
+    float t = 1.0 - abs(c);
+    float slope = steradian_trig_angle_over_sine_slope_24_bits(t);
+    bool obtuse = c < 0.0;
+    if (obtuse) {
+        slope = steradian_select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
+    }
+    return slope;
+}
+
 // ==== quartic ====
 
 // Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.
@@ -5001,6 +5034,209 @@ vec3 steradian_ggx_arc(SteradianGgxView view, vec3 a, vec3 b) {
 //   facing   1.0; -1.0 where the light is seen from behind
 float steradian_half_vector_radiance(SteradianGgxView view, float sum, float facing) {
     return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
+}
+
+// ==== slopes ====
+
+// Derivatives of integrals over polygonal lights, by the boundary: how the integral changes as an edge moves.
+//
+// When an edge from a to b moves, the integral changes by the lobe times cosine along the edge times the motion across it:
+//
+//   d integral = - INT f(l) N.(x da + y db) ds,   l = x a + y b on the edge's part above the horizon, N its plane's unit normal
+//
+// The horizon, and the arcs of it that close an outline, do not move with the light, and have no term. All derivatives are along the
+// edge's normal, so that one number for each end says all:
+//
+//   derivative by the unit direction a = normal by_start,  by the vertex v_a = normal by_start / |v_a|
+//
+// No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
+// Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
+// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
+
+// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
+//   start, end  unit directions; equal where nothing is above
+struct SteradianEdgePart {
+    vec3 start;
+    vec3 end;
+    float start_a;
+    float start_b;
+    float end_a;
+    float end_b;
+};
+
+// Derivatives of one integral by an edge's ends.
+//   normal    of the edge's part, start cross end: not unit
+//   by_start, by_end  derivative by the end's unit direction, over the normal
+struct SteradianEdgeSlopes {
+    vec3 normal;
+    float by_start;
+    float by_end;
+};
+
+// The same for two integrals: with F = 1, and with F = (1 - v.h)^5.
+struct SteradianEdgeSlopesOfBoth {
+    vec3 normal;
+    vec2 by_start;
+    vec2 by_end;
+};
+
+// Clips an edge to the horizon z = 0.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+//
+// Degenerate: an edge below the horizon has equal ends.
+SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    // The weights are those of steradian_polygon_add_edge: of one sign, so that nothing cancels.
+    float wa = abs(b.z);
+    float wb = abs(a.z);
+    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
+    vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
+    SteradianEdgePart part;
+    part.start = steradian_select(a_below, crossing, a);
+    part.end = steradian_select(b_below, crossing, b);
+    part.start_a = steradian_select(a_below, wa * scale, 1.0);
+    part.start_b = steradian_select(a_below, wb * scale, 0.0);
+    part.end_a = steradian_select(b_below, wa * scale, 0.0);
+    part.end_b = steradian_select(b_below, wb * scale, 1.0);
+    return part;
+}
+
+// Irradiance of an edge's part by its own ends, which are not below the horizon.
+//
+//   returns  vec2(by the start, by the end), over start cross end
+//
+// INT l_z s ds over the arc, l = s start + t end, has the closed form |n| (start_z P + end_z Q) / 2 with F the angle over the sine,
+// Q its slope and P = F - c Q.
+vec2 steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
+    vec3 n = cross(start, end - start);
+    float c = dot(start, end);
+    float s2 = dot(n, n);
+    float f = steradian_trig_angle_over_sine(c, s2);
+    float q = steradian_trig_angle_over_sine_slope(c, s2, f);
+    float p = min(f, 1.0e12) - c * q;
+    return vec2(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+}
+
+// An edge's derivatives from those of its part.
+//
+//   g        vec2(by the part's start, by its end), over their cross product
+SteradianEdgeSlopes steradian_edge_slopes_of_part(SteradianEdgePart part, vec2 g) {
+    SteradianEdgeSlopes slopes;
+    slopes.normal = cross(part.start, part.end - part.start);
+    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
+    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+    return slopes;
+}
+
+// Derivatives of the irradiance for radiance 1 (steradian_polygon_irradiance) by the ends of one edge.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+//
+// Degenerate: an edge of no length, or below the horizon, has a normal of 0. Opposite ends, where the point lies on the edge, give
+// finite numbers.
+// Error: see docs/measured/accuracy.md, "polygon, edge slopes".
+SteradianEdgeSlopes steradian_polygon_edge_slopes(vec3 a, vec3 b) {
+    SteradianEdgePart part = steradian_edge_above_horizon(a, b);
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
+
+// Derivatives of the integral of a linearly transformed cosine (steradian_ltc_integral) by the ends of one edge.
+//
+//   a, b     unit directions of the ends in the shading frame, in walk order
+//   m        the lobe's inverse matrix
+//   returns  derivatives by M^-1 a and M^-1 b: the derivative by a is steradian_ltc_edge_transform_back(m, normal by_start)
+//
+// The edges that close the real horizon lie in its image and do not move.
+// Degenerate: as steradian_polygon_edge_slopes.
+// Error: see docs/measured/accuracy.md, "LTC, edge slopes".
+SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, vec3 a, vec3 b) {
+    SteradianEdgePart real_part = steradian_edge_above_horizon(a, b);
+    vec3 start = steradian_ltc_transform(m, real_part.start);
+    vec3 end = steradian_ltc_transform(m, real_part.end);
+    float start_scale = inversesqrt(max(dot(start, start), steradian_smallest_square()));
+    float end_scale = inversesqrt(max(dot(end, end), steradian_smallest_square()));
+    SteradianEdgePart lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
+    SteradianEdgePart part = lobe_part;
+    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
+    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
+    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
+    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+}
+
+// The transpose of M^-1 times a vector: takes derivatives by M^-1 v to derivatives by v.
+vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 g) {
+    return vec3(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+}
+
+// Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.
+//
+//   part     of steradian_edge_above_horizon
+//   arc      steradian_ggx_edge(view, part.start, part.end): an edge whose value was computed has it already
+//   smith    1 with shadowing, 0 without
+//   nodes, pieces  Gauss and Legendre's nodes (1 to 6, or 8) in each of so many equal pieces of the poles' angle
+//
+// Only the lobe along the edge counts, so that shadowing and Fresnel are exact here but for the rule. 4 nodes serve packs, 6 single values.
+// Degenerate: an edge of no length has derivatives of 0.
+// Error: see docs/measured/accuracy.md, "GGX, edge slopes"; with 6 nodes 4.0e-3 of the light's largest derivative at the 99th percentile.
+SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView view, SteradianEdgePart part, SteradianConicArc arc, float smith, int nodes, int pieces) {
+    vec3 sum = part.start + part.end;
+    vec3 chord = part.end - part.start;
+    float sum_inverse = inversesqrt(max(dot(sum, sum), steradian_smallest_divisor()));
+    float chord_inverse = inversesqrt(max(dot(chord, chord), steradian_smallest_divisor()));
+    // (cosine, sine) of the angle from the part's middle to the place from which tau counts: one of the ends, or the middle.
+    float half_cosine = 0.5 / sum_inverse;
+    float half_sine = 0.5 / chord_inverse;
+    bool from_start = !(arc.begin < 0.0);
+    bool from_end = !(arc.end > 0.0);
+    vec2 base = vec2(steradian_select(from_start || from_end, half_cosine, 1.0), steradian_select(from_start, -half_sine, steradian_select(from_end, half_sine, 0.0)));
+    vec2 even = vec2(0.0, 0.0);
+    vec2 odd = vec2(0.0, 0.0);
+    float total = arc.sweep.x + arc.sweep.y;
+    float share = 1.0 / float(pieces);
+    for (int i = 0; i < pieces; i++) {
+        for (int j = 0; j < nodes; j++) {
+            vec2 rule = steradian_gauss_legendre_node(nodes, j);
+            SteradianConicNode node = steradian_conic_node(arc, (rule.x + float(i)) * share);
+            vec3 u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
+            vec3 p = vec3(u.x * view.ax, u.y * view.ay, u.z);  // (l + v) times a positive factor
+            float p2 = max(dot(p, p), steradian_smallest_divisor());
+            float along = dot(p, view.v);
+            float u2 = max(dot(u, u), steradian_smallest_divisor());
+            vec3 l = p * (2.0 * along / p2) - view.v;
+            float g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
+            float w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
+            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inversesqrt(p2)));
+            // l = even (start + end) + odd (end - start), by its angle from the middle: from l itself, a short edge in float would lose
+            // the digits of `odd`.
+            float t = node.tau * arc.scale;
+            float d = 1.0 / (1.0 + t * t);
+            vec2 angle = steradian_complex_product(base, vec2((1.0 - t * t) * d, 2.0 * t * d));
+            even = even + both * (angle.x * sum_inverse);
+            odd = odd + both * (angle.y * chord_inverse);
+        }
+    }
+    vec3 n = cross(part.start, chord);
+    float scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
+    scale = steradian_select(arc.end > arc.begin, scale, 0.0);
+    vec2 by_part_start = (even - odd) * scale;
+    vec2 by_part_end = (even + odd) * scale;
+    SteradianEdgeSlopesOfBoth slopes;
+    slopes.normal = n;
+    slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
+    slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    return slopes;
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes(SteradianGgxView view, vec3 a, vec3 b, float smith, int nodes, int pieces) {
+    SteradianEdgePart part = steradian_edge_above_horizon(a, b);
+    return steradian_ggx_edge_slopes_of_part(view, part, steradian_ggx_edge(view, part.start, part.end), smith, nodes, pieces);
 }
 
 // ======== comparison: methods of the literature that ours are compared with ========

@@ -401,6 +401,26 @@ def room():
     return g
 
 
+def office():
+    """A room with a desk and twelve panels of one kind under its ceiling (docs/solve.md)."""
+    g = Gltf()
+    wall = g.diffuse("wall", (0.7, 0.7, 0.68))
+    w, d, h = 3.0, 2.5, 2.8  # half width, half depth, height
+    for name, corners, material in (
+            ("floor", ((-w, 0, d), (w, 0, d), (w, 0, -d), (-w, 0, -d)), g.material("carpet", (0.3, 0.32, 0.36), 0.0, 0.6)),
+            ("ceiling", ((-w, h, -d), (w, h, -d), (w, h, d), (-w, h, d)), g.diffuse("ceiling", (0.8, 0.8, 0.8))),
+            ("back", ((-w, 0, -d), (w, 0, -d), (w, h, -d), (-w, h, -d)), wall),
+            ("left", ((-w, 0, d), (-w, 0, -d), (-w, h, -d), (-w, h, d)), wall),
+            ("right", ((w, 0, -d), (w, 0, d), (w, h, d), (w, h, -d)), wall)):
+        g.node(name, mesh=g.mesh(name, plate(*corners), material))
+    table(g, g.material("wood", (0.5, 0.35, 0.2), 0.0, 0.4), 0.9, -0.6, 1.6, 0.8, 0.75)
+    panel = g.lamp("panel", {"type": "rect", "color": [1.0, 0.97, 0.92], "intensity": 900.0, "size": 0.6})
+    for i in range(12):
+        panel(translation=[rounded(-2.25 + 1.5 * (i % 4)), h - 0.01, rounded(-1.6 + 1.6 * (i // 4))], rotation=[-0.7071068, 0, 0, 0.7071068])
+    g.camera("main", [-0.6, 1.6, 5.9], [0.1, 1.2, 0.0], 0.65)
+    return g
+
+
 def glass():
     """Balls of glass and chrome, a block of green glass, a thin pane and a torus in a room with a lamp."""
     g = Gltf()
@@ -580,7 +600,7 @@ def stadium():
     return g
 
 
-SCENES = {"glass": glass, "room": room, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes, "lobes": lobes,
+SCENES = {"glass": glass, "room": room, "office": office, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes, "lobes": lobes,
           "ring": ring, "arcade": arcade, "hall": hall, "stadium": stadium,
           **all_light_scenes.SCENES}
 

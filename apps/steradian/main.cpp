@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   steradian::app::add_diff(line);
   steradian::app::add_eval(line);
   steradian::app::add_methods(line);
+  steradian::app::add_solve(line);
   steradian::app::add_fit(line);
   steradian::app::add_viewfactor(line);
   steradian::app::add_merge(line);

@@ -12,6 +12,7 @@ void add_render(CommandLine& line);
 void add_bake(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_fit(CommandLine& line);
+void add_solve(CommandLine& line);
 void add_methods(CommandLine& line);
 void add_info(CommandLine& line);
 void add_viewfactor(CommandLine& line);

@@ -292,6 +292,39 @@ float steradian_trig_atan2_unwrapped(float y, float x) {
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
 }
 
+// Degree 8: the derivative of steradian_trig_angle_over_sine_24_bits.
+float steradian_trig_angle_over_sine_slope_24_bits(float t) {
+    float p = 0.10046541803578893;
+    p = p * t - 0.260733509871977744;
+    p = p * t + 0.35683030933043466;
+    p = p * t - 0.201317986747964946;
+    p = p * t + 0.15029587985498284;
+    p = p * t + 0.080653959220667552;
+    p = p * t + 0.173933404541325117;
+    p = p * t + 0.2665331445100177;
+    p = p * t + 0.33333538143391106;
+    return p;
+}
+
+// Minus the derivative of angle over sine by the cosine, of an angle in [0, pi].
+//
+//   c        cosine, in [-1, 1]
+//   s2       sine squared, computed on its own
+//   f        steradian_trig_angle_over_sine(c, s2)
+//   returns  1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond
+//
+// Degenerate: it grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
+// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
+float steradian_trig_angle_over_sine_slope(float c, float s2, float f) {
+    float t = 1.0 - abs(c);
+    float slope = steradian_trig_angle_over_sine_slope_24_bits(t);
+    bool obtuse = c < 0.0;
+    if (obtuse) {
+        slope = steradian_select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
+    }
+    return slope;
+}
+
 // ==== quartic ====
 
 // Quartic polynomials that are positive on the real axis: two conjugate pairs of roots.

@@ -1,7 +1,7 @@
 // Steradian 0.1.0, ggx: GGX in closed form, and half vector methods for Blinn-Phong and Beckmann, for WGSL.
 //
 // Put it before your module's text; it has no bindings.
-// It needs these files before it, in this order: math.wgsl, polygon.wgsl, lobe.wgsl, round.wgsl, phong.wgsl.
+// It needs these files before it, in this order: math.wgsl, polygon.wgsl, lobe.wgsl, round.wgsl, phong.wgsl, ltc.wgsl.
 // Made by dist/make_dist.py from kernels/ and dist/source/: change those.
 //
 // MIT License
@@ -743,4 +743,207 @@ fn steradian_ggx_arc(view: SteradianGgxView, a: vec3f, b: vec3f) -> vec3f {
 //   facing   1.0; -1.0 where the light is seen from behind
 fn steradian_half_vector_radiance(view: SteradianGgxView, sum: f32, facing: f32) -> f32 {
     return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
+}
+
+// ==== slopes ====
+
+// Derivatives of integrals over polygonal lights, by the boundary: how the integral changes as an edge moves.
+//
+// When an edge from a to b moves, the integral changes by the lobe times cosine along the edge times the motion across it:
+//
+//   d integral = - INT f(l) N.(x da + y db) ds,   l = x a + y b on the edge's part above the horizon, N its plane's unit normal
+//
+// The horizon, and the arcs of it that close an outline, do not move with the light, and have no term. All derivatives are along the
+// edge's normal, so that one number for each end says all:
+//
+//   derivative by the unit direction a = normal by_start,  by the vertex v_a = normal by_start / |v_a|
+//
+// No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
+// Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
+// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
+
+// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
+//   start, end  unit directions; equal where nothing is above
+struct SteradianEdgePart {
+    start: vec3f,
+    end: vec3f,
+    start_a: f32,
+    start_b: f32,
+    end_a: f32,
+    end_b: f32,
+}
+
+// Derivatives of one integral by an edge's ends.
+//   normal    of the edge's part, start cross end: not unit
+//   by_start, by_end  derivative by the end's unit direction, over the normal
+struct SteradianEdgeSlopes {
+    normal: vec3f,
+    by_start: f32,
+    by_end: f32,
+}
+
+// The same for two integrals: with F = 1, and with F = (1 - v.h)^5.
+struct SteradianEdgeSlopesOfBoth {
+    normal: vec3f,
+    by_start: vec2f,
+    by_end: vec2f,
+}
+
+// Clips an edge to the horizon z = 0.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+//
+// Degenerate: an edge below the horizon has equal ends.
+fn steradian_edge_above_horizon(a: vec3f, b: vec3f) -> SteradianEdgePart {
+    let a_below = a.z < 0.0;
+    let b_below = b.z < 0.0;
+    // The weights are those of steradian_polygon_add_edge: of one sign, so that nothing cancels.
+    let wa = abs(b.z);
+    let wb = abs(a.z);
+    let p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    let scale = inverseSqrt(max(dot(p, p), steradian_smallest_square()));
+    let crossing = vec3f(p.x * scale, p.y * scale, 0.0);
+    var part: SteradianEdgePart;
+    part.start = select(a, crossing, a_below);
+    part.end = select(b, crossing, b_below);
+    part.start_a = select(1.0, wa * scale, a_below);
+    part.start_b = select(0.0, wb * scale, a_below);
+    part.end_a = select(0.0, wa * scale, b_below);
+    part.end_b = select(1.0, wb * scale, b_below);
+    return part;
+}
+
+// Irradiance of an edge's part by its own ends, which are not below the horizon.
+//
+//   returns  vec2(by the start, by the end), over start cross end
+//
+// INT l_z s ds over the arc, l = s start + t end, has the closed form |n| (start_z P + end_z Q) / 2 with F the angle over the sine,
+// Q its slope and P = F - c Q.
+fn steradian_edge_irradiance_slopes(start: vec3f, end: vec3f) -> vec2f {
+    let n = cross(start, end - start);
+    let c = dot(start, end);
+    let s2 = dot(n, n);
+    let f = steradian_trig_angle_over_sine(c, s2);
+    let q = steradian_trig_angle_over_sine_slope(c, s2, f);
+    let p = min(f, 1.0e12) - c * q;
+    return vec2f(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+}
+
+// An edge's derivatives from those of its part.
+//
+//   g        vec2(by the part's start, by its end), over their cross product
+fn steradian_edge_slopes_of_part(part: SteradianEdgePart, g: vec2f) -> SteradianEdgeSlopes {
+    var slopes: SteradianEdgeSlopes;
+    slopes.normal = cross(part.start, part.end - part.start);
+    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
+    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+    return slopes;
+}
+
+// Derivatives of the irradiance for radiance 1 (steradian_polygon_irradiance) by the ends of one edge.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+//
+// Degenerate: an edge of no length, or below the horizon, has a normal of 0. Opposite ends, where the point lies on the edge, give
+// finite numbers.
+// Error: see docs/measured/accuracy.md, "polygon, edge slopes".
+fn steradian_polygon_edge_slopes(a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
+    let part = steradian_edge_above_horizon(a, b);
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
+
+// Derivatives of the integral of a linearly transformed cosine (steradian_ltc_integral) by the ends of one edge.
+//
+//   a, b     unit directions of the ends in the shading frame, in walk order
+//   m        the lobe's inverse matrix
+//   returns  derivatives by M^-1 a and M^-1 b: the derivative by a is steradian_ltc_edge_transform_back(m, normal by_start)
+//
+// The edges that close the real horizon lie in its image and do not move.
+// Degenerate: as steradian_polygon_edge_slopes.
+// Error: see docs/measured/accuracy.md, "LTC, edge slopes".
+fn steradian_ltc_edge_slopes(m: SteradianLtcMatrix, a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
+    let real_part = steradian_edge_above_horizon(a, b);
+    let start = steradian_ltc_transform(m, real_part.start);
+    let end = steradian_ltc_transform(m, real_part.end);
+    let start_scale = inverseSqrt(max(dot(start, start), steradian_smallest_square()));
+    let end_scale = inverseSqrt(max(dot(end, end), steradian_smallest_square()));
+    let lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
+    var part = lobe_part;
+    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
+    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
+    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
+    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+}
+
+// The transpose of M^-1 times a vector: takes derivatives by M^-1 v to derivatives by v.
+fn steradian_ltc_edge_transform_back(m: SteradianLtcMatrix, g: vec3f) -> vec3f {
+    return vec3f(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+}
+
+// Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.
+//
+//   part     of steradian_edge_above_horizon
+//   arc      steradian_ggx_edge(view, part.start, part.end): an edge whose value was computed has it already
+//   smith    1 with shadowing, 0 without
+//   nodes, pieces  Gauss and Legendre's nodes (1 to 6, or 8) in each of so many equal pieces of the poles' angle
+//
+// Only the lobe along the edge counts, so that shadowing and Fresnel are exact here but for the rule. 4 nodes serve packs, 6 single values.
+// Degenerate: an edge of no length has derivatives of 0.
+// Error: see docs/measured/accuracy.md, "GGX, edge slopes"; with 6 nodes 4.0e-3 of the light's largest derivative at the 99th percentile.
+fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdgePart, arc: SteradianConicArc, smith: f32, nodes: i32, pieces: i32) -> SteradianEdgeSlopesOfBoth {
+    let sum = part.start + part.end;
+    let chord = part.end - part.start;
+    let sum_inverse = inverseSqrt(max(dot(sum, sum), steradian_smallest_divisor()));
+    let chord_inverse = inverseSqrt(max(dot(chord, chord), steradian_smallest_divisor()));
+    // (cosine, sine) of the angle from the part's middle to the place from which tau counts: one of the ends, or the middle.
+    let half_cosine = 0.5 / sum_inverse;
+    let half_sine = 0.5 / chord_inverse;
+    let from_start = !(arc.begin < 0.0);
+    let from_end = !(arc.end > 0.0);
+    let base = vec2f(select(1.0, half_cosine, from_start || from_end), select(select(0.0, half_sine, from_end), -half_sine, from_start));
+    var even = vec2f(0.0, 0.0);
+    var odd = vec2f(0.0, 0.0);
+    let total = arc.sweep.x + arc.sweep.y;
+    let share = 1.0 / f32(pieces);
+    for (var i: i32 = 0; i < pieces; i++) {
+        for (var j: i32 = 0; j < nodes; j++) {
+            let rule = steradian_gauss_legendre_node(nodes, j);
+            let node = steradian_conic_node(arc, (rule.x + f32(i)) * share);
+            let u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
+            let p = vec3f(u.x * view.ax, u.y * view.ay, u.z);  // (l + v) times a positive factor
+            let p2 = max(dot(p, p), steradian_smallest_divisor());
+            let along = dot(p, view.v);
+            let u2 = max(dot(u, u), steradian_smallest_divisor());
+            let l = p * (2.0 * along / p2) - view.v;
+            let g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
+            let w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
+            let both = vec2f(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inverseSqrt(p2)));
+            // l = even (start + end) + odd (end - start), by its angle from the middle: from l itself, a short edge in float would lose
+            // the digits of `odd`.
+            let t = node.tau * arc.scale;
+            let d = 1.0 / (1.0 + t * t);
+            let angle = steradian_complex_product(base, vec2f((1.0 - t * t) * d, 2.0 * t * d));
+            even = even + both * (angle.x * sum_inverse);
+            odd = odd + both * (angle.y * chord_inverse);
+        }
+    }
+    let n = cross(part.start, chord);
+    var scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
+    scale = select(0.0, scale, arc.end > arc.begin);
+    let by_part_start = (even - odd) * scale;
+    let by_part_end = (even + odd) * scale;
+    var slopes: SteradianEdgeSlopesOfBoth;
+    slopes.normal = n;
+    slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
+    slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    return slopes;
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+fn steradian_ggx_edge_slopes(view: SteradianGgxView, a: vec3f, b: vec3f, smith: f32, nodes: i32, pieces: i32) -> SteradianEdgeSlopesOfBoth {
+    let part = steradian_edge_above_horizon(a, b);
+    return steradian_ggx_edge_slopes_of_part(view, part, steradian_ggx_edge(view, part.start, part.end), smith, nodes, pieces);
 }

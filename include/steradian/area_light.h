@@ -39,6 +39,7 @@ struct AreaLight {
   std::optional<LightTexture> texture{};    // for polygons; radiance is then the mean
   double power = 0;                         // luminance of the radiance times area, by which max_lights ranks
   std::optional<LightEmission> emission{};  // for rects and disks; radiance is then the mean of all directions and both sides
+  int node = -1;                            // of the file that places the light; -1: none, as for emissive meshes
 
   bool is_flat() const { return std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ellipse>(shape); }
 };

@@ -64,6 +64,7 @@ struct Kernels {
 #include "kernels/integral/half_vector.glsl"
 #include "kernels/integral/ltc.glsl"
 #include "kernels/integral/ltc_texture.glsl"
+#include "kernels/integral/slopes.glsl"
 #include "kernels/integral/texture_cell.glsl"
 
 #include "kernels/comparison/ltc_clipless.glsl"

@@ -108,6 +108,7 @@ struct PunctualLight {
   double cos_outer = 0.70710678118654752;
   std::shared_ptr<const LightProfile> profile{};  // for a point: candela by direction, which `intensity` multiplies; null: 1 everywhere
   ProfileAxes profile_axes{};
+  int node = -1;  // of the file that places the light; -1: none
 };
 
 // A perspective camera. x points right, y up, z against the view; they are orthonormal.

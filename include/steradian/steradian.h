@@ -43,6 +43,7 @@
 #include "steradian/scene.h"
 #include "steradian/shading_point.h"
 #include "steradian/shape.h"
+#include "steradian/solve.h"
 #include "steradian/texture.h"
 #include "steradian/tone.h"
 #include "steradian/vec.h"

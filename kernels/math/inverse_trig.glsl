@@ -145,3 +145,66 @@ real trig_atan2_unwrapped(real y, real x) {
     real angle = trig_atan2(y, x);
     return select(angle < -0.5 * pi(), angle + 2.0 * pi(), angle);
 }
+
+// Degree 8: the derivative of trig_angle_over_sine_24_bits.
+real trig_angle_over_sine_slope_24_bits(real t) {
+    real p = 0.10046541803578893;
+    p = p * t - 0.260733509871977744;
+    p = p * t + 0.35683030933043466;
+    p = p * t - 0.201317986747964946;
+    p = p * t + 0.15029587985498284;
+    p = p * t + 0.080653959220667552;
+    p = p * t + 0.173933404541325117;
+    p = p * t + 0.2665331445100177;
+    p = p * t + 0.33333538143391106;
+    return p;
+}
+
+// Degree 21: the derivative of trig_angle_over_sine_53_bits.
+real trig_angle_over_sine_slope_53_bits(real t) {
+    real p = 0.00119867929237621516;
+    p = p * t - 0.0108326950654963209;
+    p = p * t + 0.046391428195908576;
+    p = p * t - 0.123989671610860713;
+    p = p * t + 0.230961084885328752;
+    p = p * t - 0.317316871180453282;
+    p = p * t + 0.332679059148434096;
+    p = p * t - 0.27128353494951324;
+    p = p * t + 0.17462185826065218;
+    p = p * t - 0.0884649009995648287;
+    p = p * t + 0.0366363034027767168;
+    p = p * t - 0.0100950154900915309;
+    p = p * t + 0.005524402819890922;
+    p = p * t + 0.00442525650259974093;
+    p = p * t + 0.0094444479617617416;
+    p = p * t + 0.0173954991174238722;
+    p = p * t + 0.031968778721847507;
+    p = p * t + 0.057720016543603425;
+    p = p * t + 0.101587303044120712;
+    p = p * t + 0.171428571398971539;
+    p = p * t + 0.26666666666694976;
+    p = p * t + 0.33333333333333254;
+    return p;
+}
+
+// Minus the derivative of angle over sine by the cosine, of an angle in [0, pi].
+//
+//   c        cosine, in [-1, 1]
+//   s2       sine squared, computed on its own
+//   f        trig_angle_over_sine(c, s2)
+//   returns  1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond
+//
+// Degenerate: it grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
+// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
+real trig_angle_over_sine_slope(real c, real s2, real f) {
+    real t = 1.0 - abs(c);
+    real slope = trig_angle_over_sine_slope_24_bits(t);
+    if (real_digits() > 24) {
+        slope = trig_angle_over_sine_slope_53_bits(t);
+    }
+    mask obtuse = c < 0.0;
+    if (any_lane(obtuse)) {
+        slope = select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
+    }
+    return slope;
+}

@@ -23,3 +23,11 @@ vec4 case_trig_atan2(CaseInput i) { return case_of_real(trig_atan2(i.a.x, i.a.y)
 //   a.x    signed_log(1e-3, 1e3)
 //   a.y    signed_log(1e-3, 1e3)
 vec4 case_trig_atan2_unwrapped(CaseInput i) { return case_of_real(trig_atan2_unwrapped(i.a.x, i.a.y)); }
+
+// slope of angle over sine
+//   a.x    range(-0.999, 1)
+// Error: relative
+vec4 case_trig_angle_over_sine_slope(CaseInput i) {
+    real s2 = (1.0 - i.a.x) * (1.0 + i.a.x);
+    return case_of_real(trig_angle_over_sine_slope(i.a.x, s2, trig_angle_over_sine(i.a.x, s2)));
+}

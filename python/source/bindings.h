@@ -22,6 +22,7 @@ namespace py = pybind11;
 void add_integrals(py::module_& m);
 void add_pictures(py::module_& m);
 void add_plane(py::module_& m);
+void add_solve(py::module_& m);
 void add_view_factors(py::module_& m);
 
 // The value of a word of core/words.h.

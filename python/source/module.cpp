@@ -53,5 +53,6 @@ PYBIND11_MODULE(_core, m) {
   steradian::python::add_integrals(m);
   steradian::python::add_pictures(m);
   steradian::python::add_plane(m);
+  steradian::python::add_solve(m);
   steradian::python::add_view_factors(m);
 }

@@ -15,10 +15,11 @@ from ._core import Scene, simd, version as __version__
 from .errors import Error, UsageError
 from .integrals import Derivatives, Reference, irradiance, radiance, reference
 from .pictures import Difference, Fit, auto_exposure, diff, fit, load_scene, read_picture, render, write_picture
+from .solving import LightModel, Parameter, Solved, solve
 from .view_factors import ViewFactors, view_factors
 
 __all__ = [
-    "Derivatives", "Difference", "Error", "Fit", "Reference", "Scene", "UsageError", "ViewFactors", "__version__", "auto_exposure",
-    "diff", "fit", "irradiance", "load_scene", "plane", "radiance", "read_picture", "reference", "render", "simd", "units", "view_factors",
+    "Derivatives", "Difference", "Error", "Fit", "LightModel", "Parameter", "Reference", "Scene", "Solved", "UsageError", "ViewFactors", "__version__", "auto_exposure",
+    "diff", "fit", "irradiance", "load_scene", "plane", "radiance", "read_picture", "reference", "render", "simd", "solve", "units", "view_factors",
     "write_picture",
 ]

@@ -1,4 +1,4 @@
-"""docs/python.md and docs/lights.md, run from the first line to the last."""
+"""docs/python.md, docs/lights.md and docs/solve-questions.md, run from the first line to the last."""
 import doctest
 import os
 import tempfile
@@ -14,6 +14,9 @@ class Manual(unittest.TestCase):
 
     def test_lights(self):
         self.run_page("lights.md", 8)
+
+    def test_questions_of_solve(self):
+        self.run_page("solve-questions.md", 7)
 
     def run_page(self, name, least):
         with tempfile.TemporaryDirectory() as folder:

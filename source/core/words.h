@@ -12,6 +12,7 @@
 #include "steradian/load_scene.h"
 #include "steradian/plane.h"
 #include "steradian/render.h"
+#include "steradian/solve.h"
 #include "steradian/tone.h"
 
 namespace steradian::words {
@@ -66,6 +67,14 @@ template <>
 inline constexpr auto kTable<PlaneOccluders> = std::to_array<OptionWord<PlaneOccluders>>({{PlaneOccluders::black, "black"},
                                                                                           {PlaneOccluders::fill, "fill"},
                                                                                           {PlaneOccluders::clear, "clear"}});
+
+template <>
+inline constexpr auto kTable<ResidualSpace> = std::to_array<OptionWord<ResidualSpace>>({{ResidualSpace::root, "root"},
+                                                                                        {ResidualSpace::linear, "linear"},
+                                                                                        {ResidualSpace::log, "log"}});
+template <>
+inline constexpr auto kTable<ResidualLoss> = std::to_array<OptionWord<ResidualLoss>>({{ResidualLoss::squares, "squares"},
+                                                                                      {ResidualLoss::cauchy, "cauchy"}});
 
 template <class Value>
 constexpr const char* name_of(Value value) {

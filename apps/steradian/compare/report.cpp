@@ -6,6 +6,7 @@
 
 #include "compare/page.h"
 #include "image/codecs.h"
+#include "page_text.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/version.h"
 
@@ -21,18 +22,6 @@ double smallest_error(const Report& report) { return std::max(report.white, 1e-3
 
 std::uint16_t code_of(double value, double smallest, double steps, double most) {
   return static_cast<std::uint16_t>(std::lround(std::clamp(std::log2(1 + std::max(value, 0.0) / smallest) * steps, 0.0, most)));
-}
-
-std::string base64(const std::string& bytes) {
-  static constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kLetters[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
 }
 
 std::string encoded_radiance(const Picture& picture, double smallest) {
@@ -105,15 +94,6 @@ Json report_data(const Report& report) {
           {"methods", methods},
           {"over_time", over_time}};
 }
-
-// Text that is safe inside a script element.
-std::string in_script(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += 6) text.replace(at, 1, "\\u003c");
-  return text;
-}
-
-void put(std::string& page, const std::string& mark, const std::string& text) { page.replace(page.rfind(mark), mark.size(), text); }
 
 }  // namespace
 

@@ -274,6 +274,7 @@ std::vector<int> add_area_lights(const GltfDocument& document, const GltfNodes& 
   for_each_light(document, nodes, "EXT_lights_area", [&](const JsonCursor& json, const JsonCursor& node, const GltfNode& visible) {
     AreaLight light = read_area_light(json, node, visible.world);
     profiles.give_to(light, json, visible.world);
+    light.node = visible.index;
     const auto ours = extra_of_ours(json);
     if (light.power > 0 && !(ours && !ours->flag("seen", true))) {
       Mesh mesh = mesh_of_light(light);
@@ -308,6 +309,7 @@ void add_profile_lights(const GltfDocument& document, const GltfNodes& nodes, st
     const JsonCursor use = *find_extension(node, kProfiles);
     light.intensity = read_color(use) * use.number("multiplier", 1, 0, kMostIntensity);
     light.profile = profiles.of(json);
+    light.node = visible.index;
     light.profile_axes = profile_axes(light.direction, world.x);
     if (dot(light.profile_axes.y, world.y) < 0) light.profile_axes.y = -light.profile_axes.y;
     lights.push_back(std::move(light));
@@ -329,6 +331,7 @@ std::vector<PunctualLight> read_punctual_lights(const GltfDocument& document, co
       light.kind = PunctualKind::directional;
     else if (type != "point")
       json.at("type").fail("\"" + type + "\" is not a light", "known are point, spot and directional");
+    light.node = visible.index;
     light.position = world.t;
     check_reach(node, light.position, "the light");
     light.direction = normalized(world.vector({0, 0, -1}));

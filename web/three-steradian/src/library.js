@@ -161,6 +161,27 @@ float steradian_trig_atan2_unwrapped(float y, float x) {
     float angle = steradian_trig_atan2(y, x);
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
 }
+float steradian_trig_angle_over_sine_slope_24_bits(float t) {
+    float p = 0.10046541803578893;
+    p = p * t - 0.260733509871977744;
+    p = p * t + 0.35683030933043466;
+    p = p * t - 0.201317986747964946;
+    p = p * t + 0.15029587985498284;
+    p = p * t + 0.080653959220667552;
+    p = p * t + 0.173933404541325117;
+    p = p * t + 0.2665331445100177;
+    p = p * t + 0.33333538143391106;
+    return p;
+}
+float steradian_trig_angle_over_sine_slope(float c, float s2, float f) {
+    float t = 1.0 - abs(c);
+    float slope = steradian_trig_angle_over_sine_slope_24_bits(t);
+    bool obtuse = c < 0.0;
+    if (obtuse) {
+        slope = steradian_select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
+    }
+    return slope;
+}
 struct SteradianQuarticPoles {
     vec2 z1;
     vec2 z2;
@@ -2769,5 +2790,126 @@ vec3 steradian_ggx_arc(SteradianGgxView view, vec3 a, vec3 b) {
 }
 float steradian_half_vector_radiance(SteradianGgxView view, float sum, float facing) {
     return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
+}
+struct SteradianEdgePart {
+    vec3 start;
+    vec3 end;
+    float start_a;
+    float start_b;
+    float end_a;
+    float end_b;
+};
+struct SteradianEdgeSlopes {
+    vec3 normal;
+    float by_start;
+    float by_end;
+};
+struct SteradianEdgeSlopesOfBoth {
+    vec3 normal;
+    vec2 by_start;
+    vec2 by_end;
+};
+SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    float wa = abs(b.z);
+    float wb = abs(a.z);
+    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
+    vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
+    SteradianEdgePart part;
+    part.start = steradian_select(a_below, crossing, a);
+    part.end = steradian_select(b_below, crossing, b);
+    part.start_a = steradian_select(a_below, wa * scale, 1.0);
+    part.start_b = steradian_select(a_below, wb * scale, 0.0);
+    part.end_a = steradian_select(b_below, wa * scale, 0.0);
+    part.end_b = steradian_select(b_below, wb * scale, 1.0);
+    return part;
+}
+vec2 steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
+    vec3 n = cross(start, end - start);
+    float c = dot(start, end);
+    float s2 = dot(n, n);
+    float f = steradian_trig_angle_over_sine(c, s2);
+    float q = steradian_trig_angle_over_sine_slope(c, s2, f);
+    float p = min(f, 1.0e12) - c * q;
+    return vec2(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+}
+SteradianEdgeSlopes steradian_edge_slopes_of_part(SteradianEdgePart part, vec2 g) {
+    SteradianEdgeSlopes slopes;
+    slopes.normal = cross(part.start, part.end - part.start);
+    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
+    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+    return slopes;
+}
+SteradianEdgeSlopes steradian_polygon_edge_slopes(vec3 a, vec3 b) {
+    SteradianEdgePart part = steradian_edge_above_horizon(a, b);
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
+SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, vec3 a, vec3 b) {
+    SteradianEdgePart real_part = steradian_edge_above_horizon(a, b);
+    vec3 start = steradian_ltc_transform(m, real_part.start);
+    vec3 end = steradian_ltc_transform(m, real_part.end);
+    float start_scale = inversesqrt(max(dot(start, start), steradian_smallest_square()));
+    float end_scale = inversesqrt(max(dot(end, end), steradian_smallest_square()));
+    SteradianEdgePart lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
+    SteradianEdgePart part = lobe_part;
+    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
+    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
+    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
+    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+}
+vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 g) {
+    return vec3(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+}
+SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView view, SteradianEdgePart part, SteradianConicArc arc, float smith, int nodes, int pieces) {
+    vec3 sum = part.start + part.end;
+    vec3 chord = part.end - part.start;
+    float sum_inverse = inversesqrt(max(dot(sum, sum), steradian_smallest_divisor()));
+    float chord_inverse = inversesqrt(max(dot(chord, chord), steradian_smallest_divisor()));
+    float half_cosine = 0.5 / sum_inverse;
+    float half_sine = 0.5 / chord_inverse;
+    bool from_start = !(arc.begin < 0.0);
+    bool from_end = !(arc.end > 0.0);
+    vec2 base = vec2(steradian_select(from_start || from_end, half_cosine, 1.0), steradian_select(from_start, -half_sine, steradian_select(from_end, half_sine, 0.0)));
+    vec2 even = vec2(0.0, 0.0);
+    vec2 odd = vec2(0.0, 0.0);
+    float total = arc.sweep.x + arc.sweep.y;
+    float share = 1.0 / float(pieces);
+    for (int i = 0; i < pieces; i++) {
+        for (int j = 0; j < nodes; j++) {
+            vec2 rule = steradian_gauss_legendre_node(nodes, j);
+            SteradianConicNode node = steradian_conic_node(arc, (rule.x + float(i)) * share);
+            vec3 u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
+            vec3 p = vec3(u.x * view.ax, u.y * view.ay, u.z);  
+            float p2 = max(dot(p, p), steradian_smallest_divisor());
+            float along = dot(p, view.v);
+            float u2 = max(dot(u, u), steradian_smallest_divisor());
+            vec3 l = p * (2.0 * along / p2) - view.v;
+            float g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
+            float w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
+            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inversesqrt(p2)));
+            float t = node.tau * arc.scale;
+            float d = 1.0 / (1.0 + t * t);
+            vec2 angle = steradian_complex_product(base, vec2((1.0 - t * t) * d, 2.0 * t * d));
+            even = even + both * (angle.x * sum_inverse);
+            odd = odd + both * (angle.y * chord_inverse);
+        }
+    }
+    vec3 n = cross(part.start, chord);
+    float scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
+    scale = steradian_select(arc.end > arc.begin, scale, 0.0);
+    vec2 by_part_start = (even - odd) * scale;
+    vec2 by_part_end = (even + odd) * scale;
+    SteradianEdgeSlopesOfBoth slopes;
+    slopes.normal = n;
+    slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
+    slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    return slopes;
+}
+SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes(SteradianGgxView view, vec3 a, vec3 b, float smith, int nodes, int pieces) {
+    SteradianEdgePart part = steradian_edge_above_horizon(a, b);
+    return steradian_ggx_edge_slopes_of_part(view, part, steradian_ggx_edge(view, part.start, part.end), smith, nodes, pieces);
 }
 `;

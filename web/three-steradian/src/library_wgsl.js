@@ -159,6 +159,27 @@ fn steradian_trig_atan2_unwrapped(y: f32, x: f32) -> f32 {
     let angle = steradian_trig_atan2(y, x);
     return select(angle, angle + 2.0 * steradian_pi(), angle < -0.5 * steradian_pi());
 }
+fn steradian_trig_angle_over_sine_slope_24_bits(t: f32) -> f32 {
+    var p = 0.10046541803578893;
+    p = p * t - 0.260733509871977744;
+    p = p * t + 0.35683030933043466;
+    p = p * t - 0.201317986747964946;
+    p = p * t + 0.15029587985498284;
+    p = p * t + 0.080653959220667552;
+    p = p * t + 0.173933404541325117;
+    p = p * t + 0.2665331445100177;
+    p = p * t + 0.33333538143391106;
+    return p;
+}
+fn steradian_trig_angle_over_sine_slope(c: f32, s2: f32, f: f32) -> f32 {
+    let t = 1.0 - abs(c);
+    var slope = steradian_trig_angle_over_sine_slope_24_bits(t);
+    let obtuse = c < 0.0;
+    if (obtuse) {
+        slope = select(slope, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), obtuse);
+    }
+    return slope;
+}
 struct SteradianQuarticPoles {
     z1: vec2f,
     z2: vec2f,
@@ -2767,5 +2788,126 @@ fn steradian_ggx_arc(view: SteradianGgxView, a: vec3f, b: vec3f) -> vec3f {
 }
 fn steradian_half_vector_radiance(view: SteradianGgxView, sum: f32, facing: f32) -> f32 {
     return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
+}
+struct SteradianEdgePart {
+    start: vec3f,
+    end: vec3f,
+    start_a: f32,
+    start_b: f32,
+    end_a: f32,
+    end_b: f32,
+}
+struct SteradianEdgeSlopes {
+    normal: vec3f,
+    by_start: f32,
+    by_end: f32,
+}
+struct SteradianEdgeSlopesOfBoth {
+    normal: vec3f,
+    by_start: vec2f,
+    by_end: vec2f,
+}
+fn steradian_edge_above_horizon(a: vec3f, b: vec3f) -> SteradianEdgePart {
+    let a_below = a.z < 0.0;
+    let b_below = b.z < 0.0;
+    let wa = abs(b.z);
+    let wb = abs(a.z);
+    let p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+    let scale = inverseSqrt(max(dot(p, p), steradian_smallest_square()));
+    let crossing = vec3f(p.x * scale, p.y * scale, 0.0);
+    var part: SteradianEdgePart;
+    part.start = select(a, crossing, a_below);
+    part.end = select(b, crossing, b_below);
+    part.start_a = select(1.0, wa * scale, a_below);
+    part.start_b = select(0.0, wb * scale, a_below);
+    part.end_a = select(0.0, wa * scale, b_below);
+    part.end_b = select(1.0, wb * scale, b_below);
+    return part;
+}
+fn steradian_edge_irradiance_slopes(start: vec3f, end: vec3f) -> vec2f {
+    let n = cross(start, end - start);
+    let c = dot(start, end);
+    let s2 = dot(n, n);
+    let f = steradian_trig_angle_over_sine(c, s2);
+    let q = steradian_trig_angle_over_sine_slope(c, s2, f);
+    let p = min(f, 1.0e12) - c * q;
+    return vec2f(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+}
+fn steradian_edge_slopes_of_part(part: SteradianEdgePart, g: vec2f) -> SteradianEdgeSlopes {
+    var slopes: SteradianEdgeSlopes;
+    slopes.normal = cross(part.start, part.end - part.start);
+    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
+    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+    return slopes;
+}
+fn steradian_polygon_edge_slopes(a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
+    let part = steradian_edge_above_horizon(a, b);
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
+fn steradian_ltc_edge_slopes(m: SteradianLtcMatrix, a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
+    let real_part = steradian_edge_above_horizon(a, b);
+    let start = steradian_ltc_transform(m, real_part.start);
+    let end = steradian_ltc_transform(m, real_part.end);
+    let start_scale = inverseSqrt(max(dot(start, start), steradian_smallest_square()));
+    let end_scale = inverseSqrt(max(dot(end, end), steradian_smallest_square()));
+    let lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
+    var part = lobe_part;
+    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
+    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
+    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
+    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
+    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+}
+fn steradian_ltc_edge_transform_back(m: SteradianLtcMatrix, g: vec3f) -> vec3f {
+    return vec3f(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+}
+fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdgePart, arc: SteradianConicArc, smith: f32, nodes: i32, pieces: i32) -> SteradianEdgeSlopesOfBoth {
+    let sum = part.start + part.end;
+    let chord = part.end - part.start;
+    let sum_inverse = inverseSqrt(max(dot(sum, sum), steradian_smallest_divisor()));
+    let chord_inverse = inverseSqrt(max(dot(chord, chord), steradian_smallest_divisor()));
+    let half_cosine = 0.5 / sum_inverse;
+    let half_sine = 0.5 / chord_inverse;
+    let from_start = !(arc.begin < 0.0);
+    let from_end = !(arc.end > 0.0);
+    let base = vec2f(select(1.0, half_cosine, from_start || from_end), select(select(0.0, half_sine, from_end), -half_sine, from_start));
+    var even = vec2f(0.0, 0.0);
+    var odd = vec2f(0.0, 0.0);
+    let total = arc.sweep.x + arc.sweep.y;
+    let share = 1.0 / f32(pieces);
+    for (var i: i32 = 0; i < pieces; i++) {
+        for (var j: i32 = 0; j < nodes; j++) {
+            let rule = steradian_gauss_legendre_node(nodes, j);
+            let node = steradian_conic_node(arc, (rule.x + f32(i)) * share);
+            let u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
+            let p = vec3f(u.x * view.ax, u.y * view.ay, u.z);  
+            let p2 = max(dot(p, p), steradian_smallest_divisor());
+            let along = dot(p, view.v);
+            let u2 = max(dot(u, u), steradian_smallest_divisor());
+            let l = p * (2.0 * along / p2) - view.v;
+            let g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
+            let w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
+            let both = vec2f(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inverseSqrt(p2)));
+            let t = node.tau * arc.scale;
+            let d = 1.0 / (1.0 + t * t);
+            let angle = steradian_complex_product(base, vec2f((1.0 - t * t) * d, 2.0 * t * d));
+            even = even + both * (angle.x * sum_inverse);
+            odd = odd + both * (angle.y * chord_inverse);
+        }
+    }
+    let n = cross(part.start, chord);
+    var scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
+    scale = select(0.0, scale, arc.end > arc.begin);
+    let by_part_start = (even - odd) * scale;
+    let by_part_end = (even + odd) * scale;
+    var slopes: SteradianEdgeSlopesOfBoth;
+    slopes.normal = n;
+    slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
+    slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    return slopes;
+}
+fn steradian_ggx_edge_slopes(view: SteradianGgxView, a: vec3f, b: vec3f, smith: f32, nodes: i32, pieces: i32) -> SteradianEdgeSlopesOfBoth {
+    let part = steradian_edge_above_horizon(a, b);
+    return steradian_ggx_edge_slopes_of_part(view, part, steradian_ggx_edge(view, part.start, part.end), smith, nodes, pieces);
 }
 `;

@@ -1,0 +1,360 @@
+#include "solve/fitted_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "steradian/error.h"
+
+namespace steradian {
+
+double light_flux(const AreaLight& light) { return std::numbers::pi * light.power * (light.two_sided ? 2 : 1); }
+
+double light_flux(const PunctualLight& light) {
+  return (light.kind == PunctualKind::directional ? 1 : 4 * std::numbers::pi) * luminance(light.intensity);
+}
+
+}  // namespace steradian
+
+namespace steradian::solving {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// Two half axes of a polygon that is a parallelogram; none for others.
+std::optional<Ellipse> axes_of(const Polygon& p) {
+  if (p.vertices.size() != 4 || !p.holes.empty()) return {};
+  const auto& v = p.vertices;
+  const Vec3d open = v[0] - v[1] + v[2] - v[3];
+  const double size = length(v[2] - v[0]) + length(v[3] - v[1]);
+  if (!(length(open) <= 1e-5 * size)) return {};
+  return Ellipse{(v[0] + v[1] + v[2] + v[3]) * 0.25, (v[1] - v[0]) * 0.5, (v[3] - v[0]) * 0.5};
+}
+
+Vec3d center_of(const Polygon& p) {
+  Vec3d sum{};
+  for (const Vec3d& v : p.vertices) sum += v;
+  return p.vertices.empty() ? sum : sum / static_cast<double>(p.vertices.size());
+}
+Vec3d center_of(const Ellipse& e) { return e.center; }
+Vec3d center_of(const Ellipsoid& e) { return e.center; }
+Vec3d center_of(const Capsule& c) { return (c.end_a + c.end_b) * 0.5; }
+Vec3d center_of(const Line& l) { return (l.end_a + l.end_b) * 0.5; }
+
+// Sizes that a fit may change [m], by their words.
+struct ShapeSize {
+  const char* word;
+  double value;
+};
+std::vector<ShapeSize> sizes_of(const Shape& shape) {
+  if (const auto* p = std::get_if<Polygon>(&shape)) {
+    if (const auto axes = axes_of(*p)) return {{"width", 2 * length(axes->x)}, {"height", 2 * length(axes->y)}};
+    return {};
+  }
+  if (const auto* e = std::get_if<Ellipse>(&shape)) return {{"diameter", 2 * std::max(length(e->x), length(e->y))}};
+  if (const auto* e = std::get_if<Ellipsoid>(&shape)) return {{"diameter", 2 * std::max({length(e->x), length(e->y), length(e->z)})}};
+  if (const auto* c = std::get_if<Capsule>(&shape)) return {{"length", length(c->end_b - c->end_a)}, {"diameter", 2 * c->radius}};
+  return {};
+}
+
+// Surface of a shape over that of the shape scaled by two factors.
+double area_ratio(const Shape& shape, double f1, double f2) {
+  if (const auto* c = std::get_if<Capsule>(&shape)) {
+    const double between = length(c->end_b - c->end_a);
+    return c->radius * (2 * c->radius + between) / (f2 * c->radius * (2 * f2 * c->radius + f1 * between));
+  }
+  return 1 / (f1 * f2);
+}
+
+// A rotation and a move of the centre, with factors on the shape's own sizes.
+struct Motion {
+  Vec3d center, by, rotation;  // place of the centre before, its move, rotation vector
+  double f1 = 1, f2 = 1;
+
+  Vec3d turned(Vec3d v) const {
+    const double angle = length(rotation);
+    return angle > 0 ? rotated(v, rotation / angle, angle) : v;
+  }
+  Vec3d moved(Vec3d p) const { return center + by + turned(p - center); }
+};
+
+Shape moved(const Polygon& p, const Motion& m) {
+  Polygon result = p;
+  if (const auto axes = axes_of(p)) {
+    const Vec3d x = m.turned(axes->x) * m.f1, y = m.turned(axes->y) * m.f2, c = m.moved(axes->center);
+    // The corners keep their distance from the parallelogram, which is a rounding.
+    const Vec3d corners[] = {c - x - y, c + x - y, c + x + y, c - x + y};
+    std::copy(std::begin(corners), std::end(corners), result.vertices.begin());
+    return result;
+  }
+  for (Vec3d& v : result.vertices) v = m.moved(v);
+  for (auto& hole : result.holes)
+    for (Vec3d& v : hole) v = m.moved(v);
+  return result;
+}
+Shape moved(const Ellipse& e, const Motion& m) { return Ellipse{m.moved(e.center), m.turned(e.x) * m.f1, m.turned(e.y) * m.f2}; }
+Shape moved(const Ellipsoid& e, const Motion& m) {
+  return Ellipsoid{m.moved(e.center), m.turned(e.x) * m.f1, m.turned(e.y) * m.f1, m.turned(e.z) * m.f1};
+}
+Shape moved(const Capsule& c, const Motion& m) {
+  const Vec3d half = m.turned(c.end_b - c.end_a) * (0.5 * m.f1), center = m.moved(center_of(c));
+  return Capsule{center - half, center + half, c.radius * m.f2};
+}
+Shape moved(const Line& l, const Motion& m) { return Line{m.moved(l.end_a), m.moved(l.end_b)}; }
+
+Vec3d center_of(const FittedLight& light) {
+  return light.is_punctual ? light.punctual.position : std::visit([](const auto& s) { return center_of(s); }, light.area.shape);
+}
+
+Vec3d& radiance_of(FittedLight& light) { return light.is_punctual ? light.punctual.intensity : light.area.radiance; }
+
+double flux_of(const FittedLight& light) { return light.is_punctual ? light_flux(light.punctual) : light_flux(light.area); }
+
+// The reason why a light lacks a parameter; empty if it has it.
+std::string lack_of_position(const FittedLight& light) {
+  if (light.is_punctual) return light.punctual.kind == PunctualKind::directional ? "a directional light has no position" : "";
+  return light.area.texture || light.area.emission ? "the position of a textured or profiled light is not fitted" : "";
+}
+std::string lack_of_rotation(const FittedLight& light) {
+  if (light.is_punctual) {
+    if (light.punctual.kind == PunctualKind::point) return "a point light has no rotation";
+    return light.punctual.profile ? "the rotation of a measured lamp is not fitted" : "";
+  }
+  if (light.area.texture || light.area.emission) return "the rotation of a textured or profiled light is not fitted";
+  if (const auto* e = std::get_if<Ellipsoid>(&light.area.shape)) {
+    const double x = length(e->x), y = length(e->y), z = length(e->z);
+    if (std::max({x, y, z}) <= 1.00001 * std::min({x, y, z})) return "a sphere has no rotation";
+  }
+  return "";
+}
+std::string lack_of_size(const FittedLight& light) {
+  if (light.is_punctual) return "a point, spot or directional light has no size";
+  if (light.area.texture || light.area.emission) return "the size of a textured or profiled light is not fitted";
+  return sizes_of(light.area.shape).empty() ? "this shape has no size to fit" : "";
+}
+
+std::string default_name(std::size_t number) { return "light " + std::to_string(number); }
+
+}  // namespace
+
+FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties) {
+  std::vector<std::string> problems;
+  const std::size_t all = scene.area_lights.size() + scene.punctual_lights.size();
+  const double room = std::max(length(scene.bounds_max - scene.bounds_min), 1e-6);
+  if (fits.empty()) problems.push_back("nothing to fit (name a light)");
+  const auto add_light = [&](std::size_t number) {
+    Driven d;
+    d.start.number = number;
+    d.start.is_punctual = number >= scene.area_lights.size();
+    if (d.start.is_punctual)
+      d.start.punctual = scene.punctual_lights[number - scene.area_lights.size()];
+    else
+      d.start.area = scene.area_lights[number];
+    d.name = d.start.is_punctual ? d.start.punctual.name : d.start.area.name;
+    if (d.name.empty()) d.name = default_name(number);
+    d.leader = lights_.size();
+    lights_.push_back(std::move(d));
+  };
+  for (const LightFit& fit : fits) {
+    if (fit.light >= all) {
+      problems.push_back(default_name(fit.light) + " is not in the scene, which has " + std::to_string(all));
+      continue;
+    }
+    if (is_fitted(fit.light)) {
+      problems.push_back(default_name(fit.light) + " is fitted twice (name it once)");
+      continue;
+    }
+    add_light(fit.light);
+    if (!fit.name.empty()) lights_.back().name = fit.name;
+    add_unknowns(fit, lights_.size() - 1, room, problems);
+  }
+  for (const LightTie& tie : ties) {
+    const auto leader = std::find_if(lights_.begin(), lights_.end(), [&](const Driven& d) {
+      return !tie.lights.empty() && d.start.number == tie.lights.front() && !d.unknowns.empty();
+    });
+    if (tie.lights.size() < 2 || leader == lights_.end()) {
+      problems.push_back("a tie needs a fitted light and at least one that follows it");
+      continue;
+    }
+    const auto number = static_cast<std::size_t>(leader - lights_.begin());
+    for (std::size_t i = 1; i < tie.lights.size(); ++i) {
+      if (tie.lights[i] >= all || is_fitted(tie.lights[i])) {
+        problems.push_back(default_name(tie.lights[i]) + " follows another light, and is fitted itself or not in the scene");
+        continue;
+      }
+      add_light(tie.lights[i]);
+      lights_.back().leader = number;
+      lights_.back().mirrored = tie.has_mirror;
+      lights_.back().mirror_point = tie.mirror_point;
+      lights_.back().mirror_normal = normalized(tie.mirror_normal);
+    }
+  }
+  if (problems.empty() && unknowns_.empty())
+    problems.push_back("nothing to fit (name a parameter: power, color, position, rotation, size)");
+  if (!problems.empty()) {
+    std::string text;
+    for (const std::string& p : problems) text += (text.empty() ? "" : "\n") + p;
+    throw Error("fit", text);
+  }
+  linear_ = std::all_of(unknowns_.begin(), unknowns_.end(), [](const Unknown& u) { return is_scale(u.kind); });
+  // Factors instead of their logarithms, so that a light may go out.
+  for (Unknown& u : unknowns_)
+    if (linear_) {
+      u.start = std::exp(u.start);
+      u.low = std::exp(u.low);
+      u.high = std::exp(u.high);
+    }
+}
+
+void FittedLights::add_unknowns(const LightFit& fit, std::size_t light, double room, std::vector<std::string>& problems) {
+  Driven& d = lights_[light];
+  const double infinite = std::numeric_limits<double>::infinity();
+  const auto complain = [&](const std::string& problem) {
+    if (!problem.empty()) problems.push_back("'" + d.name + "': " + problem);
+    return !problem.empty();
+  };
+  const auto add = [&](const std::string& word, UnknownKind kind, double start, double low, double high, double typical) {
+    Unknown u{d.name + ": " + word, light, kind, start, low, high, typical, fit.keep};
+    if (!(low <= high))
+      complain(word + ": the least value is above the largest");
+    else if (!(start >= low && start <= high))
+      complain(word + ": the start is outside of its range (widen the range)");
+    d.unknowns.push_back(unknowns_.size());
+    unknowns_.push_back(u);
+  };
+  const double flux = flux_of(d.start);
+  if (!(flux > 0) && (fit.power || fit.color)) complain("it does not shine, so its power has no start (give it an intensity)");
+  if (fit.power && fit.color) complain("a color includes the power (name one of them)");
+  const FitRange factor{std::max(fit.power_range.low, 0.0) / flux, fit.power_range.high / flux};
+  if (flux > 0 && fit.power) add("power", UnknownKind::power, 0, std::log(factor.low), std::log(factor.high), 1);
+  if (flux > 0 && fit.color) {
+    // Each channel starts from the luminance, so that a channel that the file leaves dark can become bright.
+    Vec3d& radiance = radiance_of(d.start);
+    const double all = luminance(radiance);
+    const auto add_channel = [&](const char* word, UnknownKind kind, double value) {
+      add(word, kind, std::log(std::max(value / all, 1e-3)), std::log(factor.low * 1e-3), std::log(factor.high * 10), 1);
+    };
+    if (d.start.is_punctual || (!d.start.area.texture && !d.start.area.emission)) {
+      add_channel("red", UnknownKind::red, radiance.x);
+      add_channel("green", UnknownKind::green, radiance.y);
+      add_channel("blue", UnknownKind::blue, radiance.z);
+      radiance = {all, all, all};
+    } else {
+      complain("the color of a textured or profiled light is not fitted (fit its power)");
+    }
+  }
+  if (fit.position && !complain(lack_of_position(d.start))) {
+    const Vec3d c = center_of(d.start);
+    add("position x", UnknownKind::position_x, c.x, fit.position_x.low, fit.position_x.high, room);
+    add("position y", UnknownKind::position_y, c.y, fit.position_y.low, fit.position_y.high, room);
+    add("position z", UnknownKind::position_z, c.z, fit.position_z.low, fit.position_z.high, room);
+  }
+  if (fit.rotation && !complain(lack_of_rotation(d.start))) {
+    const double most = fit.most_degrees / kDegrees;
+    add("rotation x", UnknownKind::rotation_x, 0, -most, most, 1);
+    add("rotation y", UnknownKind::rotation_y, 0, -most, most, 1);
+    add("rotation z", UnknownKind::rotation_z, 0, -most, most, 1);
+  }
+  if (fit.size && !complain(lack_of_size(d.start))) {
+    UnknownKind kind = UnknownKind::size_1;
+    for (const ShapeSize& size : sizes_of(d.start.area.shape)) {
+      if (size.value > 0)
+        add(size.word, kind, 0, std::log(std::max(fit.size_range.low, 0.0) / size.value), std::log(fit.size_range.high / size.value), 1);
+      kind = UnknownKind::size_2;
+    }
+  }
+  if (!(fit.keep >= 0 && fit.keep < infinite)) complain("keep must be 0 or more");
+}
+
+std::vector<double> FittedLights::start() const {
+  std::vector<double> x;
+  for (const Unknown& u : unknowns_) x.push_back(u.start);
+  return x;
+}
+
+bool FittedLights::is_fitted(std::size_t number) const {
+  return std::any_of(lights_.begin(), lights_.end(), [&](const Driven& d) { return d.start.number == number; });
+}
+
+bool FittedLights::drives(std::size_t unknown, std::size_t light) const { return lights_[light].leader == unknowns_[unknown].fit; }
+
+std::vector<FittedLight> FittedLights::at(const std::vector<double>& x) const {
+  std::vector<FittedLight> result;
+  for (const Driven& driven : lights_) {
+    FittedLight light = driven.start;
+    move(lights_[driven.leader], x, light, driven);
+    result.push_back(std::move(light));
+  }
+  return result;
+}
+
+// Moves a light as its leader's unknowns say.
+void FittedLights::move(const Driven& leader, const std::vector<double>& x, FittedLight& light, const Driven& driven) const {
+  Motion motion;
+  motion.center = center_of(driven.start);
+  const Vec3d from = center_of(leader.start);
+  Vec3d by{}, rotation{};
+  bool moves = false, has_second = false;
+  for (const std::size_t i : leader.unknowns) {
+    const double value = x[i], factor = linear_ ? value : std::exp(value);
+    switch (unknowns_[i].kind) {
+      case UnknownKind::power: light.scale = light.scale * factor; continue;
+      case UnknownKind::red: light.scale.x *= factor, light.change.color = true; continue;
+      case UnknownKind::green: light.scale.y *= factor; continue;
+      case UnknownKind::blue: light.scale.z *= factor; continue;
+      case UnknownKind::position_x: by.x = value - from.x; break;
+      case UnknownKind::position_y: by.y = value - from.y; break;
+      case UnknownKind::position_z: by.z = value - from.z; break;
+      case UnknownKind::rotation_x: rotation.x = value; break;
+      case UnknownKind::rotation_y: rotation.y = value; break;
+      case UnknownKind::rotation_z: rotation.z = value; break;
+      case UnknownKind::size_1: motion.f1 = factor; break;
+      case UnknownKind::size_2: motion.f2 = factor, has_second = true; break;
+    }
+    moves = true;
+  }
+  if (!moves) return;
+  if (!has_second && !(light.is_punctual) && !std::holds_alternative<Capsule>(light.area.shape)) motion.f2 = motion.f1;
+  if (driven.mirrored) {
+    const Vec3d n = driven.mirror_normal;
+    by = by - n * (2 * dot(n, by));
+    rotation = -(rotation - n * (2 * dot(n, rotation)));  // an axial vector
+  }
+  motion.by = by;
+  motion.rotation = rotation;
+  light.change.move = by;
+  light.change.rotation = rotation;
+  light.change.size_1 = motion.f1;
+  light.change.size_2 = motion.f2;
+  if (light.is_punctual) {
+    light.punctual.position = motion.moved(light.punctual.position);
+    light.punctual.direction = normalized(motion.turned(light.punctual.direction));
+    return;
+  }
+  light.scale = light.scale * area_ratio(light.area.shape, motion.f1, motion.f2);
+  light.area.shape = std::visit([&](const auto& s) { return moved(s, motion); }, driven.start.area.shape);
+}
+
+double FittedLights::shown(std::size_t unknown, double x, double* slope) const {
+  const Unknown& u = unknowns_[unknown];
+  const FittedLight& light = lights_[u.fit].start;
+  const auto scaled = [&](double unit, bool logarithm) {
+    const double value = unit * (logarithm ? std::exp(x) : x);
+    if (slope != nullptr) *slope = logarithm ? value : unit;
+    return value;
+  };
+  switch (u.kind) {
+    case UnknownKind::power: return scaled(flux_of(light), !linear_);
+    case UnknownKind::red:
+    case UnknownKind::green:
+    case UnknownKind::blue: return scaled(light.is_punctual ? light.punctual.intensity.x : light.area.radiance.x, !linear_);
+    case UnknownKind::rotation_x:
+    case UnknownKind::rotation_y:
+    case UnknownKind::rotation_z: return scaled(kDegrees, false);
+    case UnknownKind::size_1: return scaled(sizes_of(light.area.shape).front().value, true);
+    case UnknownKind::size_2: return scaled(sizes_of(light.area.shape).back().value, true);
+    default: return scaled(1, false);
+  }
+}
+
+}  // namespace steradian::solving

@@ -1,0 +1,350 @@
+#include "steradian/solve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/random.h"
+#include "solve/box_least_squares.h"
+#include "solve/fit_problem.h"
+#include "solve/least_power.h"
+#include "steradian/error.h"
+
+namespace steradian {
+namespace {
+
+using namespace solving;
+
+constexpr int kCoarseSteps = 25;  // of each starting point
+constexpr int kCoarser = 4;       // pixels of a coarse picture are means of so many in each direction
+
+constexpr int kLeastSide = 36;      // of a coarse picture: smaller ones lead into traps
+constexpr double kRounding = 2e-6;  // rms residual of pictures in single precision
+
+constexpr double kMeanSlack = 1e-3;  // of a wanted mean, for the search of the least power
+
+// Targets at a quarter of the resolution, for the choice among starting points.
+std::vector<LightTarget> coarse_targets(const std::vector<LightTarget>& targets) {
+  std::vector<LightTarget> coarse = targets;
+  for (LightTarget& target : coarse) {
+    auto* picture = std::get_if<PictureTarget>(&target);
+    if (picture == nullptr || std::min(picture->picture.width, picture->picture.height) < kLeastSide * kCoarser) continue;
+    const Picture& fine = picture->picture;
+    Picture small(fine.width / kCoarser, fine.height / kCoarser);
+    std::vector<float> weights(small.pixels.size());
+    for (int y = 0; y < small.height; ++y)
+      for (int x = 0; x < small.width; ++x) {
+        // The pixel in the middle, whose surface the coarse camera sees nearly; a mean would mix surfaces.
+        const int fx = x * kCoarser + kCoarser / 2, fy = y * kCoarser + kCoarser / 2;
+        small.at(x, y) = fine.at(fx, fy);
+        const auto pixel = static_cast<std::size_t>(fy) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(fx);
+        weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width) + static_cast<std::size_t>(x)] =
+            picture->pixel_weights.empty() ? 1.0f : picture->pixel_weights[pixel];
+      }
+    picture->picture = std::move(small);
+    picture->pixel_weights = std::move(weights);
+  }
+  return coarse;
+}
+
+// A random place in the box: positions without a range lie in the scene's bounds.
+std::vector<double> random_place(const std::vector<Unknown>& unknowns, const Scene& scene, reference::Random& random) {
+  std::vector<double> x;
+  for (const Unknown& u : unknowns) {
+    double low = u.low, high = u.high;
+    const auto within = [&](double least, double most) { low = std::max(low, least), high = std::min(high, most); };
+    switch (u.kind) {
+      case UnknownKind::position_x: within(scene.bounds_min.x, scene.bounds_max.x); break;
+      case UnknownKind::position_y: within(scene.bounds_min.y, scene.bounds_max.y); break;
+      case UnknownKind::position_z: within(scene.bounds_min.z, scene.bounds_max.z); break;
+      case UnknownKind::rotation_x:
+      case UnknownKind::rotation_y:
+      case UnknownKind::rotation_z: within(-0.5, 0.5); break;
+      default: within(u.start - 0.5, u.start + 0.5); break;
+    }
+    x.push_back(std::clamp(low < high ? random.uniform(low, high) : u.start, u.low, u.high));
+  }
+  return x;
+}
+
+class Solver {
+ public:
+  Solver(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties, const std::vector<LightTarget>& targets,
+         const SolveOptions& options)
+      : scene_(scene), targets_(targets), options_(options), lights_(scene, fits, ties), problem_(scene, lights_, targets, options) {
+    for (const Unknown& u : lights_.unknowns()) {
+      settings_.low.push_back(u.low);
+      settings_.high.push_back(u.high);
+      settings_.typical.push_back(u.typical);
+    }
+    settings_.max_steps = options.max_steps;
+    settings_.rounding = 0.5 * static_cast<double>(problem_.picture_residual_count()) * kRounding * kRounding;
+    settings_.tolerance = options.tolerance;
+  }
+
+  Solution solve() {
+    refuse_blind_lights();
+    std::vector<double> x = lights_.start();
+    if (options_.starts > 1 && !lights_.is_linear()) x = best_start(x);
+    if (has_highlights() && !lights_.is_linear()) x = annealed(x);
+    BoxMinimum found = solution_.stopped ? BoxMinimum{x, 0, {}, 0, 0, false, true} : minimize(problem_, x, 0, settings_);
+    if (options_.least_power && lights_.is_linear() && !found.stopped) take_least_power(found);
+    gather(found);
+    return std::move(solution_);
+  }
+
+ private:
+  BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings) {
+    const auto value = [&](const std::vector<double>& at) { return problem.evaluate(at, Wants::cost).cost; };
+    const auto quadratic = [&](const std::vector<double>& at) {
+      Evaluation e = problem.evaluate(at, Wants::derivatives);
+      return Quadratic{e.cost, std::move(e.gradient), std::move(e.hessian)};
+    };
+    BoxMinimum found =
+        minimize_in_box(value, quadratic, x, settings, [&](int step, double cost, double damping, const std::vector<double>&) {
+          const SolveStep done{start, step, cost, damping};
+          solution_.steps.push_back(done);
+          return !options_.progress || options_.progress(done);
+        });
+    solution_.evaluations += found.evaluations;
+    return found;
+  }
+
+  bool has_highlights() const {
+    return std::any_of(targets_.begin(), targets_.end(), [](const LightTarget& target) {
+      const auto* picture = std::get_if<PictureTarget>(&target);
+      return picture != nullptr && picture->part == LightPart::specular;
+    });
+  }
+
+  // A few steps with wide lobes, then narrower ones: a narrow highlight that does not touch its target has no slope towards it.
+  std::vector<double> annealed(std::vector<double> x) {
+    BoxSettings settings = settings_;
+    settings.max_steps = kCoarseSteps;
+    for (const float alpha : {0.5f, 0.25f, 0.12f}) {
+      if (solution_.stopped) break;
+      const FitProblem problem(scene_, lights_, targets_, options_, alpha);
+      BoxMinimum found = minimize(problem, x, 0, settings);
+      solution_.stopped = found.stopped;
+      x = std::move(found.x);
+    }
+    return x;
+  }
+
+  // The best of the scene's own start and random ones, each after a few steps at a lower resolution.
+  std::vector<double> best_start(const std::vector<double>& own) {
+    const std::vector<LightTarget> coarse = coarse_targets(targets_);
+    const FitProblem problem(scene_, lights_, coarse, options_);
+    BoxSettings settings = settings_;
+    settings.max_steps = kCoarseSteps;
+    reference::Random random(options_.seed);
+    BoxMinimum best;
+    for (int start = 0; start < options_.starts && !solution_.stopped; ++start) {
+      std::vector<double> x = own;
+      if (start > 0) {
+        x = random_place(lights_.unknowns(), scene_, random);
+        const double factor = std::log(problem.brightness(x));
+        for (std::size_t u = 0; u < x.size(); ++u)
+          if (is_scale(lights_.unknowns()[u].kind)) x[u] = std::clamp(x[u] + factor, settings.low[u], settings.high[u]);
+      }
+      BoxMinimum found = minimize(problem, x, start, settings);
+      solution_.stopped = found.stopped;
+      if (start == 0 || found.value < best.value) best = std::move(found);
+    }
+    return best.x;
+  }
+
+  // Throws Error for a light whose every derivative is 0.
+  void refuse_blind_lights() {
+    const Evaluation e = problem_.evaluate(lights_.start(), Wants::derivatives);
+    const std::size_t n = lights_.unknowns().size();
+    std::string blind;
+    // Bands that are satisfied hide a light from the cost, so the illuminances themselves are asked.
+    const FitProblem::Lux lux = problem_.illuminances(lights_.start(), Wants::derivatives);
+    for (std::size_t fit = 0; fit < lights_.light_count(); ++fit) {
+      bool asked = false, seen = false;
+      for (std::size_t u = 0; u < n; ++u) {
+        if (lights_.unknowns()[u].fit != fit) continue;
+        asked = true;
+        seen = seen || e.hessian[u * n + u] > 0;
+        for (std::size_t p = 0; p < lux.value.size() && !seen; ++p) seen = lux.slopes[p * n + u] != 0;
+      }
+      if (asked && !seen) blind += (blind.empty() ? "'" : ", '") + lights_.name_of(fit) + "'";
+    }
+    if (!blind.empty())
+      throw Error("fit", "no target sees the light of " + blind, "turn or move the light towards the target, or leave it out");
+  }
+
+  // Conditions of the illuminances, linear in the powers.
+  std::vector<Condition> conditions() const {
+    const std::size_t n = lights_.unknowns().size();
+    const FitProblem::Lux dark = problem_.illuminances(std::vector<double>(n, 0.0), Wants::derivatives);
+    std::vector<Condition> result;
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+      const auto* target = std::get_if<LuxTarget>(&targets_[t]);
+      if (target == nullptr) continue;
+      const auto [first, last] = problem_.lux_range(t);
+      const auto row = [&](std::size_t p) {
+        return std::vector<double>(dark.slopes.begin() + static_cast<std::ptrdiff_t>(p * n),
+                                   dark.slopes.begin() + static_cast<std::ptrdiff_t>((p + 1) * n));
+      };
+      Condition mean{0, std::vector<double>(n)};
+      for (std::size_t p = first; p < last; ++p) {
+        mean.constant += dark.value[p] / static_cast<double>(last - first);
+        for (std::size_t u = 0; u < n; ++u) mean.slopes[u] += dark.slopes[p * n + u] / static_cast<double>(last - first);
+      }
+      const auto add = [&](double sign, const Condition& e, double offset) {
+        Condition c{sign * e.constant + offset, e.slopes};
+        for (double& s : c.slopes) s *= sign;
+        result.push_back(std::move(c));
+      };
+      const LuxBand& band = target->lux;
+      for (std::size_t p = first; p < last; ++p) {
+        const Condition e{dark.value[p], row(p)};
+        if (band.min) add(1, e, -*band.min);
+        if (band.max) add(-1, e, *band.max);
+        if (band.uniformity) {
+          Condition c{e.constant - *band.uniformity * mean.constant, e.slopes};
+          for (std::size_t u = 0; u < n; ++u) c.slopes[u] -= *band.uniformity * mean.slopes[u];
+          result.push_back(std::move(c));
+        }
+      }
+      if (band.mean) {
+        add(1, mean, -*band.mean);
+        add(-1, mean, *band.mean * (1 + kMeanSlack));
+      }
+    }
+    return result;
+  }
+
+  void take_least_power(BoxMinimum& found) {
+    std::vector<double> cost;
+    for (std::size_t u = 0; u < lights_.unknowns().size(); ++u) cost.push_back(lights_.shown(u, 1));
+    if (const auto least = least_cost(cost, conditions(), settings_.low, settings_.high, found.x)) {
+      found.x = *least;
+      const Evaluation e = problem_.evaluate(found.x, Wants::derivatives);
+      found.value = e.cost;
+      found.hessian = e.hessian;
+      solution_.notes.push_back("the powers are the least that satisfy the illuminances");
+    } else {
+      solution_.notes.push_back("no powers satisfy all illuminances: the nearest ones by least squares are taken");
+    }
+  }
+
+  void gather(const BoxMinimum& found) {
+    solution_.area_lights = scene_.area_lights;
+    solution_.punctual_lights = scene_.punctual_lights;
+    for (const FittedLight& light : lights_.at(found.x)) {
+      LightChange& change = solution_.changes.emplace_back(light.change);
+      change.light = light.number;
+      change.radiance = (light.is_punctual ? light.punctual.intensity : light.area.radiance) * light.scale;
+      if (light.is_punctual) {
+        PunctualLight& to = solution_.punctual_lights[light.number - scene_.area_lights.size()];
+        to = light.punctual;
+        to.intensity = to.intensity * light.scale;
+      } else {
+        AreaLight& to = solution_.area_lights[light.number];
+        to = light.area;
+        to.radiance = to.radiance * light.scale;
+        if (to.texture) to.texture->factor = to.texture->factor * light.scale;
+        if (to.emission) to.emission->intensity = to.emission->intensity * light.scale;
+      }
+    }
+    const Evaluation end = problem_.evaluate(found.x, Wants::derivatives);
+    solution_.cost = end.cost;
+    solution_.residuals = problem_.residual_count();
+    if (problem_.picture_residual_count() > 0)
+      solution_.picture_error = std::sqrt(2 * end.pictures / static_cast<double>(problem_.picture_residual_count()));
+    solution_.converged = found.converged;
+    solution_.stopped = solution_.stopped || found.stopped;
+    gather_parameters(found.x, end);
+    note_missing_light(found.x);
+    gather_lux(found.x);
+  }
+
+  // States that the pictures are brighter nearly everywhere: they may hold light that the fit leaves out.
+  void note_missing_light(const std::vector<double>& x) {
+    if (problem_.picture_residual_count() == 0) return;
+    const std::vector<double> have = problem_.values(x, Wants::cost).value, wanted = problem_.wanted();
+    std::size_t brighter = 0, darker = 0, all = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (std::isnan(wanted[i])) continue;
+      ++all;
+      brighter += wanted[i] > 1.1 * have[i] ? 1u : 0u;
+      darker += wanted[i] < 0.9 * have[i] ? 1u : 0u;
+    }
+    if (brighter > all / 10 && brighter > 4 * darker)
+      solution_.notes.push_back(
+          "the target is more than a tenth brighter than the result over much of the picture: it may hold light that the fit leaves out, "
+          "such as bounces (use the loss cauchy, or a mask)");
+  }
+
+  void gather_parameters(const std::vector<double>& x, const Evaluation& end) {
+    const std::vector<Unknown>& unknowns = lights_.unknowns();
+    std::vector<char> held(x.size());
+    for (std::size_t u = 0; u < x.size(); ++u) {
+      const double near = 1e-9 * unknowns[u].typical;
+      held[u] = x[u] <= unknowns[u].low + near || x[u] >= unknowns[u].high - near ? 1 : 0;
+    }
+    const double free = std::max(static_cast<double>(problem_.residual_count()) - static_cast<double>(x.size()), 1.0);
+    const Uncertainty sure = uncertainty_of(end.hessian, 2 * end.cost / free, settings_.typical, held);
+    for (std::size_t u = 0; u < x.size(); ++u) {
+      FittedParameter p;
+      p.name = unknowns[u].name;
+      p.start = lights_.shown(u, unknowns[u].start);
+      double slope = 1;
+      p.value = lights_.shown(u, x[u], &slope);
+      p.sigma = sure.sigma[u] * std::fabs(slope);
+      p.at_bound = held[u] != 0;
+      p.determined = sure.determined[u] != 0;
+      solution_.parameters.push_back(std::move(p));
+    }
+  }
+
+  void gather_lux(const std::vector<double>& x) {
+    const FitProblem::Lux lux = problem_.illuminances(x, Wants::cost);
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+      const auto* target = std::get_if<LuxTarget>(&targets_[t]);
+      if (target == nullptr) continue;
+      const auto [first, last] = problem_.lux_range(t);
+      LuxResult result;
+      result.name = target->name;
+      result.points = last - first;
+      result.min = result.max = lux.value[first];
+      for (std::size_t p = first; p < last; ++p) {
+        const double e = lux.value[p];
+        result.min = std::min(result.min, e);
+        result.max = std::max(result.max, e);
+        result.mean += e / static_cast<double>(last - first);
+      }
+      const LuxBand& band = target->lux;
+      for (std::size_t p = first; p < last; ++p) {
+        const double e = lux.value[p];
+        const bool low = (band.min && e < *band.min * (1 - 1e-3)) || (band.uniformity && e < *band.uniformity * result.mean * (1 - 1e-3));
+        result.outside += low || (band.max && e > *band.max * (1 + 1e-3)) ? 1u : 0u;
+      }
+      if (band.mean && std::fabs(result.mean - *band.mean) > 1e-3 * *band.mean && !options_.least_power)
+        solution_.notes.push_back(target->name + ": the mean differs from the wanted one");
+      solution_.lux.push_back(result);
+    }
+  }
+
+  const Scene& scene_;
+  const std::vector<LightTarget>& targets_;
+  const SolveOptions& options_;
+  FittedLights lights_;
+  FitProblem problem_;
+  BoxSettings settings_;
+  Solution solution_;
+};
+
+}  // namespace
+
+Solution solve(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties,
+               const std::vector<LightTarget>& targets, const SolveOptions& options) {
+  if (options.starts < 1 || options.max_steps < 1 || !(options.tolerance > 0))
+    throw Error("options", "starts and max_steps must be at least 1, and tolerance above 0");
+  return Solver(scene, fits, ties, targets, options).solve();
+}
+
+}  // namespace steradian
