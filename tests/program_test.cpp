@@ -108,8 +108,8 @@ TEST_F(Program, HelpVersionAndWrongUse) {
 
 // One line an option, of at most 100 characters. Rare options are those of --help-all alone.
 TEST_F(Program, HelpHasALineAnOption) {
-  for (const char* verb : {"render", "view", "compare", "diff", "eval", "methods", "solve", "fit", "viewfactor", "merge", "info", "bench",
-                           "completion", "man"})
+  for (const char* verb : {"render", "bake", "view", "compare", "diff", "eval", "methods", "solve", "fit", "viewfactor", "merge", "info",
+                           "bench", "completion", "man"})
     for (const char* flag : {"--help", "--help-all"}) {
       const Outcome help = run({verb, flag});
       EXPECT_EQ(help.status, 0) << verb;

@@ -153,19 +153,17 @@ void add_bake(CommandLine& line) {
   auto options = std::make_shared<BakeArguments>();
   Verb verb = line.verb("bake", "Bake the light of a scene (.gltf, .glb) into a light map without noise");
   verb.group("Pictures");
-  verb.footer("The map stands beside the scene as .exr, with the error of each texel, and in it as PNG (docs/bake.md).");
+  verb.footer("The map stands beside the scene as .exr, with an error for each texel, and in it as PNG.");
   RenderOptions& r = options->bake.light;
   r.shadows = Shadows::on;
   verb.add("SCENE", options->scene, "scene file").required();
-  verb.add("-o,--output", options->output, "baked scene: .glb or .gltf; the map is the .exr of this name").writes(Writes::file).required();
-  verb.add("--target", options->target, "texture: a light map; vertex: the attribute _IRRADIANCE")
-      .words({"texture", "vertex"})
-      .group("Map");
+  verb.add("-o,--output", options->output, "baked scene: .glb or .gltf; its map is the .exr beside it").writes(Writes::file).required();
+  verb.add("--target", options->target, "a light map, or the attribute _IRRADIANCE").words({"texture", "vertex"}).group("Map");
   verb.add("--texels", options->bake.texels, "texels a metre").range(1e-3, 1e4).group("Map");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--group", options->groups, "lights whose names begin so get a map of their own; may be repeated").group("Light");
   verb.add("--direct", options->direct, "light of lamps and environment").words({"on", "off"}).group("Light");
-  verb.add_word("--quality", r.quality, "patches and rays of the light between surfaces").group("Light");
+  verb.add_word("--quality", r.quality, "patches and rays of --bounces").group("Light");
   verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   verb.add("--environment", options->load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");

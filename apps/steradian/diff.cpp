@@ -105,7 +105,7 @@ void add_diff(CommandLine& line) {
   verb.add("B", options->b, "reference picture").required();
   verb.add_flag("--json", options->json, "print JSON");
   verb.add("--fail-above", options->fail_above, "METRIC=VALUE of rmse, relative_l2, max: exit 1 above it");
-  verb.add("--covered-by", options->covered_by, "print the fraction of pixels within these error layers of A: LAYER,LAYER").separator(',');
+  verb.add("--covered-by", options->covered_by, "print the fraction of pixels within error layers of A: LAYER,LAYER").separator(',');
   verb.add_limits(options->limits);
   verb.callback([options, &exit = line.exit()] { run(*options, exit); });
 }
