@@ -75,7 +75,24 @@ def test_settings(steradian, scene):
     print(f"{len(commands)} commands")
 
 
+def test_bake(steradian, scene):
+    """The program takes what the button asks for, tells its share, and writes the file."""
+    program.path = lambda: steradian
+    settings = types.SimpleNamespace(shadows="on", environment="none")
+    with tempfile.TemporaryDirectory() as folder:
+        for target in ("texture", "vertex"):
+            baked = folder + f"/{target}.glb"
+            run, shares = ended(program.bake_command(scene, baked, settings, 16, "1", target, None))
+            assert run.process.returncode == 0, run.lines()
+            assert Path(baked).exists() and Path(folder, target + ".exr").exists() == (target == "texture")
+            assert shares == sorted(shares) and all(0 < share <= 1 for share in shares), shares
+            assert not any("left" in line for line in run.lines()), run.lines()
+    assert "map.exr" in program.bake_command(scene, "x.glb", types.SimpleNamespace(shadows="on", environment="world"), 16, "all", "texture", "map.exr")
+    assert program.Telling(0, "baking").line(0, 0.5) == "baking, 0 s, 50 %"
+
+
 test_render(*sys.argv[1:])
+test_bake(*sys.argv[1:])
 test_settings(*sys.argv[1:])
 test_other_lines()
 test_telling()

@@ -4,7 +4,7 @@
 #   packages   what else it asks for, with their libraries; a program that links it needs them too
 #   build_packages, build_libraries  headers that only its own build needs
 #   sources    its files, as a pattern of paths under source/
-set(STERADIAN_LAYERS integrals shadow image scene reference exchange fit plane render solve plane_vulkan)
+set(STERADIAN_LAYERS integrals shadow image scene reference exchange fit plane render bake solve plane_vulkan)
 
 # No package at all. The reference methods are part of it: `radiance` answers by them too.
 set(STERADIAN_integrals_sources "^(core|shapes|lobes|reference|integrals)/")
@@ -53,6 +53,14 @@ set(STERADIAN_render_sources "^(render/|device/([a-z_]+\\.cpp$|vulkan/|frame/|di
 set(STERADIAN_render_needs integrals shadow scene reference image)
 set(STERADIAN_render_packages TBB "embree 3")
 set(STERADIAN_render_libraries TBB::tbb embree)
+
+set(STERADIAN_bake_sources "^bake/")
+set(STERADIAN_bake_needs integrals shadow scene reference image render)
+set(STERADIAN_bake_joins TRUE)
+set(STERADIAN_bake_packages TBB "embree 3")
+set(STERADIAN_bake_libraries TBB::tbb embree)
+set(STERADIAN_bake_build_packages Eigen3)
+set(STERADIAN_bake_build_libraries Eigen3::Eigen)
 
 set(STERADIAN_solve_sources "^solve/")
 set(STERADIAN_solve_needs integrals shadow scene reference image render)

@@ -30,7 +30,7 @@ class Completion : public Program {
   // Verbs and their options, as the help tells them.
   std::map<std::string, std::set<std::string>> options() {
     std::map<std::string, std::set<std::string>> all;
-    for (const std::string verb : {"render", "view", "compare", "diff", "eval", "methods", "solve", "fit", "viewfactor", "merge", "info",
+    for (const std::string verb : {"render", "bake", "view", "compare", "diff", "eval", "methods", "solve", "fit", "viewfactor", "merge", "info",
                                    "bench", "completion", "man"})
       all[verb] = names_in(run({verb, "--help-all"}).out, "-");
     const std::string help = run({"--help"}).out;

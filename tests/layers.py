@@ -20,7 +20,7 @@ ROWS = [
     ["apps/bench"],
     ["tests"],
     ["apps/steradian/eval", "apps/viewer", "apps/command_line"],
-    ["source/device/plane", "source/solve"],
+    ["source/device/plane", "source/bake", "source/solve"],
     ["source/device"],
     ["source/device/frame"],
     ["source/device/surface", "source/device/bounce"],

@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
   steradian::app::CommandLine line("Light computed without sampling: area light integrals in closed form.",
                                    std::string("steradian ") + steradian::version());
   steradian::app::add_render(line);
+  steradian::app::add_bake(line);
   steradian::app::add_view(line);
   steradian::app::add_compare(line);
   steradian::app::add_diff(line);

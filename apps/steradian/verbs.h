@@ -9,6 +9,7 @@ void add_eval(CommandLine& line);
 void add_bench(CommandLine& line);
 void add_diff(CommandLine& line);
 void add_render(CommandLine& line);
+void add_bake(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_fit(CommandLine& line);
 void add_solve(CommandLine& line);

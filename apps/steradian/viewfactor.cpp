@@ -18,6 +18,7 @@
 #include "exchange/files/scene_faces.h"
 #include "exchange/files/unfinished.h"
 #include "exchange/files/vs3.h"
+#include "merge_maps.h"
 #include "steradian/error.h"
 #include "steradian/version.h"
 #include "steradian/view_factors.h"
@@ -305,6 +306,7 @@ struct MergeArguments {
 };
 
 void merge(const MergeArguments& arguments) {
+  if (arguments.parts[0].ends_with(".exr")) return merge_maps(arguments.parts, arguments.output, arguments.limits);
   check_factors_name(arguments.output);
   Budget budget(arguments.limits);
   StoredRun all;
@@ -356,10 +358,10 @@ void add_viewfactor(CommandLine& line) {
 
 void add_merge(CommandLine& line) {
   auto a = std::make_shared<MergeArguments>();
-  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor --part");
+  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor --part or bake --part");
   verb.group("View factors");
-  verb.add("PARTS", a->parts, "files of all parts (.npz)").required();
-  verb.add("-o,--output", a->output, "view factors (.npz, .mtx)").required().writes(Writes::file);
+  verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake)").required();
+  verb.add("-o,--output", a->output, "view factors (.npz, .mtx), or the baked scene (.glb, .gltf)").required().writes(Writes::file);
   verb.add_limits(a->limits);
   verb.callback([a] { merge(*a); });
 }

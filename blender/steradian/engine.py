@@ -8,6 +8,7 @@ import time
 import bpy
 
 from . import program, world
+from .bake import BakeOperator
 from .export import export
 from .viewport import Viewport
 
@@ -166,9 +167,10 @@ class SettingsPanel(bpy.types.Panel):
             self.layout.prop(context.scene.steradian, name)
         for name in ("view_transform", "exposure"):
             self.layout.prop(context.scene.view_settings, name)
+        self.layout.operator(BakeOperator.bl_idname)
 
 
-CLASSES = (Settings, Preferences, SteradianEngine, SettingsPanel)
+CLASSES = (Settings, Preferences, SteradianEngine, BakeOperator, SettingsPanel)
 
 
 def panels_of_others():

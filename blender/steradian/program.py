@@ -27,7 +27,15 @@ def render_command(glb, picture, width, height, settings, aa, world):
             *terminator, "--indirect", settings.indirect, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
 
 
-PROGRESS = re.compile(r"^render +(\d+\.\d) %  .* left$")  # a line of the program's, one a second
+def bake_command(glb, output, settings, texels, bounces, target, world):
+    """What bakes a file of the add-on's export. world: a map, or None."""
+    environment = {"world": world, "none": None}.get(settings.environment, settings.environment)
+    around = ["--environment", environment] if environment else []
+    return [path(), "bake", glb, "-o", output, "--texels", f"{texels:g}", "--bounces", bounces, "--target", target, "--shadows", settings.shadows,
+            "--light-units", "candela", *around]
+
+
+PROGRESS = re.compile(r"^(?:render|bake) +(\d+\.\d) %  .* left$")  # a line of the program's, one a second
 
 
 class Run:
@@ -77,12 +85,12 @@ class Run:
 class Telling:
     """A line for Blender's status, at most once a second: without a window Blender prints each as a line of its own."""
 
-    def __init__(self, now):
-        self.begin, self.next = now, now
+    def __init__(self, now, doing="rendering"):
+        self.begin, self.next, self.doing = now, now, doing
 
     def line(self, now, share):
         """None where the last is not a second old."""
         if now < self.next:
             return None
         self.next = now + 1
-        return f"rendering, {now - self.begin:.0f} s" + ("" if share is None else f", {100 * share:.0f} %")
+        return f"{self.doing}, {now - self.begin:.0f} s" + ("" if share is None else f", {100 * share:.0f} %")

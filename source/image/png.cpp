@@ -158,6 +158,8 @@ std::string encode_png(const Picture& picture, float exposure_stops, ToneCurve c
 
 std::string encode_png_bytes(int width, int height, const RowOfBytes& fill) { return encode(width, height, Channels::rgb, {}, fill); }
 
+std::string encode_png_rgba(int width, int height, const RowOfBytes& fill) { return encode(width, height, Channels::rgba, {}, fill); }
+
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
   OpenPng open;
   open.codec.at = bytes.data();

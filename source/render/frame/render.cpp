@@ -18,6 +18,7 @@
 #include "render/frame/all_light.h"
 #include "render/frame/frame_surfaces.h"
 #include "render/frame/methods.h"
+#include "render/frame/surface_light.h"
 #include "render/frame/tile_lighting.h"
 #include "render/frame/timed_picture.h"
 #include "render/sampled/monte_carlo.h"
@@ -318,12 +319,7 @@ class Renderer {
             if (options_.progress) options_.progress(++done_, steps_);
           },
           [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
-            constexpr std::size_t kMostLights = 64, kMostPlaces = 16, kPlaces = 32;
-            DirectSampler& sampler = *samplers_.local();
-            const std::size_t lights = sampler.light_count() + (environment() != nullptr ? 1 : 0);
-            if (lights == 0 || lights > kMostLights) return;
-            reference::Random random(number);
-            sampler.find_incident(surface, static_cast<int>(std::clamp(kPlaces / lights, std::size_t{1}, kMostPlaces)), random, found);
+            find_incident_on_patch(*samplers_.local(), environment() != nullptr, surface, number, found);
           },
           [this](SurfaceTile& tile) { light_directly(tile, false); });
     });

@@ -55,19 +55,6 @@ Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)};
 }
 
-// Stores a white diffuse surface in the place of another.
-void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
-  static const SurfaceMaterial plain;
-  Surface white;
-  white.position = s.position;
-  white.normal = white.coat_normal = s.normal;
-  white.geometric_normal = s.geometric_normal;
-  white.tangent = s.tangent;
-  white.albedo = {1, 1, 1};
-  white.material = &plain;
-  put_surface(tile, slot, white, s.geometric_normal);
-}
-
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
 std::size_t tiles_for(std::size_t patches) { return (patches + kTilePatches - 1) / kTilePatches; }
 
@@ -80,6 +67,18 @@ void each(std::size_t count, Work work) {
 }
 
 }  // namespace
+
+void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
+  static const SurfaceMaterial plain;
+  Surface white;
+  white.position = s.position;
+  white.normal = white.coat_normal = s.normal;
+  white.geometric_normal = s.geometric_normal;
+  white.tangent = s.tangent;
+  white.albedo = {1, 1, 1};
+  white.material = &plain;
+  put_surface(tile, slot, white, s.geometric_normal);
+}
 
 PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
                        const AddDirect& add_direct, const FindIncident& find_incident)

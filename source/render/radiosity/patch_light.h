@@ -19,6 +19,9 @@ struct PatchOptions {
   Quality quality = Quality::normal;
 };
 
+// Stores a white diffuse surface in the place of another, so that the radiance that it reflects is its irradiance over pi.
+void put_white(SurfaceTile& tile, std::size_t slot, const Surface& surface);
+
 // A place that stands for an equal part of the light of all bright sides, which few directions of a gather would meet.
 struct BrightPlace {
   Vec3f position, normal;

@@ -308,4 +308,21 @@ PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, s
   return result;
 }
 
+std::vector<int> triangle_primitives(const GltfDocument& document, int mesh) {
+  Warnings said;
+  const Context c{document, said, document.count("accessors")};
+  std::vector<int> numbers;
+  for (const UsablePrimitive& primitive : usable_mesh(c, document.object("meshes", mesh), document.count("materials")).primitives)
+    numbers.push_back(primitive.number);
+  return numbers;
+}
+
+std::vector<std::uint32_t> read_corners(const GltfDocument& document, int mesh, int primitive) {
+  Warnings said;
+  const Context c{document, said, document.count("accessors")};
+  const JsonCursor json = document.object("meshes", mesh).elements("primitives")[static_cast<std::size_t>(primitive)];
+  const std::size_t vertices = checked_count(document, c.attribute(json.at("attributes"), "POSITION"));
+  return read_indices(c, json, vertices, static_cast<int>(json.integer("mode", kTriangles, 0, 6)));
+}
+
 }  // namespace steradian::scene

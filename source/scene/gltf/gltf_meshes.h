@@ -20,4 +20,10 @@ struct PlacedMeshes {
 PlacedMeshes read_meshes(const GltfDocument& document, const GltfNodes& nodes, std::vector<SurfaceMaterial>& materials, Warnings& warnings,
                          KeptMeshes* kept = nullptr);
 
+// The numbers of a mesh's primitives that yield triangles. A node that shows the mesh has one Mesh for each, in this order.
+std::vector<int> triangle_primitives(const GltfDocument& document, int mesh);
+
+// The vertices of a primitive's triangles, three each, in the order in which read_meshes reads them.
+std::vector<std::uint32_t> read_corners(const GltfDocument& document, int mesh, int primitive);
+
 }  // namespace steradian::scene

@@ -1,4 +1,4 @@
-import { Color, ColorRepresentation, MeshStandardMaterial, Object3D, Vector2, Vector3 } from 'three';
+import { Color, ColorRepresentation, DataTexture, MeshStandardMaterial, Object3D, Vector2, Vector3 } from 'three';
 
 /** What the lights of this package have in common. They shine along their local -z, as RectAreaLight does. */
 export class AreaLight extends Object3D {
@@ -54,6 +54,21 @@ export class GLTFAreaLights {
 	readonly name: 'EXT_lights_area';
 	createNodeAttachment( nodeIndex: number ): Promise<AreaLight | null>;
 	afterRoot( result: { userData: Record<string, unknown> } ): Promise<void>;
+}
+
+/** Light maps of `steradian bake` for GLTFLoader: loader.register( ( parser ) => new GLTFLightMaps( parser ) ). */
+export class GLTFLightMaps {
+	constructor( parser: unknown );
+	readonly name: 'STERADIAN_light_maps';
+	afterRoot( result: { scenes: Object3D[]; userData: Record<string, unknown> } ): Promise<void>;
+}
+
+/** gltf.userData.lightMaps: the maps of groups of lights, and the texture that shows their sum. */
+export class LightMaps {
+	readonly groups: { name: string; intensity: number }[];
+	readonly texture: DataTexture;
+	/** Factors by the names of groups; others stay. */
+	setIntensities( factors: Record<string, number> ): void;
 }
 
 /** The lights that patched materials see, besides three's RectAreaLights. Its members may move; which they are is fixed. */

@@ -9,6 +9,7 @@ import { ltcTables } from './tables.js';
 
 export { AreaLight, DiskAreaLight, PolygonAreaLight, SphereAreaLight, TubeAreaLight } from './lights.js';
 export { GLTFAreaLights } from './gltf.js';
+export { GLTFLightMaps, LightMaps } from './lightmaps.js';
 
 /** The lights that patched materials see, besides three's RectAreaLights. Its members may move; which they are is fixed. */
 export class AreaLightSet {

@@ -1,0 +1,291 @@
+#include "bake/bake.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <span>
+
+#include "bake/charts/atlas.h"
+#include "bake/charts/charts.h"
+#include "bake/fit_space.h"
+#include "bake/hat_fit.h"
+#include "bake/sample_light.h"
+#include "bake/charts/seams.h"
+#include "render/tile/pass_clock.h"
+#include "steradian/area_light.h"  // luminance
+#include "steradian/error.h"
+
+namespace steradian::bake {
+namespace {
+
+constexpr std::size_t kMostBlocks = std::size_t{1} << 12;  // of samples in memory at a time, unless one group has more
+
+double luminance_of(Vec3d v) { return luminance(v); }
+
+// The work on one map.
+class MapBake {
+ public:
+  MapBake(Scene& scene, const BakeOptions& options, const std::string& place, Budget& budget, BakeStats& stats)
+      : scene_(scene), options_(options), place_(place), budget_(budget), stats_(stats) {}
+
+  LightMap empty() {
+    prepare();
+    return std::move(map_);
+  }
+
+  LightMap run() {
+    prepare();
+    const std::vector<Group> groups = find_groups();
+    take_memory_of(groups);
+    std::size_t tiles = 0;
+    for (const Group& group : groups) tiles += blocks_in(group);
+    tiles = (tiles + SampleLight::kBlocksPerTile - 1) / SampleLight::kBlocksPerTile + groups.size();
+    steps_ = SurfaceLight::solve_steps(scene_, options_.light) + tiles;
+    const auto start = Clock::now();
+    SampleLight light(scene_, options_.light, options_.direct == BakedDirect::on ? SurfaceLight::Direct::on : SurfaceLight::Direct::off,
+                      [&] { advance(1); });
+    stats_.solve_ms = ms_since(start);
+    std::uint64_t number = 0;
+    for (std::size_t first = 0; first < groups.size() && !stopped(); ++number) {
+      std::size_t last = first, blocks = 0;
+      while (last < groups.size() && (last == first || blocks + blocks_in(groups[last]) <= kMostBlocks))
+        blocks += blocks_in(groups[last++]);
+      if (number % options_.parts == options_.part - 1) bake_groups(std::span(groups).subspan(first, last - first), number, light);
+      first = last;
+    }
+    finish(light);
+    return std::move(map_);
+  }
+
+ private:
+  using Group = std::vector<std::uint32_t>;  // charts that are fitted together
+
+  // Finds the charts, cuts them at contacts and gives them texels.
+  void prepare() {
+    Charts charts = charts_of(scene_, place_);
+    map_.warnings = std::move(charts.warnings);
+    map_.charts = std::move(charts.charts);
+    if (map_.charts.empty()) throw Error(place_, "has no surface that takes light", "bake a scene with lit meshes");
+    CutScene cut = cut_at_contacts(std::move(scene_), map_.charts, options_.texels);
+    scene_ = std::move(cut.scene);
+    map_.cuts = std::move(cut.corners);
+    map_.warnings.insert(map_.warnings.end(), cut.warnings.begin(), cut.warnings.end());
+    const MapSize size = place_charts(map_.charts, options_.texels, place_);
+    stats_.cut = cut.cut;
+    stats_.charts = map_.charts.size();
+    if (options_.target == BakeTarget::vertex) {
+      map_.corners.resize(scene_.meshes.size());
+      return;
+    }
+    map_.width = size.width;
+    map_.height = size.height;
+    const auto texels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    budget_.take_memory(place_, "the texels of the map", texels * 2 * sizeof(Vec3f));
+    map_.irradiance.resize(texels);
+    map_.error.resize(texels);
+    seams_ = seams_of(scene_, map_.charts);
+    seams_of_.resize(map_.charts.size());
+    for (const Seam& seam : seams_) seams_of_[seam.chart[0]].push_back(&seam);
+    stats_.seams = seams_.size();
+  }
+
+  // Charts that seams join; for vertices those of one mesh.
+  std::vector<Group> find_groups() const {
+    if (options_.target == BakeTarget::texture) return joined_charts(map_.charts.size(), seams_);
+    std::map<std::uint32_t, Group> by_mesh;
+    for (std::uint32_t c = 0; c < map_.charts.size(); ++c) by_mesh[map_.charts[c].mesh].push_back(c);
+    std::vector<Group> groups;
+    for (auto& [mesh, group] : by_mesh) groups.push_back(std::move(group));
+    return groups;
+  }
+
+  std::unique_ptr<const FitSpace> space_of(const Group& group) {
+    const std::uint32_t mesh = map_.charts[group.front()].mesh;
+    if (options_.target == BakeTarget::vertex)
+      return std::make_unique<const VertexSpace>(scene_.meshes[mesh], map_.charts, group, map_.corners[mesh]);
+    std::vector<const Seam*> seams;
+    for (const std::uint32_t c : group) seams.insert(seams.end(), seams_of_[c].begin(), seams_of_[c].end());
+    return std::make_unique<const TexelSpace>(map_.charts, group, std::move(seams), 1 / options_.texels, map_);
+  }
+
+  bool stopped() const { return options_.light.stop != nullptr && options_.light.stop->load(std::memory_order_relaxed); }
+  void advance(std::uint64_t steps) {
+    done_ += steps;
+    if (options_.light.progress) options_.light.progress(std::min<std::uint64_t>(done_, steps_), steps_);
+  }
+  std::size_t blocks_in(const Group& group) const {
+    std::size_t blocks = 0;
+    for (const std::uint32_t c : group) {
+      const Chart& chart = map_.charts[c];
+      if (!chart.is_covered) blocks += static_cast<std::size_t>((chart.width + 1) / 2) * static_cast<std::size_t>((chart.height + 1) / 2);
+    }
+    return blocks;
+  }
+
+  // The factors of a grid of n texels have about 8 n log2 n numbers.
+  void take_memory_of(const std::vector<Group>& groups) {
+    std::uint64_t most = 0;
+    std::uint32_t chart = 0;
+    for (const auto& group : groups) {
+      const double n = static_cast<double>(space_of(group)->count());
+      const auto bytes = static_cast<std::uint64_t>(n * (200 + 100 * std::log2(n)));
+      if (bytes > most) most = bytes, chart = group.front();
+    }
+    budget_.take_memory(place_ + ": " + name_of(scene_.meshes[map_.charts[chart].mesh], map_.charts[chart].mesh), "the fit of its texels",
+                        most);
+    budget_.take_memory(place_, "the samples of the map", kMostBlocks * (sizeof(PlacedBlock) + sizeof(LitBlock)));
+  }
+
+  // number: of the batch, which does not depend on the part.
+  void bake_groups(std::span<const Group> groups, std::uint64_t number, SampleLight& light) {
+    std::vector<PlacedBlock> blocks;
+    std::vector<std::size_t> first_of(groups.size() + 1, 0);
+    std::vector<std::uint32_t> chart_of;  // by block
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      for (const std::uint32_t c : groups[g]) {
+        const Chart& chart = map_.charts[c];
+        if (chart.is_covered) continue;
+        for (const SampleBlock& block : samples_of(chart, scene_.meshes[chart.mesh])) {
+          blocks.push_back({chart.mesh, block});
+          chart_of.push_back(c);
+        }
+      }
+      first_of[g + 1] = blocks.size();
+    }
+    const auto start = Clock::now();
+    const std::vector<LitBlock> lit = light.of(blocks, number << 32);
+    stats_.sample_ms += ms_since(start);
+    if (stopped()) return;
+    const auto fit_start = Clock::now();
+    std::vector<GroupSums> sums(groups.size());
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+      const std::size_t first = first_of[g], count = first_of[g + 1] - first;
+      sums[g] = fit(groups[g], std::span(blocks).subspan(first, count), std::span(lit).subspan(first, count),
+                    std::span(chart_of).subspan(first, count));
+      advance(1);
+    });
+    for (const GroupSums& s : sums) {
+      total_.area += s.area;
+      total_.light += s.light;
+      total_.residual += s.residual;
+      total_.error += s.error;
+      stats_.samples += s.samples;
+    }
+    stats_.fit_ms += ms_since(fit_start);
+  }
+
+  struct GroupSums {
+    double area = 0, light = 0, residual = 0, error = 0;  // squares of the last two, all times area
+    std::size_t samples = 0;
+  };
+
+  GroupSums fit(const Group& group, std::span<const PlacedBlock> blocks, std::span<const LitBlock> lit,
+                std::span<const std::uint32_t> chart_of) {
+    GroupSums sums;
+    const std::unique_ptr<const FitSpace> space = space_of(group);
+    HatFit equations(space->count());
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      for (std::size_t i = 0; i < 16; ++i) {
+        const Sample& sample = blocks[b].samples[i];
+        if (sample.area > 0) equations.add_value(space->at(chart_of[b], sample), sample.area, static_cast<Vec3d>(lit[b][i].irradiance));
+      }
+    space->add_conditions(equations);
+    const std::vector<Vec3d> values = equations.solve();
+
+    std::vector<Vec3d> squares(space->count());
+    std::vector<double> weight(space->count(), 0.0);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      for (std::size_t i = 0; i < 16; ++i) {
+        const Sample& sample = blocks[b].samples[i];
+        if (!(sample.area > 0)) continue;
+        const auto hats = space->at(chart_of[b], sample);
+        Vec3d shown{};
+        for (const Hat& h : hats) shown += values[h.unknown] * h.value;
+        const Vec3d d = shown - static_cast<Vec3d>(lit[b][i].irradiance), e = static_cast<Vec3d>(lit[b][i].error);
+        for (const Hat& h : hats) {
+          squares[h.unknown] += (d * d + e * e) * (h.value * sample.area);
+          weight[h.unknown] += h.value * sample.area;
+        }
+        sums.area += sample.area;
+        sums.light += luminance_of(static_cast<Vec3d>(lit[b][i].irradiance)) * sample.area;
+        sums.residual += luminance_of(d * d) * sample.area;
+        sums.error += luminance_of(e * e) * sample.area;
+        ++sums.samples;
+      }
+    for (std::size_t n = 0; n < squares.size(); ++n) {
+      const Vec3d mean = weight[n] > 0 ? squares[n] / weight[n] : Vec3d{};
+      squares[n] = {std::sqrt(mean.x), std::sqrt(mean.y), std::sqrt(mean.z)};
+    }
+    space->store(values, squares);
+    return sums;
+  }
+
+  void finish(const SampleLight& light) {
+    if (stopped()) return;
+    advance(steps_ > done_ ? steps_ - done_ : 0);
+    const double mean = total_.area > 0 ? total_.light / total_.area : 0;
+    stats_.mean = mean;
+    const auto relative = [&](double sum) { return mean > 0 ? std::sqrt(sum / total_.area) / mean : 0; };
+    stats_.rms_residual = relative(total_.residual);
+    stats_.rms_error = relative(total_.error);
+    stats_.patches = light.surfaces().patches();
+    stats_.shadow_fallback = light.surfaces().shadow_fallback();
+    if (options_.target == BakeTarget::texture)
+      for (const Chart& chart : map_.charts)
+        stats_.texels += static_cast<std::size_t>(chart.width) * static_cast<std::size_t>(chart.height);
+    if (options_.parts > 1) return;  // the other sides of seams may lack
+    for (const Seam& seam : seams_) {
+      const int places = 3 * TexelSpace::places_on(seam);
+      for (int k = 0; k <= places; ++k) {
+        const double t = static_cast<double>(k) / places;
+        const auto shown = [&](std::size_t side) {
+          return shown_at(map_.irradiance, map_.width, seam.ends[side][0] + (seam.ends[side][1] - seam.ends[side][0]) * t);
+        };
+        const Vec3d d = shown(0) - shown(1);
+        if (mean > 0)
+          stats_.largest_seam = std::max(stats_.largest_seam, std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)}) / mean);
+      }
+    }
+  }
+
+  Scene& scene_;
+  const BakeOptions& options_;
+  const std::string& place_;
+  Budget& budget_;
+  BakeStats& stats_;
+  LightMap map_;
+  std::vector<Seam> seams_;
+  std::vector<std::vector<const Seam*>> seams_of_;  // by their first chart
+  GroupSums total_;
+  std::uint64_t steps_ = 0;
+  std::atomic<std::uint64_t> done_{0};
+};
+
+}  // namespace
+
+LightMap bake_map(Scene scene, const BakeOptions& options, const std::string& place, Budget& budget, BakeStats* stats) {
+  BakeOptions own = options;
+  own.light.width = own.light.height = 16;  // of a camera that nothing looks through
+  own.light.lights = LightSum::all;
+  own.light.aa = 1;
+  BakeStats unread;
+  LightMap map;
+  const auto run = [&] { map = MapBake(scene, own, place, budget, stats != nullptr ? *stats : unread).run(); };
+  if (own.light.threads > 0)
+    tbb::task_arena(own.light.threads).execute(run);
+  else
+    run();
+  return map;
+}
+
+LightMap empty_map(Scene scene, const BakeOptions& options, const std::string& place, Budget& budget) {
+  BakeStats unread;
+  return MapBake(scene, options, place, budget, unread).empty();
+}
+
+}  // namespace steradian::bake

@@ -1,0 +1,23 @@
+// Places charts in a map, so that no bilinear look-up at a place of a chart reads a texel of another one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/charts/chart.h"
+
+namespace steradian::bake {
+
+inline constexpr int kLargestMap = 16384;  // texels a side, which graphics cards take
+
+struct MapSize {
+  int width = 0, height = 0;
+};
+
+// Makes the charts' coordinates texels. Each chart is stretched to a whole number of texels, so that its first and last texel centres lie
+// on its border. Throws Error(place, ...) for maps of more than kLargestMap a side.
+//
+//   texels  a metre
+MapSize place_charts(std::vector<Chart>& charts, double texels, const std::string& place);
+
+}  // namespace steradian::bake
