@@ -1,5 +1,6 @@
 // `steradian solve` as a process: pictures, illuminances, the written file, and errors.
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -92,6 +93,33 @@ TEST_F(Program, SolveMovesALampToWhereItsPictureWasTaken) {
   ASSERT_EQ(again.status, 0) << again.err;
   for (const json& p : json::parse(again.out)["parameters"])
     EXPECT_NEAR(p["value"].get<double>(), p["start"].get<double>(), 1e-4) << p["name"];
+}
+
+// The lamp's node has a child of its own and a parent that turns, moves and scales it.
+TEST_F(Program, SolveTurnsALampWithinItsParents) {
+  const std::string target = folder / "target.exr", solved = folder / "solved.gltf";
+  const auto file = [&](const char* name, const json& translation, const json& rotation) {
+    RoomFile room({{0, 2, 0}});
+    json& nodes = room.file.json["nodes"];
+    nodes[2]["translation"] = translation;
+    nodes[2]["rotation"] = rotation;
+    nodes[2]["children"] = {room.file.append("nodes", {{"name", "empty"}})};
+    const int parent = room.file.append(
+        "nodes",
+        {{"name", "arm"}, {"translation", {0.2, 1, -0.1}}, {"rotation", {0, 0.6, 0, 0.8}}, {"scale", {2, 2, 2}}, {"children", {2}}});
+    room.file.json["scenes"][0]["nodes"] = {0, 1, 3, parent};
+    return room.write(folder / name);
+  };
+  const std::string truth = file("truth.gltf", {0.1, 0.5, 0.2}, {-0.69, 0.1, 0.05, std::sqrt(1 - 0.69 * 0.69 - 0.0125)});
+  const std::string scene = file("scene.gltf", {0, 0.45, 0}, {-0.70710678, 0, 0, 0.70710678});
+  ASSERT_EQ(run({"render", truth, "-o", target, "--size", "96x54"}).status, 0);
+  const Outcome made = run({"solve", scene, "--target", target, "--fit", "panel:position,rotation,size,power", "-o", solved});
+  ASSERT_EQ(made.status, 0) << made.out << made.err;
+  ASSERT_EQ(run({"render", solved, "-o", folder / "again.exr", "--size", "96x54"}).status, 0);
+  const Outcome compared = run({"diff", folder / "again.exr", target, "--fail-above", "relative_l2=1e-3"});
+  EXPECT_EQ(compared.status, 0) << compared.out << compared.err << made.out;
+  const json after = json::parse(contents(solved));
+  EXPECT_EQ(after["nodes"][2]["translation"], json::parse(contents(scene))["nodes"][2]["translation"]) << "the child stays in its place";
 }
 
 TEST_F(Program, SolveCopiesALightThatNodesShare) {

@@ -49,8 +49,8 @@ struct LightFit {
   double keep = 0;  // weight of staying at the start: one residual a parameter, its change over its typical size
 };
 
-// Lights that follow the first one: in the parameters of these that the first one's fit has free. A mirror is a plane; without one,
-// followers move as the first light does.
+// Lights that follow the first one in the parameters that its fit has free. With a mirror, which is a plane, a follower has the place of
+// the first light's image, and turns as it does. Without one, followers move by the same distance.
 struct LightTie {
   std::vector<std::size_t> lights;
   bool has_mirror = false;

@@ -187,6 +187,13 @@ FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits
       lights_.back().mirrored = tie.has_mirror;
       lights_.back().mirror_point = tie.mirror_point;
       lights_.back().mirror_normal = normalized(tie.mirror_normal);
+      const bool colored = std::any_of(lights_[number].unknowns.begin(), lights_[number].unknowns.end(),
+                                       [&](std::size_t u) { return unknowns_[u].kind == UnknownKind::red; });
+      if (colored) {
+        Vec3d& radiance = radiance_of(lights_.back().start);
+        const double white = luminance(radiance);
+        radiance = {white, white, white};
+      }
     }
   }
   if (problems.empty() && unknowns_.empty())
@@ -317,7 +324,10 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
   if (!has_second && !(light.is_punctual) && !std::holds_alternative<Capsule>(light.area.shape)) motion.f2 = motion.f1;
   if (driven.mirrored) {
     const Vec3d n = driven.mirror_normal;
-    by = by - n * (2 * dot(n, by));
+    const bool placed = std::any_of(leader.unknowns.begin(), leader.unknowns.end(),
+                                    [&](std::size_t i) { return unknowns_[i].kind == UnknownKind::position_x; });
+    const Vec3d there = from + by;
+    by = placed ? there - n * (2 * dot(n, there - driven.mirror_point)) - motion.center : Vec3d{};
     rotation = -(rotation - n * (2 * dot(n, rotation)));  // an axial vector
   }
   motion.by = by;

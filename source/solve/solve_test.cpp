@@ -260,6 +260,27 @@ TEST(Solve, LightsADeskByTwelvePanels) {
     }
 }
 
+// Two lamps, one the image of the other in the plane x = 0, with a color of their own for each channel.
+TEST(Solve, MovesTiedLightsTogether) {
+  Scene scene = room();
+  scene.area_lights = {panel({-1.3, 2.4, -0.7}, 0.8, 0.8, {9, 4, 1}, {0.2, 0, 0.1}),
+                       panel({1.3, 2.4, -0.7}, 0.8, 0.8, {9, 4, 1}, {0.2, 0, -0.1})};
+  const PictureTarget target = picture_of(scene, 64, 36);
+  scene.area_lights = {panel({-0.8, 2.2, -0.3}, 0.8, 0.8, {5, 5, 0}), panel({0.9, 2.3, -0.2}, 0.8, 0.8, {5, 5, 0})};
+  LightFit fit = everything(0);
+  fit.power = fit.size = false;
+  fit.color = true;
+  LightTie tie{{0, 1}, true, {0, 0, 0}, {1, 0, 0}};
+  const Solution found = solve(scene, {fit}, {tie}, {target});
+  EXPECT_LT(found.picture_error, 1e-5);
+  EXPECT_LT(length(center_of(found.area_lights[0]) - Vec3d{-1.3, 2.4, -0.7}), 1e-4);
+  EXPECT_LT(length(center_of(found.area_lights[1]) - Vec3d{1.3, 2.4, -0.7}), 1e-4);
+  EXPECT_LT(length(found.area_lights[1].radiance - Vec3d{9, 4, 1}), 1e-3);
+  ASSERT_EQ(found.changes.size(), 2u);
+  EXPECT_NEAR(found.changes[1].rotation.x, found.changes[0].rotation.x, 1e-12);
+  EXPECT_NEAR(found.changes[1].rotation.z, -found.changes[0].rotation.z, 1e-12);
+}
+
 // Places free: six panels bunched in the middle move apart until the least illuminance is over 0.65 of the mean. With all powers at once,
 // the conditions are those of the least power.
 TEST(Solve, MakesIlluminancesUniform) {
