@@ -290,22 +290,12 @@ class Renderer {
     return true;
   }
 
-  // Adds the direct light of surfaces that are not those of the picture's tiles. Shadows of patches are estimates but for the best quality.
-  void light_directly(SurfaceTile& tile, bool patches) {
+  // Adds the direct light of surfaces that are not those of the picture's tiles, whose bound it leaves as it is.
+  void light_directly(SurfaceTile& tile, Receiver receiver) {
     TileVector bound;
     if (many_lights_) bound = std::exchange(many_lights_->bound(), {});
-    const auto reaching = lights_reaching(light_pointers_, tile);
-    if (!lighting_.has_shadows()) {
-      lighting_.add(tile, reaching.lights);
-    } else if (patches && options_.quality != Quality::high) {
-      estimates_.local()->clear();
-      lighting_.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, *estimates_.local());
-    } else {
-      lighting_.add_shadowed(tile, reaching.lights);
-    }
+    DirectLight{lighting_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
     if (many_lights_) many_lights_->bound() = bound;
-    environment::HalvesOfRays halves;
-    surfaces_.add_environment(0, tile, halves);
   }
 
   // Solves the light between surfaces.
@@ -315,13 +305,13 @@ class Renderer {
       all_light_ = std::make_unique<AllLight>(
           scene_, parts_, surfaces_, options_,
           [this](SurfaceTile& tile) {
-            if (tile.any_surface) light_directly(tile, true);
+            if (tile.any_surface) light_directly(tile, Receiver::patch);
             if (options_.progress) options_.progress(++done_, steps_);
           },
           [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
             find_incident_on_patch(*samplers_.local(), environment() != nullptr, surface, number, found);
           },
-          [this](SurfaceTile& tile) { light_directly(tile, false); });
+          [this](SurfaceTile& tile) { light_directly(tile, Receiver::asked); });
     });
   }
 

@@ -54,19 +54,18 @@ std::size_t SurfaceLight::solve_steps(const Scene& scene, const RenderOptions& o
   return options.bounces == 0 ? 0 : radiosity::PatchLight::direct_tiles(scene, options.quality);
 }
 
-// Shadows of patches are estimates but for the best quality, as in pictures.
-void SurfaceLight::add_direct(SurfaceTile& tile, Receiver receiver) {
-  const auto reaching = lights_reaching(light_pointers_, tile);
-  if (!lighting_.has_shadows()) {
-    lighting_.add(tile, reaching.lights);
-  } else if (receiver == Receiver::patch && options_.quality != Quality::high) {
-    estimates_.local()->clear();
-    lighting_.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, *estimates_.local());
+void DirectLight::add(SurfaceTile& tile, Receiver receiver, EstimatedShadows& scratch) const {
+  const auto reaching = lights_reaching(lights, tile);
+  if (!lighting.has_shadows()) {
+    lighting.add(tile, reaching.lights);
+  } else if (receiver == Receiver::patch && quality != Quality::high) {
+    scratch.clear();
+    lighting.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, scratch);
   } else {
-    lighting_.add_shadowed(tile, reaching.lights);
+    lighting.add_shadowed(tile, reaching.lights);
   }
   environment::HalvesOfRays halves;
-  surfaces_.add_environment(0, tile, halves);
+  surfaces.add_environment(0, tile, halves);
 }
 
 void SurfaceLight::find(SurfaceTile& tile, Direct direct, Irradiance& result) {

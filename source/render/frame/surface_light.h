@@ -24,6 +24,18 @@ using radiosity::put_white;
 void find_incident_on_patch(DirectSampler& sampler, bool has_environment, const Surface& surface, std::uint64_t number,
                             std::vector<IncidentLight>& found);
 
+// Adds the direct light of surfaces that no camera needs to see, with the environment's. Shadows of patches are estimates but for the best
+// quality. scratch: of the caller's thread.
+enum class Receiver { patch, asked };
+struct DirectLight {
+  TileLighting& lighting;
+  FrameSurfaces& surfaces;
+  const std::vector<const PackLight*>& lights;
+  Quality quality;
+
+  void add(SurfaceTile& tile, Receiver receiver, EstimatedShadows& scratch) const;
+};
+
 class SurfaceLight {
  public:
   // Solves the light between surfaces if options.bounces asks for it, on the threads of the caller's arena. The scene and the options must
@@ -47,8 +59,9 @@ class SurfaceLight {
   std::size_t patches() const { return patches_ ? patches_->patches().side_count() / 2 : 0; }
 
  private:
-  enum class Receiver { patch, asked };
-  void add_direct(SurfaceTile& tile, Receiver receiver);
+  void add_direct(SurfaceTile& tile, Receiver receiver) {
+    DirectLight{lighting_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
+  }
 
   const RenderOptions& options_;
   const DirectMethod method_;
