@@ -28,7 +28,7 @@ int rows_for(Quality quality) {
     case Quality::high: return 32;
     case Quality::normal: break;
   }
-  return 16;
+  return 12;
 }
 
 // Quarter of the directions that one of the grid belongs to: every other row and column.
