@@ -2,9 +2,8 @@
 
 import math
 
-from gltf_writer import Gltf, Shape, box, lathe, looking, plate, rounded, tube
+from gltf_writer import DOWN, Gltf, Shape, box, lathe, looking, plate, rounded, sphere
 
-DOWN = [-math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]  # turns a light's -Z down
 PALE = (0.73, 0.73, 0.73)
 
 

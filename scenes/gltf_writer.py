@@ -10,6 +10,12 @@ import zlib
 
 COPYRIGHT = "CC0-1.0: the Steradian authors waive all rights to this scene"
 
+HALF = math.sqrt(0.5)
+DOWN = [-HALF, 0.0, 0.0, HALF]        # rotations that turn a light's -Z: down,
+TO_MINUS_X = [0.0, HALF, 0.0, HALF]   # to -x,
+TO_PLUS_X = [0.0, -HALF, 0.0, HALF]   # to +x,
+TO_PLUS_Z = [0.0, 1.0, 0.0, 0.0]      # to +z
+
 
 def rounded(x):
     return round(x, 6) + 0.0  # no negative zero

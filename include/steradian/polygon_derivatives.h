@@ -36,9 +36,9 @@ struct RadianceDerivatives {
 };
 
 // Derivatives of a light's radiance by its vertices and the normal: of phong_radiance by `series` for Phong, of the exact form for Lambert.
-// Those of GGX by the vertices are of the true integral, which closed_form_radiance approximates: 3e-4 of the largest derivative off at
-// most by `normal`, 7e-6 by `high` (Slopes.*). By the normal they are of closed_form_radiance. Throws Error for other lobes. Zero for a
-// view below the surface and from behind.
+// For GGX the derivatives by the vertices are those of the true integral, which closed_form_radiance approximates: at most 3e-4 of the
+// largest derivative off by `normal`, 7e-6 by `high` (Slopes.*). Those by the normal are of closed_form_radiance. Throws Error for other
+// lobes. Zero for a view below the surface and from behind.
 RadianceDerivatives radiance_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& material,
                                          Quality quality = Quality::normal);
 

@@ -7,9 +7,7 @@
 
 #include "render/frame/frame_surfaces.h"
 #include "render/surface/gbuffer.h"
-#include "solve/tile_slopes.h"
 #include "steradian/error.h"
-#include "steradian/polygon_derivatives.h"
 
 namespace steradian::solving {
 namespace {
@@ -18,8 +16,7 @@ constexpr double kFloor = 0.01;   // of the mean, below which root and log see n
 constexpr double kCauchy = 0.05;  // residual at which the loss turns from squares to logarithms
 constexpr double kMostBytes = 4e9;
 constexpr std::size_t kMostPixels = std::size_t{1} << 21;
-constexpr double kInside = 1e-3;      // bands are narrowed by this fraction, so that a solution is inside of them
-constexpr double kDifference = 2e-4;  // step of differences, in typical changes: rounding of floats over it is 5e-4 of the light
+constexpr double kInside = 1e-3;  // bands are narrowed by this fraction, so that a solution is inside of them
 
 // Residual space: value and slope of the function.
 struct Compared {
@@ -61,24 +58,6 @@ std::vector<bool> fitted_numbers(const Scene& scene, const FittedLights& lights)
 }
 
 std::string count_of(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
-
-// Lamps of a computation, in the order in which they were added.
-struct LampList {
-  Lamps lamps;
-  std::vector<std::pair<bool, std::size_t>> entries;  // punctual, and the number among its kind
-
-  std::size_t add(const FittedLight& light) {
-    entries.emplace_back(light.is_punctual, light.is_punctual ? lamps.punctual.size() : lamps.area.size());
-    if (light.is_punctual)
-      lamps.punctual.push_back(light.punctual);
-    else
-      lamps.area.push_back(light.area);
-    return entries.size() - 1;
-  }
-  std::size_t size() const { return entries.size(); }
-  // Number of an entry in a TileLight.
-  std::size_t place(std::size_t entry) const { return entries[entry].second + (entries[entry].first ? lamps.area.size() : 0); }
-};
 
 }  // namespace
 
@@ -164,13 +143,7 @@ FitProblem::FitProblem(const Scene& scene, const FittedLights& lights, const std
     throw Error("targets", text);
   }
   tiles_->add_fixed_light();
-  if (!lights.is_linear()) return;
-  columns_.resize(tiles_->tiles().size());
-  LampList list;
-  for (const FittedLight& light : lights.at(std::vector<double>(unknowns, 1.0))) list.add(light);
-  tiles_->light(list.lamps, [&](std::size_t tile, const TileLight& light) {
-    for (std::size_t i = 0; i < list.size(); ++i) columns_[tile].push_back(light[list.place(i)]);
-  });
+  model_.emplace(lights, *tiles_);
 }
 
 void FitProblem::add_picture(const PictureTarget& target, const std::string& name, Part& part, std::vector<std::string>& problems) {
@@ -222,121 +195,6 @@ void FitProblem::add_picture(const PictureTarget& target, const std::string& nam
   picture_residuals_ += static_cast<std::size_t>(counted);
 }
 
-namespace {
-
-std::vector<Vec3d> vertices_of(const PolygonLight& light) {
-  std::vector<Vec3d> all = light.vertices;
-  for (const auto& hole : light.holes) all.insert(all.end(), hole.begin(), hole.end());
-  return all;
-}
-
-// A polygon whose vertices move with some unknowns.
-struct MovingPolygon {
-  std::size_t light;  // among the fitted ones
-  PolygonLight stored;
-  PreparedPolygon prepared;
-  PackLight pack;
-  std::vector<VertexMotion> motions;
-  std::vector<std::size_t> unknowns;  // by motion
-
-  MovingPolygon(std::size_t number, const AreaLight& area)
-      : light(number), stored(flat_polygon(area)), prepared(prepare_polygon(stored)), pack(prepare_light(prepared)) {}
-
-  // The motion from one place to another in a time.
-  void add(std::size_t unknown, const AreaLight& from, const AreaLight& to, double time) {
-    const std::vector<Vec3d> first = vertices_of(flat_polygon(from)), last = vertices_of(flat_polygon(to));
-    VertexMotion motion;
-    for (const std::size_t i : stored_vertices(stored, prepared)) motion.push_back(static_cast<Vec3f>((last[i] - first[i]) / time));
-    motions.push_back(std::move(motion));
-    unknowns.push_back(unknown);
-  }
-};
-
-bool is_plain_polygon(const FittedLight& light) {
-  return !light.is_punctual && std::holds_alternative<Polygon>(light.area.shape) && !light.area.texture && !light.area.emission;
-}
-
-}  // namespace
-
-// The lights' value, and its derivative by every unknown: by the boundary for polygons without shadows, else by central differences.
-void FitProblem::each_tile(const std::vector<double>& x, Wants wants,
-                           const std::function<void(std::size_t, const TileVector&, const TileLight&)>& use) const {
-  const std::vector<FittedLight> lights = lights_.at(x);
-  const std::size_t unknowns = wants == Wants::derivatives ? unknown_count() : 0;
-  // slope = by[k].factor * light[by[k].lamp], summed over k
-  struct Term {
-    std::size_t lamp;
-    Vec3d factor;
-  };
-  std::vector<Term> value;
-  std::vector<std::vector<Term>> slopes(unknowns);
-  LampList list;
-  std::vector<MovingPolygon> moving;
-  const bool by_boundary = tiles_->has_slopes();
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    value.push_back({list.add(lights[i]), lights[i].scale});
-    if (by_boundary && unknowns > 0 && !lights_.is_linear() && is_plain_polygon(lights[i])) moving.emplace_back(i, lights[i].area);
-  }
-  for (std::size_t u = 0; u < unknowns; ++u) {
-    const Unknown& unknown = lights_.unknowns()[u];
-    const double step = kDifference * unknown.typical;
-    std::vector<double> there = x;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (!lights_.drives(u, i)) continue;
-      if (is_scale(unknown.kind)) {
-        const Vec3d channels = unknown.kind == UnknownKind::power   ? Vec3d{1, 1, 1}
-                               : unknown.kind == UnknownKind::red   ? Vec3d{1, 0, 0}
-                               : unknown.kind == UnknownKind::green ? Vec3d{0, 1, 0}
-                                                                    : Vec3d{0, 0, 1};
-        slopes[u].push_back({value[i].lamp, lights_.is_linear() ? channels : channels * lights[i].scale});
-        continue;
-      }
-      if (const auto polygon = std::find_if(moving.begin(), moving.end(), [&](const MovingPolygon& m) { return m.light == i; });
-          polygon != moving.end()) {
-        there[u] = x[u] - step;
-        const FittedLight from = lights_.at(there)[i];
-        there[u] = x[u] + step;
-        const FittedLight to = lights_.at(there)[i];
-        polygon->add(u, from.area, to.area, 2 * step);
-        slopes[u].push_back({value[i].lamp, (to.scale - from.scale) / (2 * step)});
-        continue;
-      }
-      for (const double side : {1.0, -1.0}) {
-        there[u] = x[u] + side * step;
-        const FittedLight moved = lights_.at(there)[i];
-        slopes[u].push_back({list.add(moved), moved.scale * (side / (2 * step))});
-      }
-    }
-  }
-  const auto add = [](TileVector& to, const TileVector& light, Vec3d factor) {
-    const auto f = static_cast<Vec3f>(factor);
-    for (std::size_t i = 0; i < kTilePixels; ++i) {
-      to.x[i] += f.x * light.x[i];
-      to.y[i] += f.y * light.y[i];
-      to.z[i] += f.z * light.z[i];
-    }
-  };
-  const auto sum = [&](std::size_t tile, const TileLight& light, const auto& place) {
-    TileVector all = tiles_->tiles()[tile].surfaces->radiance;
-    for (const Term& term : value) add(all, light[place(term.lamp)], term.factor);
-    TileLight by(unknowns);
-    for (std::size_t u = 0; u < unknowns; ++u)
-      for (const Term& term : slopes[u]) add(by[u], light[place(term.lamp)], term.factor);
-    for (const MovingPolygon& polygon : moving) {
-      TileLight motions(polygon.motions.size());
-      tile_slopes_for(active_simd()).find(*tiles_->tiles()[tile].surfaces, polygon.pack, polygon.motions, motions.data());
-      for (std::size_t k = 0; k < motions.size(); ++k)
-        add(by[polygon.unknowns[k]], motions[k], lights[polygon.light].area.radiance * lights[polygon.light].scale);
-    }
-    use(tile, all, by);
-  };
-  if (lights_.is_linear())
-    tiles_->each(columns_.size(), [&](std::size_t tile) { sum(tile, columns_[tile], [](std::size_t lamp) { return lamp; }); });
-  else
-    tiles_->light(list.lamps,
-                  [&](std::size_t tile, const TileLight& light) { sum(tile, light, [&](std::size_t lamp) { return list.place(lamp); }); });
-}
-
 void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part, const ReceivingTile& tile, const TileVector& value,
                                   const TileLight& slopes, Sums& sums) const {
   for (std::size_t i = 0; i < kTilePixels; ++i) {
@@ -367,7 +225,8 @@ FitProblem::Lux FitProblem::illuminances(const std::vector<double>& x, Wants wan
   Lux lux;
   lux.value.resize(points_);
   if (wants == Wants::derivatives) lux.slopes.resize(points_ * unknown_count());
-  each_tile(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) { take_lux(number, value, slopes, lux); });
+  model_->each(x, wants,
+               [&](std::size_t number, const TileVector& value, const TileLight& slopes) { take_lux(number, value, slopes, lux); });
   return lux;
 }
 
@@ -441,7 +300,7 @@ Evaluation FitProblem::evaluate(const std::vector<double>& x, Wants wants) const
   Lux lux;
   lux.value.resize(points_);
   if (wants == Wants::derivatives) lux.slopes.resize(points_ * unknown_count());
-  each_tile(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
+  model_->each(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
     for (std::size_t i = 0; i < parts_.size(); ++i)
       if (const auto* picture = std::get_if<PictureTarget>(&targets_[i]);
           picture != nullptr && number >= parts_[i].first_tile && number < parts_[i].last_tile)
@@ -473,7 +332,7 @@ FitProblem::Lux FitProblem::values(const std::vector<double>& x, Wants wants) co
   Lux lux;
   lux.value.resize(points_);
   lux.slopes.resize(points_ * n);
-  each_tile(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
+  model_->each(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
     take_lux(number, value, slopes, lux);
     for (std::size_t t = 0; t < parts_.size(); ++t) {
       const Part& part = parts_[t];
@@ -514,7 +373,7 @@ std::vector<double> FitProblem::wanted() const {
 
 double FitProblem::brightness(const std::vector<double>& x) const {
   std::vector<double> have(tiles_->tiles().size());
-  each_tile(x, Wants::cost, [&](std::size_t number, const TileVector& value, const TileLight&) {
+  model_->each(x, Wants::cost, [&](std::size_t number, const TileVector& value, const TileLight&) {
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const std::uint32_t at = tiles_->tiles()[number].value[i];
       if (at != kNoValue) have[number] += luminance(static_cast<Vec3d>(get(value, i)));

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "solve/fitted_lights.h"
 #include "solve/receiving_tiles.h"
+#include "solve/tile_model.h"
 
 namespace steradian::solving {
 
@@ -17,8 +19,6 @@ struct Evaluation {
   double pictures = 0;  // share of the cost that pictures have
   std::vector<double> gradient, hessian;
 };
-
-enum class Wants { cost, derivatives };
 
 class FitProblem {
  public:
@@ -61,8 +61,6 @@ class FitProblem {
   struct Sums;
   void add_picture(const PictureTarget& target, const std::string& name, Part& part, std::vector<std::string>& problems);
   void take_lux(std::size_t number, const TileVector& value, const TileLight& slopes, Lux& lux) const;
-  void each_tile(const std::vector<double>& x, Wants wants,
-                 const std::function<void(std::size_t, const TileVector&, const TileLight&)>& use) const;
   void add_picture_tile(const PictureTarget& target, const Part& part, const ReceivingTile& tile, const TileVector& value,
                         const TileLight& slopes, Sums& sums) const;
   void add_lux(const LuxTarget& target, const Part& part, const Lux& lux, Wants wants, Sums& sums) const;
@@ -73,7 +71,7 @@ class FitProblem {
   const float least_alpha_;
   std::vector<Part> parts_;  // by target
   std::unique_ptr<ReceivingTiles> tiles_;
-  std::vector<TileLight> columns_;  // of a linear problem: the light of each lamp at its start, by tile
+  std::optional<TileModel> model_;  // of tiles_, once they have all surfaces
   std::size_t residuals_ = 0, picture_residuals_ = 0, points_ = 0;
 };
 

@@ -10,8 +10,8 @@
 namespace steradian::radiosity {
 namespace {
 
-constexpr float kLeastWidth = 0.18f;  // alpha: few rays would meet the light of a narrower lobe
-constexpr float kSmall = 0.5f;        // half radius of a light over the lobe's width
+constexpr float kNarrowest = 0.18f;  // alpha: few rays would meet the light of a narrower lobe
+constexpr float kSmall = 0.5f;       // half radius of a light over the lobe's width
 
 Kernels<float>::vec3 in_kernel(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
@@ -27,8 +27,8 @@ bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::ve
   const double of_places = luminance(static_cast<Vec3d>(sum)), of_all = luminance(static_cast<Vec3d>(irradiance));
   if (!(of_places > 0) || !(of_all > 0)) return false;
   const auto scale = static_cast<float>(of_all / of_places);
-  const float alpha_x = std::max(std::hypot(surface.alpha_x, turn), kLeastWidth);
-  const float alpha_y = std::max(std::hypot(surface.alpha_y, turn), kLeastWidth);
+  const float alpha_x = std::max(std::hypot(surface.alpha_x, turn), kNarrowest);
+  const float alpha_y = std::max(std::hypot(surface.alpha_y, turn), kNarrowest);
   const auto first = static_cast<std::uint32_t>(places_.size());
   // Adds the light of some places as that of one, a cone of their solid angle. Half vectors turn by half of its radius.
   const auto half_radius = [](float solid_angle) { return 0.5f * std::sqrt(solid_angle / std::numbers::pi_v<float>); };

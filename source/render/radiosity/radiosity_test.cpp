@@ -243,7 +243,9 @@ TEST(Radiosity, GlossySurfacesSendLightInItsDirection) {
   const double mean = mean_luminance(paths), ratio = mean_luminance(ours) / mean;
   const double error = std::sqrt(std::max(squares - noise, 0.0) / static_cast<double>(paths.pixels.size())) / mean;
   std::printf("error %.2f %%, mean ratio %.4f\n", 100 * error, ratio);
-  EXPECT_LT(error, 0.1);  // 60 % where brass sends light on evenly
+  // The lit spot is ten patches wide, and its border crosses a third of its patches: a tenth of their light may lie beside its place. The
+  // mean of the paths has a standard error of 0.6 %, and the border of the spot changes its light by less than 2 %.
+  EXPECT_LT(error, 0.1);  // 0.5 where brass sends light on evenly
   EXPECT_NEAR(ratio, 1, 0.02);
 }
 

@@ -1,0 +1,30 @@
+// TileModel: the light on the tiles of a fit as a function of its unknowns, with derivatives.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solve/fitted_lights.h"
+#include "solve/receiving_tiles.h"
+
+namespace steradian::solving {
+
+enum class Wants { cost, derivatives };
+
+class TileModel {
+ public:
+  // Both must outlive this object. The tiles have all their surfaces and their fixed light.
+  TileModel(const FittedLights& lights, const ReceivingTiles& tiles);
+
+  // Calls use(number of the tile, light, its derivative by each unknown) for every tile, on all threads, in any order. The derivatives are
+  // those of the boundary for polygons without shadows, else central differences.
+  void each(const std::vector<double>& x, Wants wants,
+            const std::function<void(std::size_t, const TileVector&, const TileLight&)>& use) const;
+
+ private:
+  const FittedLights& lights_;
+  const ReceivingTiles& tiles_;
+  std::vector<TileLight> columns_;  // of a linear problem: the light of each lamp at its start, by tile
+};
+
+}  // namespace steradian::solving
