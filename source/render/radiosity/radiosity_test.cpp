@@ -34,6 +34,17 @@ double mean_luminance(const Picture& picture) {
   return sum / static_cast<double>(picture.pixels.size());
 }
 
+// Root of the mean square of the difference from paths without their noise, over the mean of the paths. share: part of the mean of the
+// channels' variances that the variance of the luminance has at least.
+double error_beyond_noise(const Picture& ours, const Picture& paths, double share) {
+  double squares = 0, noise = 0;
+  for (std::size_t i = 0; i < paths.pixels.size(); ++i) {
+    squares += std::pow(luminance(static_cast<Vec3d>(ours.pixels[i]) - static_cast<Vec3d>(paths.pixels[i])), 2);
+    noise += share * luminance(static_cast<Vec3d>(paths.layers.at("variance")[i]));
+  }
+  return std::sqrt(std::max(squares - noise, 0.0) / static_cast<double>(paths.pixels.size())) / mean_luminance(paths);
+}
+
 }  // namespace
 
 // Every place of a triangle belongs to one patch, and the middle of a patch to that patch.
@@ -162,14 +173,7 @@ TEST(Radiosity, RoomsAgreeWithPaths) {
     options.method = "reference";
     options.target_error = 0.015;
     const Picture paths = render(scene, options);
-    double squares = 0, noise = 0;
-    for (std::size_t i = 0; i < paths.pixels.size(); ++i) {
-      const double d = luminance(static_cast<Vec3d>(picture.pixels[i]) - static_cast<Vec3d>(paths.pixels[i]));
-      squares += d * d;
-      noise += luminance(static_cast<Vec3d>(paths.layers.at("variance")[i])) / 2;  // at least half of what it is for one channel
-    }
-    const double mean = mean_luminance(paths), n = static_cast<double>(paths.pixels.size());
-    const double error = std::sqrt(std::max(squares - noise, 0.0) / n) / mean, ratio = mean_luminance(picture) / mean;
+    const double error = error_beyond_noise(picture, paths, 0.5), ratio = mean_luminance(picture) / mean_luminance(paths);
     std::printf("room %d: error %.2f %%, estimated %.2f %%, mean ratio %.4f\n", k, 100 * error, 100 * stats.bounce_error, ratio);
     worst = std::max(worst, error);
     // Half of the reference's noise of 1.5 % is left in the difference, and patches are 1 % of their room's side. A mirror of roughness 0.1
@@ -235,13 +239,7 @@ TEST(Radiosity, GlossySurfacesSendLightInItsDirection) {
   options.method = "sampled";
   options.spp = 2048;
   const Picture paths = render(scene, options);
-  double squares = 0, noise = 0;
-  for (std::size_t i = 0; i < paths.pixels.size(); ++i) {
-    squares += std::pow(luminance(static_cast<Vec3d>(ours.pixels[i]) - static_cast<Vec3d>(paths.pixels[i])), 2);
-    noise += luminance(static_cast<Vec3d>(paths.layers.at("variance")[i]));  // all channels are equal
-  }
-  const double mean = mean_luminance(paths), ratio = mean_luminance(ours) / mean;
-  const double error = std::sqrt(std::max(squares - noise, 0.0) / static_cast<double>(paths.pixels.size())) / mean;
+  const double error = error_beyond_noise(ours, paths, 1), ratio = mean_luminance(ours) / mean_luminance(paths);
   std::printf("error %.2f %%, mean ratio %.4f\n", 100 * error, ratio);
   // The lit spot is ten patches wide, and its border crosses a third of its patches: a tenth of their light may lie beside its place. The
   // mean of the paths has a standard error of 0.6 %, and the border of the spot changes its light by less than 2 %.
