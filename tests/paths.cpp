@@ -2,8 +2,8 @@
 
 namespace steradian::test {
 
-const std::string kSourceDir = STERADIAN_SOURCE_DIR;
-const std::string kProgram = STERADIAN_PROGRAM;
-const std::string kFaultyDevice = STERADIAN_FAULTY_DEVICE;
+std::string find_source_dir() { return STERADIAN_SOURCE_DIR; }
+std::string find_program() { return STERADIAN_PROGRAM; }
+std::string find_faulty_device() { return STERADIAN_FAULTY_DEVICE; }
 
 }  // namespace steradian::test
