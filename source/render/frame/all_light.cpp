@@ -1,6 +1,7 @@
 #include "render/frame/all_light.h"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -9,6 +10,8 @@
 namespace steradian {
 
 namespace {
+
+constexpr float kFar = 1000;  // distance of what mirrors do not meet, in sizes of the scene
 
 void add(TileVector& to, std::size_t i, Vec3f r) {
   to.x[i] += r.x;
@@ -30,6 +33,8 @@ AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfa
         return light;
       }()),
       gather_(patches_, *parts.rays, options.quality, options.bounce_error, options.aa),
+      mirror_image_(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
+                    kFar * static_cast<float>(parts.rays->reach())),
       surfaces_(surfaces),
       add_direct_(std::move(add_direct)) {}
 
@@ -52,33 +57,40 @@ void AllLight::gather(SurfaceTile& tile, int sample, TileVector& light, TileVect
 }
 
 // Adds the light of the surfaces that mirrors show, which are lit like those that the camera sees. The lobes' integrals over the lamps
-// already hold the lamps' light.
-void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light,
-                            TileVector& error) const {
-  if (depth == 0) return;
-  const auto ways = std::make_unique<PassedRays::Ways>();
-  if (!radiosity::find_mirrored(surfaces_.rays(), tile, distance, *ways)) return;
+// already hold the lamps' light. Returns the length of each mirrored ray to what it met first, infinity where it met nothing.
+TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t seed, int sample, int depth, TileVector& light,
+                                   TileVector& error) const {
+  PassedRays::Ways& ways = mirrors.ways;
+  TilePlane reach;
+  reach.fill(std::numeric_limits<float>::infinity());
   const auto shown = std::make_unique<SurfaceTile>();
   for (int layer = 0; layer < kMostLayers; ++layer) {
-    if (layer > 0) surfaces_.look_through(*shown, *ways);
+    if (layer > 0) surfaces_.look_through(*shown, ways);
     clear_kinds(*shown);
-    shown->seed = tile.seed;
+    shown->seed = seed;
     for (std::size_t i = 0; i < kTilePixels; ++i) put_nothing(*shown, i);
-    surfaces_.passed_rays().fill(*ways, PassedRays::Lamps::hidden, *shown);
-    if (!shown->any_surface) return;
+    surfaces_.passed_rays().fill(ways, PassedRays::Lamps::hidden, *shown);
+    if (!shown->any_surface) break;
     add_direct_(*shown);
     TileVector error_of_shown{};
     gather(*shown, sample, shown->radiance, error_of_shown);
     TilePlane onwards;
-    for (std::size_t i = 0; i < kTilePixels; ++i) onwards[i] = ways->length[i] + length(get(shown->position, i) - get(ways->origin, i));
-    add_mirrored(*shown, onwards, sample, depth - 1, shown->radiance, error_of_shown);
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      const float way = length(get(shown->position, i) - get(ways.origin, i));
+      onwards[i] = ways.length[i] + way;
+      if (layer == 0 && shown->material[i] != nullptr) reach[i] = way;
+    }
+    const auto deeper = std::make_unique<radiosity::Mirrors>();
+    if (depth > 1 && radiosity::find_mirrors(surfaces_.rays(), *shown, onwards, *deeper))
+      follow_mirrors(*deeper, seed, sample, depth - 1, shown->radiance, error_of_shown);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       if (shown->material[i] == nullptr) continue;
-      steradian::add(light, i, get(shown->radiance, i) * get(ways->shares, i));
-      steradian::add(error, i, get(error_of_shown, i) * get(ways->shares, i));
+      steradian::add(light, i, get(shown->radiance, i) * get(ways.shares, i));
+      steradian::add(error, i, get(error_of_shown, i) * get(ways.shares, i));
     }
-    if (!shown->any_passing) return;
+    if (!shown->any_passing) break;
   }
+  return reach;
 }
 
 void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture) {
@@ -87,7 +99,14 @@ void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVecto
     gather(tile, sample, light, error);
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
-    add_mirrored(tile, distance, sample, reflections_, light, error);
+    const auto mirrors = std::make_unique<radiosity::Mirrors>();
+    if (reflections_ > 0 && radiosity::find_mirrors(surfaces_.rays(), tile, distance, *mirrors)) {
+      const auto first = std::make_unique<radiosity::Mirrors>(*mirrors);
+      TileVector mirrored{};
+      const TilePlane reach = follow_mirrors(*mirrors, tile.seed, sample, reflections_, mirrored, error);
+      mirror_image_.take({tile, *first, reach, mirrored, shares, weight}, area);
+      for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(light, i, get(mirrored, i));
+    }
     for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));
   });
   add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);
@@ -97,6 +116,10 @@ void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVecto
   for (std::size_t i = 0; i < kTilePixels; ++i)  // no surface reflects more than arrives
     if (tile.material[i] != nullptr) put(bound, i, {left_out, left_out, left_out});
   add_to_picture(bound, area, shares, weight, picture.layers.at("bounce_bound"), width_);
+}
+
+void AllLight::finish(Picture& picture) {
+  clock_.run([&] { mirror_image_.blur(picture); });
 }
 
 void AllLight::report(int threads, RenderStats& stats, const Picture& picture) const {

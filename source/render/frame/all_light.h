@@ -6,7 +6,7 @@
 
 #include "render/frame/frame_surfaces.h"
 #include "render/radiosity/gather.h"
-#include "render/radiosity/mirrors.h"
+#include "render/radiosity/mirror_image.h"
 #include "render/radiosity/patch_light.h"
 #include "render/tile/pass_clock.h"
 
@@ -27,11 +27,15 @@ class AllLight {
   // Adds the light of other surfaces to a tile's radiance, and `weight` of it to the layers. shares: fraction that arrives; null for all.
   void add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture);
 
+  // Blurs what mirrors show by their lobes, when all tiles have been added.
+  void finish(Picture& picture);
+
   void report(int threads, RenderStats& stats, const Picture& picture) const;
 
  private:
   void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
-  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, int sample, int depth, TileVector& light, TileVector& error) const;
+  TilePlane follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t seed, int sample, int depth, TileVector& light,
+                           TileVector& error) const;
 
   const int width_, reflections_;
   const Vec3f eye_;
@@ -39,6 +43,7 @@ class AllLight {
   PassClock clock_{"bounces"};
   const radiosity::PatchLight patches_;
   const radiosity::Gather gather_;
+  radiosity::MirrorImage mirror_image_;
   const FrameSurfaces& surfaces_;
   const AddDirect add_direct_;
 };

@@ -95,6 +95,7 @@ class Renderer {
     }
     Picture picture = options_.stop != nullptr ? state.picture : std::move(state.picture);  // no copy is needed if nothing can stop it
     if (indirect_ && !stopped()) arena_.execute([&] { indirect_->add_to(picture); });
+    if (all_light_ && !stopped()) arena_.execute([&] { all_light_->finish(picture); });
     return picture;
   }
 

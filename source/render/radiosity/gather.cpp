@@ -10,6 +10,7 @@
 #include "core/lattices.h"
 #include "lobes/lobe.h"
 #include "render/environment/environment_light.h"  // mean_grazing
+#include "render/radiosity/mirrors.h"
 
 namespace steradian::radiosity {
 namespace {
@@ -46,8 +47,10 @@ Vec3f error_of_quarters(const std::array<Vec3f, 4>& values, Vec3f mean) {
   return {std::sqrt(squares.x / 12), std::sqrt(squares.y / 12), std::sqrt(squares.z / 12)};
 }
 
-bool is_gathered(const SurfaceLobe& lobe) {
-  return lobe.material.brdf == Brdf::lambert || std::min(lobe.material.alpha_x, lobe.material.alpha_y) >= double{Gather::kLeastWidth};
+// Fraction of a lobe's light that its own directions gather.
+float gathered_fraction(const SurfaceLobe& lobe) {
+  const Material& m = lobe.material;
+  return m.brdf == Brdf::ggx ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y)) : 1;
 }
 
 // Joins the values of sixteen pixels, 4 x 4, by linear fits over those of one plane.
@@ -275,7 +278,8 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;
-    float wider;  // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss their highlights
+    double fraction;  // of the lobe that these directions gather
+    float wider;      // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss their highlights
   };
   std::array<std::optional<Walker>, kLanes> walkers;
   for (std::size_t i = 0; i < kLanes; ++i) {
@@ -285,7 +289,8 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(of[i]->normal)), tangent);
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
     if (lobe.above_surface())
-      walkers[i] = Walker{frame, lobe, static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
+      walkers[i] = Walker{frame, lobe, static_cast<double>(gathered_fraction(*of[i])),
+                          static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
   }
   BounceRays rays(rays_, light_.patches());
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
@@ -299,7 +304,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
       if (!(l.z > 0)) continue;
       const double pdf = lobe.pdf(l);
       if (!(pdf > 0)) continue;
-      weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) / (pdf * static_cast<double>(count)));
+      weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) * (walkers[i]->fraction / (pdf * static_cast<double>(count))));
       to[i] = static_cast<Vec3f>(walkers[i]->frame.to_world(l));
       rays.set(i, surfaces.surface[i], to[i]);
     }
@@ -341,7 +346,7 @@ Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample) co
     for (SurfaceLobe& lobe : lobes_of(surfaces.surface[i])) {
       if (lobe.material.brdf == Brdf::lambert)
         with_diffuse |= 1u << i;
-      else if (is_gathered(lobe))
+      else if (gathered_fraction(lobe) > 0)
         lobes[i].push_back(std::move(lobe));
     }
     most = std::max(most, lobes[i].size());

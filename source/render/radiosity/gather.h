@@ -2,7 +2,7 @@
 //
 // A diffuse lobe takes the mean over a grid of directions, weighted by the cosine. Each of 4 x 4 pixels shifts the grid by its own fraction
 // of a cell, and a linear fit over the pixels of one surface joins their means: together they see sixteen times as many directions. A
-// glossy lobe takes directions of its own. Lobes narrower than kLeastWidth would show single patches: find_mirrored serves them.
+// glossy lobe takes directions of its own. Narrow lobes would show single patches: mirrors serve them (mirrored_fraction).
 #pragma once
 
 #include <array>
@@ -16,7 +16,6 @@ namespace steradian::radiosity {
 class Gather {
  public:
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
-  static constexpr float kLeastWidth = 0.03f;  // alpha
 
   // All must outlive this object. error: fraction of the scene's mean light; pixels with a larger estimated error take up to sixteen times
   // as many directions; 0: all take as many as the quality says. samples: primary samples of a pixel, which shift the grid.

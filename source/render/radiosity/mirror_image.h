@@ -1,0 +1,62 @@
+// MirrorImage: what the mirrors of a picture show, blurred by their lobes. docs/bounces.md.
+//
+// Each mirror pixel has traced one ray, and what it met is lit. For the lobe of a pixel, the places that its neighbours have met are samples
+// of what it sees: each stands for the solid angle of its pixel's footprint there. So a pixel's image is the mean of theirs, weighted by its
+// lobe. Blocks of 2^k x 2^k pixels count as one place where the lobe hardly changes over them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/radiosity/mirrors.h"
+#include "steradian/picture.h"
+
+namespace steradian::radiosity {
+
+class MirrorImage {
+ public:
+  // pixel: size of a pixel at distance 1 before the camera. far: the distance of what mirrored rays do not meet.
+  MirrorImage(int width, int height, float pixel, float far);
+
+  // The mirrors of a tile.
+  //
+  //   reach   way of each mirrored ray to what it met; infinity where it met nothing
+  //   light   that the mirrors send to the viewer, before the blur
+  //   shares  fraction of it that arrives; null for all
+  //   weight  of these samples of the pixels
+  struct Taken {
+    const SurfaceTile& tile;
+    const Mirrors& mirrors;
+    const TilePlane& reach;
+    const TileVector& light;
+    const TileVector* shares;
+    float weight;
+  };
+  // Takes what a tile's mirrors show. Threads may take different tiles at the same time. The first sample of a pixel decides its place.
+  void take(const Taken& taken, TileArea area);
+
+  // Replaces the mirrors' sharp light by the blurred light in the pixels and in the layer "indirect". Adds to "bounce_error" what the lobes
+  // see beyond the neighbours.
+  void blur(Picture& picture) const;
+
+ private:
+  struct Pixel {
+    int x = 0, y = 0;
+    Vec3f position, normal, tangent, view, direction, place;  // place: that the ray met
+    float alpha_x = 0, alpha_y = 0, length = 0;               // length: from the viewer to the place
+    Vec3f share, light;
+    const SurfaceMaterial* material = nullptr;
+  };
+  struct Tile {
+    std::vector<Pixel> pixels;
+    std::vector<std::uint16_t> of_slot;  // number of the slot's pixel, from 1 on; 0: none
+  };
+  struct Cells;
+  float footprint(const Pixel& pixel, const std::vector<const Pixel*>& at) const;
+
+  const int width_, height_, across_;
+  const float pixel_, far_;
+  std::vector<Tile> tiles_;
+};
+
+}  // namespace steradian::radiosity
