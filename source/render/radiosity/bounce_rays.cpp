@@ -57,7 +57,9 @@ std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
     if ((asked_ >> i & 1) == 0 || met[i] == RTC_INVALID_GEOMETRY_ID) continue;
     // Embree's normal is that of the winding.
     const float towards = packet_.hit.Ng_x[i] * ray.dir_x[i] + packet_.hit.Ng_y[i] * ray.dir_y[i] + packet_.hit.Ng_z[i] * ray.dir_z[i];
-    places[i] = patches_.place_at(met[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
+    const PatchPlace place = patches_.place_at(met[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
+    const Vec3f origin = {ray.org_x[i], ray.org_y[i], ray.org_z[i]}, way = {ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]};
+    places[i] = patches_.seen_along(place, origin + way * ray.tfar[i], rays_);
   }
   asked_ = 0;
   return places;

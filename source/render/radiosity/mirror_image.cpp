@@ -12,11 +12,11 @@
 namespace steradian::radiosity {
 namespace {
 
-constexpr float kSharp = 1e-3f;        // alpha below which a lobe is narrower than a pixel of any picture
-constexpr float kWidest = 12;          // half vectors farther out than so many alphas hold 0.7 % of a lobe
-constexpr float kFine = 0.25f;  // size of a block over the distance in which the lobe changes, at the lobe's middle ...
-constexpr float kCoarse = 0.5f; // ... and far out, where little of the lobe is
-constexpr float kContinuous = 0.9f;    // cosine between normals of neighbours on one smooth surface
+constexpr float kSharp = 1e-3f;      // alpha below which a lobe is narrower than a pixel of any picture
+constexpr float kWidest = 12;        // half vectors farther out than so many alphas hold 0.7 % of a lobe
+constexpr float kFine = 0.25f;       // size of a block over the distance in which the lobe changes, at the lobe's middle ...
+constexpr float kCoarse = 0.5f;      // ... and far out, where little of the lobe is
+constexpr float kContinuous = 0.9f;  // cosine between normals of neighbours on one smooth surface
 
 Vec3f divided(Vec3f a, Vec3f by) {
   const auto one = [](float x, float y) { return y > 0 ? x / y : 0.0f; };
@@ -134,7 +134,11 @@ struct MirrorImage::Cells {
 };
 
 MirrorImage::MirrorImage(int width, int height, float pixel, float far)
-    : width_(width), height_(height), across_((width + kTileSide - 1) / kTileSide), pixel_(pixel), far_(far),
+    : width_(width),
+      height_(height),
+      across_((width + kTileSide - 1) / kTileSide),
+      pixel_(pixel),
+      far_(far),
       tiles_(static_cast<std::size_t>(across_) * static_cast<std::size_t>((height + kTileSide - 1) / kTileSide)) {}
 
 void MirrorImage::take(const Taken& taken, TileArea area) {

@@ -1,8 +1,8 @@
 // MirrorImage: what the mirrors of a picture show, blurred by their lobes. docs/bounces.md.
 //
-// Each mirror pixel has traced one ray, and what it met is lit. For the lobe of a pixel, the places that its neighbours have met are samples
-// of what it sees: each stands for the solid angle of its pixel's footprint there. So a pixel's image is the mean of theirs, weighted by its
-// lobe. Blocks of 2^k x 2^k pixels count as one place where the lobe hardly changes over them.
+// Each mirror pixel has traced one ray, and what it met is lit. For the lobe of a pixel, the places that its neighbours have met are
+// samples of what it sees: each stands for the solid angle of its pixel's footprint there. So a pixel's image is the mean of theirs,
+// weighted by its lobe. Blocks of 2^k x 2^k pixels count as one place where the lobe hardly changes over them.
 #pragma once
 
 #include <cstdint>

@@ -87,14 +87,15 @@ double seen(const Place& p, float alpha_x, float alpha_y, double from, double to
   material.f0 = material.f90 = {1, 1, 1};
   ReferenceOptions options;
   options.relative_error = options.absolute_error = 1e-3;
-  return reference_radiance(prepare_polygon(strip), {static_cast<Vec3d>(p.position), {0, 1, 0}, static_cast<Vec3d>(p.view)}, material, options)
+  return reference_radiance(prepare_polygon(strip), {static_cast<Vec3d>(p.position), {0, 1, 0}, static_cast<Vec3d>(p.view)}, material,
+                            options)
       .radiance.x;
 }
 
 }  // namespace
 
-// The edge lies between two pixels, so up to half a pixel of the bright side may count as dark. The lobe's density across an edge is at most
-// 1 / (4 alpha). Blocks of pixels add up to 1 % of the contrast.
+// The edge lies between two pixels, so up to half a pixel of the bright side may count as dark. The lobe's density across an edge is at
+// most 1 / (4 alpha). Blocks of pixels add up to 1 % of the contrast.
 TEST(MirrorImage, EdgesAreBlurredByTheLobe) {
   constexpr double kContrast = double{kBright} - double{kDark};
   for (const auto& [alpha_x, alpha_y] : {std::pair{0.01f, 0.01f}, {0.03f, 0.03f}, {0.07f, 0.07f}, {0.01f, 0.06f}}) {

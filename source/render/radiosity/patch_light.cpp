@@ -35,6 +35,12 @@ PatchSize size_for(Quality quality) {
   return {40'000, 128};
 }
 
+Patches patches_for(const Scene& scene, const RayScene& rays, Quality quality) {
+  Patches patches(scene, size_for(quality).patches);
+  patches.split(scene, rays);
+  return patches;
+}
+
 // Fractions of even light from above that a surface reflects: all, and by its glossy lobe.
 // The mean of Schlick's (1 - cos)^5 over the cosine is 1/21.
 struct Reflectance {
@@ -82,7 +88,7 @@ void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
 
 PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
                        const AddDirect& add_direct, const FindIncident& find_incident)
-    : scene_(scene), rays_(rays), maps_(maps), patches_(scene, size_for(options.quality).patches), glossy_(patches_.side_count()) {
+    : scene_(scene), rays_(rays), maps_(maps), patches_(patches_for(scene, rays, options.quality)), glossy_(patches_.side_count()) {
   const std::size_t sides = patches_.side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
@@ -185,13 +191,17 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
     for (std::size_t k = 0; k < kTileSides && number * kTileSides + k < refined.size(); ++k) {
       const std::uint32_t side = refined[number * kTileSides + k];
       std::array<Vec3f, kPatchParts>& parts = change_in_parts_[parts_of_[side]];
-      Vec3f mean{};
-      for (std::size_t i = 0; i < kPatchParts; ++i) {
+      Vec3f sum{};
+      float held = 0;
+      for (std::uint32_t i = 0; i < kPatchParts; ++i) {
         parts[i] = get(tile->radiance, k * kPatchParts + i) * reflectance_[side];
-        mean += parts[i] * (1.0f / kPatchParts);
+        if (!patches_.holds({side, i})) continue;
+        sum += parts[i];
+        held += 1;
       }
+      const Vec3f mean = held > 0 ? sum * (1 / held) : Vec3f{};
       direct_[side] = mean;
-      for (Vec3f& part : parts) part = part - mean;
+      for (std::uint32_t i = 0; i < kPatchParts; ++i) parts[i] = patches_.holds({side, i}) ? parts[i] - mean : Vec3f{};
     }
   });
 }
@@ -329,7 +339,7 @@ float PatchLight::area_of(std::uint32_t side) const {
   const Patches::Site& at = patches_.site(side);
   const Mesh& mesh = scene_.meshes[at.mesh];
   const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
-  return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * at.step * at.step;
+  return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * patches_.area(side);
 }
 
 // Largest angle between the normals at a patch's middle and its corners, where vertices have normals.

@@ -41,6 +41,7 @@ Patches::Patches(const Scene& scene, std::size_t wanted) {
     return n;
   };
   while (size > 0 && size * 1.1 * kMostCells > static_cast<double>(longest) && count(size / 1.1) <= wanted) size /= 1.1;
+  size_ = static_cast<float>(size);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
     std::vector<Grid>& grids = grids_.emplace_back();
@@ -55,6 +56,7 @@ Patches::Patches(const Scene& scene, std::size_t wanted) {
         }
     }
   }
+  grid_patches_ = sites_.size();
 }
 
 namespace {
@@ -89,7 +91,7 @@ Patches::Site Patches::site(PatchPlace place) const {
   const float third = k % 2 == 0 ? 1.0f / 3 : 2.0f / 3;
   const float x = (static_cast<float>(row) + third) / kPartsAlong - 1.0f / 3;
   const float y = (static_cast<float>(k / 2) + third) / kPartsAlong - 1.0f / 3;
-  Site at = site(place.side);
+  Site at = sites_[whole(place.side / 2)];
   // Every other patch of a grid is turned by half a turn.
   const float cell = at.u / at.step;
   const float scale = cell - std::floor(cell) > 0.5f ? -at.step : at.step;
@@ -102,7 +104,21 @@ Patches::Site Patches::site(PatchPlace place) const {
 PatchPlace Patches::place_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const {
   const Grid grid = grids_[mesh][triangle];
   const TriangleCell cell(u, v, grid.cells), part(cell.u, cell.v, kPartsAlong);
-  return {2 * (grid.first + cell.number(grid.cells)) + (front ? 0 : 1), part.number(kPartsAlong)};
+  PatchPlace at{2 * (grid.first + cell.number(grid.cells)) + (front ? 0 : 1), part.number(kPartsAlong)};
+  if (const Split* split = split_of(at.side)) at.side = split->of_parts[at.part];
+  return at;
+}
+
+bool Patches::holds(PatchPlace place) const {
+  const Split* split = split_of(place.side);
+  return split != nullptr ? split->of_parts[place.part] == place.side : place.side / 2 < grid_patches_;
+}
+
+float Patches::area(std::uint32_t side) const {
+  const float step = site(side).step;
+  std::uint32_t parts = 0;
+  for (std::uint32_t part = 0; part < kPatchParts; ++part) parts += holds({side, part}) ? 1 : 0;
+  return step * step * static_cast<float>(parts) / kPatchParts;
 }
 
 std::uint32_t Patches::group_of(std::uint32_t side) const {

@@ -103,6 +103,18 @@ TEST(Radiosity, NoLightEntersAClosedBox) {
   for (const Vec3f& p : render(scene, options_for(16, kAllBounces)).pixels) EXPECT_EQ(p, (Vec3f{}));
 }
 
+// A wall stands across the floor, whose patches are large. The light of one half does not enter the other through them.
+TEST(Radiosity, NoLightPassesUnderAWall) {
+  Scene scene = closed_box(0.7f, false);
+  scene.meshes.push_back(quad_mesh({0.13f, -1, -1}, {0.13f, -1, 1}, {0.13f, 1, 1}, {0.13f, 1, -1}, 0));
+  AreaLight lamp;
+  lamp.shape = Ellipsoid{{-0.4, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}};
+  lamp.radiance = {100, 100, 100};
+  scene.area_lights = {lamp};
+  scene.cameras = {camera_at({0.9, 0.3, 0.6}, {-1, -0.5, -0.9}, 1.2)};
+  for (const Vec3f& p : render(scene, options_for(32, kAllBounces)).pixels) EXPECT_EQ(p, (Vec3f{}));
+}
+
 // Two mirrors face each other before a shining wall: the number of reflections counts the images.
 TEST(Radiosity, MirrorsShowMirrorsToTheirDepth) {
   Scene scene = closed_box(0.5f, false);
