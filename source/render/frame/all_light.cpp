@@ -24,6 +24,7 @@ void add(TileVector& to, std::size_t i, Vec3f r) {
 AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
                    const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct)
     : width_(options.width),
+      bounces_(options.bounces),
       reflections_(options.reflections),
       eye_(surfaces.camera().origin()),
       patches_([&] {
@@ -73,7 +74,9 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
     if (!shown->any_surface) break;
     add_direct_(*shown);
     TileVector error_of_shown{};
-    gather(*shown, sample, shown->radiance, error_of_shown);
+    // The mirror is a bounce of its own.
+    const bool last = bounces_ == reflections_ - depth + 1;
+    if (!last) gather(*shown, sample, shown->radiance, error_of_shown);
     TilePlane onwards;
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const float way = length(get(shown->position, i) - get(ways.origin, i));
@@ -81,7 +84,7 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
       if (layer == 0 && shown->material[i] != nullptr) reach[i] = way;
     }
     const auto deeper = std::make_unique<radiosity::Mirrors>();
-    if (depth > 1 && radiosity::find_mirrors(surfaces_.rays(), *shown, onwards, *deeper))
+    if (depth > 1 && !last && radiosity::find_mirrors(surfaces_.rays(), *shown, onwards, *deeper))
       follow_mirrors(*deeper, seed, sample, depth - 1, shown->radiance, error_of_shown);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       if (shown->material[i] == nullptr) continue;

@@ -37,7 +37,7 @@ class AllLight {
   TilePlane follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t seed, int sample, int depth, TileVector& light,
                            TileVector& error) const;
 
-  const int width_, reflections_;
+  const int width_, bounces_, reflections_;
   const Vec3f eye_;
   double solve_ms_ = 0;
   PassClock clock_{"bounces"};
