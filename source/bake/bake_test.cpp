@@ -317,12 +317,21 @@ TEST(Bake, ARoomAgreesWithPaths) {
 
 // A mesh of two triangles whose second texture coordinates are wrong in some way is refused by its name.
 TEST(Bake, RefusesBrokenCharts) {
-  const auto message = [](std::vector<Vec2f> uv) {
+  // copies: of the sheet, side by side, all with the same coordinates
+  const auto message = [](const std::vector<Vec2f>& uv, int copies = 1) {
     Scene scene;
     scene.materials = {grey(0.5f)};
-    scene.meshes = {quad_mesh({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 0)};
-    scene.meshes[0].name = "sheet";
-    scene.meshes[0].texcoords[1] = std::move(uv);
+    Mesh sheet;
+    sheet.name = "sheet";
+    for (int copy = 0; copy < copies; ++copy) {
+      const float x = 2 * static_cast<float>(copy);
+      const Mesh quad = quad_mesh({x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}, 0);
+      for (const std::uint32_t i : quad.indices) sheet.indices.push_back(i + static_cast<std::uint32_t>(sheet.positions.size()));
+      sheet.positions.insert(sheet.positions.end(), quad.positions.begin(), quad.positions.end());
+      sheet.normals.insert(sheet.normals.end(), quad.normals.begin(), quad.normals.end());
+      sheet.texcoords[1].insert(sheet.texcoords[1].end(), uv.begin(), uv.end());
+    }
+    scene.meshes = {sheet};
     scene.area_lights = {square_lamp({0, 5, 0}, 1, 1)};
     scene.cameras = {Camera{}};
     try {
@@ -334,6 +343,7 @@ TEST(Bake, RefusesBrokenCharts) {
   };
   EXPECT_EQ(message({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), "");
   EXPECT_EQ(message({{0, 0}, {0, 1}, {1, 1}, {1, 0}}), "") << "mirrored as a whole";
+  EXPECT_NE(message({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 2).find("\"sheet\""), std::string::npos) << "two charts at one place";
   for (const auto& [uv, words] : {std::pair<std::vector<Vec2f>, const char*>{{{0, 0}, {1, 0}, {1, 1}, {1, 0.5f}}, "flipped"},
                                   {{{0, 0}, {1, 0}, {0, 0}, {0, 1}}, "no area"},
                                   {{{0, 0}, {1, 0}, {2, 0}, {0, 1}}, "no area"}}) {

@@ -65,8 +65,12 @@ class MeshCharts {
     for (const std::uint32_t t : order_)
       if (!(std::fabs(doubled_area(uv_of(t))) > 0))
         fail("triangle " + std::to_string(t) + " of TEXCOORD_1 has no area", "unwrap the mesh again, or remove TEXCOORD_1");
+    double longest = 0;
+    for (const std::uint32_t t : order_)
+      for (const auto at = uv_of(t); const std::size_t k : {0u, 1u, 2u}) longest = std::max(longest, length(at[(k + 1) % 3] - at[k]));
+    Overlaps overlaps(longest);
     for (const std::uint32_t seed : order_)
-      if (taken_[seed] == 0) charts.push_back(given_from(seed));
+      if (taken_[seed] == 0) charts.push_back(given_from(seed, overlaps));
     return charts;
   }
 
@@ -144,15 +148,15 @@ class MeshCharts {
     return chart;
   }
 
-  Chart given_from(std::uint32_t seed) {
+  // overlaps: the triangles of all charts before it.
+  Chart given_from(std::uint32_t seed, Overlaps& overlaps) {
     Chart chart;
     chart.mesh = number_;
-    double longest = 0, area = 0, in_map = 0;
+    double area = 0, in_map = 0;
     const auto take = [&](std::uint32_t t) {
       taken_[t] = 1;
       chart.triangles.push_back({t, uv_of(t)});
       const auto& at = chart.triangles.back().at;
-      for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, length(at[(k + 1) % 3] - at[k]));
       area += length(steradian::bake::across(mesh_, t));
       in_map += std::fabs(doubled_area(at));
     };
@@ -168,13 +172,12 @@ class MeshCharts {
       }
     }
     const bool mirrored = doubled_area(chart.triangles.front().at) < 0;
-    Overlaps overlaps(longest);
     for (ChartTriangle& t : chart.triangles) {
       if ((doubled_area(t.at) < 0) != mirrored)
         fail("triangle " + std::to_string(t.triangle) + " of TEXCOORD_1 is flipped within its chart",
              "unwrap the mesh again, or remove TEXCOORD_1");
       if (overlaps.meet(t.at))
-        fail("triangle " + std::to_string(t.triangle) + " of TEXCOORD_1 overlaps another one of its chart",
+        fail("triangle " + std::to_string(t.triangle) + " of TEXCOORD_1 overlaps another one",
              "unwrap the mesh again, or remove TEXCOORD_1");
       overlaps.add(t.at);
     }
