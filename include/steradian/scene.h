@@ -89,7 +89,7 @@ struct Mesh {
   std::vector<std::uint32_t> indices;         // three a triangle
   std::vector<std::int32_t> triangle_lights;  // emitters: into Scene::area_lights, -1 dropped; others: none
   bool is_light_shape = false;
-  bool casts_shadow = true;  // false: rays between a point and a light pass through it, as through is_light_shape
+  bool casts_shadow = true;  // false: light comes straight through it to other surfaces; a clear material tints it
 
   std::size_t triangle_count() const { return indices.size() / 3; }
   bool is_emitter() const { return !triangle_lights.empty(); }

@@ -40,7 +40,7 @@ std::vector<Camera> read_cameras(const GltfDocument& document, const GltfNodes& 
   return result;
 }
 
-// True if more than half of the light passes. Such a surface casts no shadow instead of a black one.
+// True if more than half of the light passes. Such a surface casts a tinted shadow instead of a black one.
 bool lets_light_through(const SurfaceMaterial& m) {
   if (!m.specular_override.empty()) return false;
   return (m.alpha_mode == AlphaMode::blend && m.base_color.w < 0.5f) || m.transmission > 0.5f;

@@ -39,6 +39,8 @@ std::string first_lack(const Scene& scene, const RenderOptions& options, const D
     for (const Material& lobe : m.specular_override)
       if (!direct.own_lobes().has(lobe))
         return std::string("it has no shader for the ") + name_of(lobe.brdf) + " lobe of material '" + m.name + "'";
+    if (options.shadows != steradian::Shadows::off && light_passes(scene, mesh))
+      return "it has no shadows of the clear material '" + m.name + "'";
     if (options.shadows != steradian::Shadows::off && has_bent_coats(m))
       return "it has no shadows for the coat of material '" + m.name + "', whose normal is not the surface's";
   }

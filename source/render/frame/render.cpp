@@ -53,6 +53,7 @@ class Renderer {
         lights_(prepare_lights(scene, surfaces_.environment_spots())),
         many_lights_(prepare_many_lights()),
         lighting_(scene, options, method_, lights_, parts_, many_lights_.get()),
+        tinted_(scene, options, method_, lights_, many_lights_.get()),
         samplers_([this] {
           return std::make_unique<DirectSampler>(scene_, options_.shadows != Shadows::off ? &surfaces_.rays() : nullptr,
                                                  environment() != nullptr ? &environment()->sampler() : nullptr, options_.terminator,
@@ -295,7 +296,7 @@ class Renderer {
   void light_directly(SurfaceTile& tile, Receiver receiver) {
     TileVector bound;
     if (many_lights_) bound = std::exchange(many_lights_->bound(), {});
-    DirectLight{lighting_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
+    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
     if (many_lights_) many_lights_->bound() = bound;
   }
 
@@ -352,13 +353,14 @@ class Renderer {
         const std::size_t rays = std::max(work.rays / static_cast<std::size_t>(options_.aa), std::size_t{2});
         estimate = estimates_.local().get();
         estimate->clear();
-        lighting_.add_shadowed_by_rays(tile, reaching.lights, rays, sample, *estimate);
+        tinted_.add(tile, lighting_,
+                    [&](TileLighting& past) { past.add_shadowed_by_rays(tile, reaching.lights, rays, sample, *estimate); });
       } else if (lighting_.has_shadows() && work.by == ShadowsBy::edges) {
         if (lighting_.may_estimate()) {
           estimate = estimates_.local().get();
           estimate->clear();
         }
-        lighting_.add_shadowed(tile, reaching.lights, sample, estimate);
+        tinted_.add(tile, lighting_, [&](TileLighting& past) { past.add_shadowed(tile, reaching.lights, sample, estimate); });
       } else {
         lighting_.add(tile, reaching.lights);
       }
@@ -437,6 +439,7 @@ class Renderer {
   const std::vector<const PackLight*> light_pointers_ = pointers_to(lights_);
   const std::unique_ptr<ManyLightPass> many_lights_;  // null if each light is summed by itself
   TileLighting lighting_;
+  const TintedShadows tinted_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::enumerable_thread_specific<std::unique_ptr<EstimatedShadows>> estimates_{[] { return std::make_unique<EstimatedShadows>(); }};

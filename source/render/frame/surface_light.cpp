@@ -31,6 +31,7 @@ SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, con
       lights_(prepare_lights(scene, surfaces_.environment_spots())),
       light_pointers_(all_of(lights_)),
       lighting_(scene, options, method_, lights_, parts_, nullptr),
+      tinted_(scene, options, method_, lights_, nullptr),
       estimates_([] { return std::make_unique<EstimatedShadows>(); }),
       samplers_([this, &scene] {
         const environment::EnvironmentLight* around = surfaces_.environment();
@@ -56,14 +57,16 @@ std::size_t SurfaceLight::solve_steps(const Scene& scene, const RenderOptions& o
 
 void DirectLight::add(SurfaceTile& tile, Receiver receiver, EstimatedShadows& scratch) const {
   const auto reaching = lights_reaching(lights, tile);
-  if (!lighting.has_shadows()) {
-    lighting.add(tile, reaching.lights);
-  } else if (receiver == Receiver::patch && quality != Quality::high) {
-    scratch.clear();
-    lighting.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, scratch);
-  } else {
-    lighting.add_shadowed(tile, reaching.lights);
-  }
+  tinted.add(tile, lighting, [&](TileLighting& past) {
+    if (!past.has_shadows()) {
+      past.add(tile, reaching.lights);
+    } else if (receiver == Receiver::patch && quality != Quality::high) {
+      scratch.clear();
+      past.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, scratch);
+    } else {
+      past.add_shadowed(tile, reaching.lights);
+    }
+  });
   environment::HalvesOfRays halves;
   surfaces.add_environment(0, tile, halves);
 }

@@ -10,6 +10,7 @@
 #include "render/frame/frame_surfaces.h"
 #include "render/frame/methods.h"
 #include "render/frame/tile_lighting.h"
+#include "render/frame/tinted_shadows.h"
 #include "render/radiosity/gather.h"
 #include "render/radiosity/patch_light.h"
 #include "render/sampled/monte_carlo.h"
@@ -29,6 +30,7 @@ void find_incident_on_patch(DirectSampler& sampler, bool has_environment, const 
 enum class Receiver { patch, asked };
 struct DirectLight {
   TileLighting& lighting;
+  const TintedShadows& tinted;
   FrameSurfaces& surfaces;
   const std::vector<const PackLight*>& lights;
   Quality quality;
@@ -60,7 +62,7 @@ class SurfaceLight {
 
  private:
   void add_direct(SurfaceTile& tile, Receiver receiver) {
-    DirectLight{lighting_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
+    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
   }
 
   const RenderOptions& options_;
@@ -70,6 +72,7 @@ class SurfaceLight {
   const std::vector<PackLight> lights_;
   const std::vector<const PackLight*> light_pointers_;
   TileLighting lighting_;
+  const TintedShadows tinted_;
   tbb::enumerable_thread_specific<std::unique_ptr<EstimatedShadows>> estimates_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   std::unique_ptr<const radiosity::PatchLight> patches_;  // null without bounces

@@ -42,6 +42,9 @@ class RunningMean {
 // Fraction of the way to a surface that is left out: the rays are in float.
 constexpr double kBeforeTheLight = 1e-6;
 
+// Distance of the sun, in distances of the point from the origin and 1 more: only clear meshes before it count.
+constexpr double kBeyond = 1e4;
+
 // Sum over the lobes: radiance per unit of incident radiance.
 Vec3d evaluate(const std::vector<Lobe>& lobes, Vec3d l) {
   Vec3d sum{};
@@ -64,7 +67,13 @@ struct DirectSampler::Scratch {
 
 DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around,
                              Terminator terminator, const ClassicTable* fitted)
-    : scene_(scene), shadows_(shadows), around_(around), terminator_(terminator), fitted_(fitted), scratch_(std::make_unique<Scratch>()) {
+    : scene_(scene),
+      shadows_(shadows),
+      clear_(scene),
+      around_(around),
+      terminator_(terminator),
+      fitted_(fitted),
+      scratch_(std::make_unique<Scratch>()) {
   for (const AreaLight& area : scene.area_lights) {
     Light light{&area, std::nullopt};
     if (std::holds_alternative<Line>(area.shape)) continue;
@@ -143,7 +152,8 @@ Vec3d DirectSampler::visit_lights(const Frame& frame, const Surface& surface, Pu
       if (light.kind == PunctualKind::directional ? shadows_->blocked_towards(p, to) : shadows_->between(p, light.position, Casters::all))
         continue;
     }
-    punctual(l, light.intensity * incident.irradiance.v);
+    const Vec3d there = light.kind == PunctualKind::directional ? p + to * kBeyond * (1 + length(p)) : light.position;
+    punctual(l, light.intensity * incident.irradiance.v * through(p, there));
   }
 
   for (const Light& light : lights_) {
@@ -157,7 +167,8 @@ Vec3d DirectSampler::visit_lights(const Frame& frame, const Surface& surface, Pu
         if (shadows_ != nullptr && (!above(geometric, place.direction) ||
                                     shadows_->between(p, p + place.direction * (place.distance * (1 - kBeforeTheLight)), Casters::all)))
           return {};
-        return {l, place.density, emission != nullptr ? emitted_radiance(*emission, -place.direction) : light.area->radiance};
+        const Vec3d radiance = emission != nullptr ? emitted_radiance(*emission, -place.direction) : light.area->radiance;
+        return {l, place.density, radiance * through(p, p + place.direction * (place.distance * (1 - kBeforeTheLight)))};
       };
       area([&](double u, double w) { return incident(sampler.sample(u, w)); },
            [&](Vec3d l) { return incident(sampler.towards(frame.to_world(l))); });
@@ -182,8 +193,9 @@ Vec3d DirectSampler::visit_lights(const Frame& frame, const Surface& surface, Pu
         const double height = std::fabs(plane_height);
         if (shadows_->between(p, p + (there - p) * std::max(1 - eta / height, 0.0), Casters::all)) return {};
       }
-      if (emission != nullptr) return emitted_radiance(*emission, -direction);
-      return texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance;
+      const Vec3d passes = through(p, there);
+      if (emission != nullptr) return emitted_radiance(*emission, -direction) * passes;
+      return (texture != nullptr ? texture_radiance(*texture, scene_.images, there) : polygon.radiance) * passes;
     };
     const auto with_density = [&](Vec3d l, double density) -> Incident {
       if (!(density > 0)) return {};

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "render/environment/direction_grid.h"
+#include "render/surface/clear_meshes.h"
 #include "render/surface/ray_scene.h"
 #include "render/surface/surface.h"
 #include "steradian/render.h"
@@ -71,11 +72,14 @@ class DirectSampler {
   Vec3d visit_lights(const Frame& frame, const Surface& surface, Punctual punctual, Area area);
   // Estimates the environment's light by scratch_->lobes, which share the frame's normal.
   Estimate estimate_environment(const Frame& frame, Vec3d position, Vec3d geometric, int spp, reference::Random& random) const;
+  // Fraction of light that comes from one place to another through clear meshes.
+  Vec3d through(Vec3d from, Vec3d to) const { return shadows_ != nullptr ? clear_.passes_between(*shadows_, from, to) : Vec3d{1, 1, 1}; }
   // True if a direction lies above the triangle's horizon, or if that horizon occludes nothing (smooth terminator).
   bool above(Vec3d geometric, Vec3d direction) const { return terminator_ == Terminator::smooth || dot(direction, geometric) > 0; }
   Estimate estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random);
   const Scene& scene_;
   const RayScene* shadows_;
+  const ClearMeshes clear_;
   const environment::EnvironmentSampler* around_;
   const Terminator terminator_;
   const ClassicTable* fitted_;

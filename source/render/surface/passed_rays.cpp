@@ -20,13 +20,6 @@ Vec3f front_of(const Mesh& mesh, unsigned triangle) {
   return cross(corner(1) - corner(0), corner(2) - corner(0));
 }
 
-// Fraction that a solid leaves of light after a distance.
-Vec3f attenuation(const SurfaceMaterial& m, float distance) {
-  if (!(m.attenuation_distance < std::numeric_limits<float>::infinity())) return {1, 1, 1};
-  const float t = distance / m.attenuation_distance;
-  return {std::pow(m.attenuation_color.x, t), std::pow(m.attenuation_color.y, t), std::pow(m.attenuation_color.z, t)};
-}
-
 }  // namespace
 
 PassedRays::PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, Background background)
@@ -88,7 +81,7 @@ void PassedRays::pass_solid(Ray& ray) const {
     const bool stops = !m.solid || !lets_through(m);
     const bool enters = dot(front_of(mesh, hit.hit.primID), ray.direction) < 0;
     if (face > 0 && within.empty() && (stops || enters)) return;  // the next surface of the picture
-    if (!within.empty()) ray.weight = ray.weight * attenuation(*within.back(), hit.ray.tfar);
+    if (!within.empty()) ray.weight = ray.weight * left_after(*within.back(), hit.ray.tfar);
     if (stops) return;
     const Surface s = surface_at(scene_, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -ray.direction);
     if (face > 0 && enters) ray.weight = ray.weight * s.passes;

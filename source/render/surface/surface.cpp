@@ -313,4 +313,10 @@ std::vector<SurfaceLobe> lobes_of(const Surface& s, const ClassicTable* fitted) 
   return lobes;
 }
 
+Vec3f left_after(const SurfaceMaterial& m, float distance) {
+  if (!(m.attenuation_distance < std::numeric_limits<float>::infinity())) return {1, 1, 1};
+  const float t = distance / m.attenuation_distance;
+  return {std::pow(m.attenuation_color.x, t), std::pow(m.attenuation_color.y, t), std::pow(m.attenuation_color.z, t)};
+}
+
 }  // namespace steradian

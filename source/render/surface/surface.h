@@ -62,6 +62,9 @@ Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, floa
 
 Material sheen_of(const Surface& surface);
 
+// Fraction that a solid leaves of light after a distance.
+Vec3f left_after(const SurfaceMaterial& m, float distance);
+
 // True if light between surfaces goes straight through a mesh: most of it passes, and none is sent.
 inline bool light_passes(const Scene& scene, const Mesh& mesh) {
   return !mesh.casts_shadow && !scene.materials[static_cast<std::size_t>(mesh.material)].emits();

@@ -1,0 +1,113 @@
+// Shadows of clear meshes, against sampled light that passes their faces one by one.
+#include "render/frame/tinted_shadows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/meshes.h"
+#include "steradian/render.h"
+#include "support/boxes.h"
+
+namespace steradian::tinted_shadows_test {
+namespace {
+
+using namespace scene;
+
+// A lamp above a floor, and a clear mesh between them.
+Scene floor_below(const Mesh& clear, const SurfaceMaterial& material) {
+  Scene scene;
+  SurfaceMaterial floor = grey(0.8f);
+  floor.specular = 0;
+  scene.materials = {floor, material};
+  scene.meshes = {quad_mesh({-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, {-3, 0, -3}, 0), clear};
+  scene.meshes[1].material = 1;
+  scene.meshes[1].casts_shadow = false;
+  AreaLight lamp;
+  Polygon square;
+  square.vertices = {{-0.5, 3, -0.5}, {0.5, 3, -0.5}, {0.5, 3, 0.5}, {-0.5, 3, 0.5}};
+  lamp.shape = square;
+  lamp.radiance = {10, 10, 10};
+  scene.area_lights = {lamp};
+  scene.bounds_min = {-3, 0, -3};
+  scene.bounds_max = {3, 3, 3};
+  scene.cameras = {camera_at({0, 0.7, 4}, {0, -0.15, -1}, 0.7)};
+  return scene;
+}
+
+SurfaceMaterial glass(Vec4f color) {
+  SurfaceMaterial m;
+  m.name = "glass";
+  m.base_color = color;
+  m.metallic = 0;
+  m.roughness = 0;
+  m.transmission = 1;
+  m.ior = 1;  // no highlight of the lamp, which samples hardly find
+  m.specular = 0;
+  return m;
+}
+
+}  // namespace
+
+TEST(TintedShadows, AgreeWithSampledLight) {
+  const Mesh pane = quad_mesh({-0.8f, 1, 0.8f}, {0.8f, 1, 0.8f}, {0.8f, 1.3f, -0.8f}, {-0.8f, 1.3f, -0.8f}, 0);
+  SurfaceMaterial veil = glass({0.2f, 0.9f, 0.3f, 0.3f});
+  veil.transmission = 0;
+  veil.alpha_mode = AlphaMode::blend;
+  SurfaceMaterial solid = glass({1, 1, 1, 1});
+  solid.solid = true;
+  solid.attenuation_color = {0.1f, 0.5f, 0.9f};
+  solid.attenuation_distance = 1;
+  struct Case {
+    const char* name;
+    Scene scene;
+  };
+  const Case cases[] = {{"coloured pane", floor_below(pane, glass({0.9f, 0.5f, 0.1f, 1}))},
+                        {"blended pane", floor_below(pane, veil)},
+                        {"bubble", floor_below(ball_mesh({0, 1, 0}, 0.5f, 0, 24, 12), glass({0.9f, 0.5f, 0.1f, 1}))},
+                        {"solid ball", floor_below(ball_mesh({0, 1, 0}, 0.5f, 0, 24, 12), solid)}};
+  for (const Case& c : cases) {
+    RenderOptions options;
+    options.width = 48;
+    options.height = 36;
+    options.shadows = Shadows::on;
+    const Picture ours = render(c.scene, options);
+    options.shadows = Shadows::off;
+    const Picture without = render(c.scene, options);
+    options.shadows = Shadows::on;
+    options.method = "sampled";
+    options.spp = 512;
+    const Picture sampled = render(c.scene, options);
+    std::size_t pixels = 0, within = 0, tinted = 0;
+    double worst = 0;
+    for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
+      if (!(sampled.pixels[i].y > 0)) continue;
+      ++pixels;
+      const double off = std::fabs(double{ours.pixels[i].y} - double{sampled.pixels[i].y});
+      const double sigma = std::sqrt(double{sampled.layers.at("variance")[i].y});
+      within += off <= 4 * sigma + 1e-4 * double{without.pixels[i].y} ? 1 : 0;
+      tinted += ours.pixels[i].y < 0.95f * without.pixels[i].y ? 1 : 0;
+      worst = std::max(worst, off / double{without.pixels[i].y});
+    }
+    std::printf("%s: %zu of %zu pixels within 4 sigma, %zu in shadow, off by at most %.4f of the light\n", c.name, within, pixels, tinted,
+                worst);
+    EXPECT_GT(tinted, 40u);
+    EXPECT_GE(static_cast<double>(within), 0.99 * static_cast<double>(pixels));
+  }
+}
+
+// Light that meets no clear mesh is the same as without one.
+TEST(TintedShadows, LeaveOtherLightAsItIs) {
+  Scene scene = floor_below(quad_mesh({-2, 2, -2.9f}, {-1.9f, 2, -2.9f}, {-1.9f, 2.1f, -2.9f}, {-2, 2.1f, -2.9f}, 0), glass({0.5f, 0.5f, 0.5f, 1}));
+  RenderOptions options;
+  options.width = options.height = 16;
+  options.shadows = Shadows::on;
+  scene.cameras = {camera_at({0, 1, 3}, {0, -0.3, -1}, 0.4)};
+  const Picture with = render(scene, options);
+  scene.meshes.pop_back();
+  const Picture without = render(scene, options);
+  for (std::size_t i = 0; i < with.pixels.size(); ++i)
+    EXPECT_NEAR(double{with.pixels[i].x}, double{without.pixels[i].x}, 1e-6 * double{without.pixels[i].x});
+}
+
+}  // namespace steradian::tinted_shadows_test
