@@ -133,42 +133,47 @@ void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, 
 
 void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
   work.whole_outline = is_disk(light);
-  std::vector<std::vector<std::uint32_t>> with_light;
   for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
-    for (const std::optional<LightSide>& side : flat.sides) {
-      if (!side) continue;
-      // The slots of each group that may see this side of the light.
-      with_light.clear();
-      work.take({});
-      for (const std::uint32_t g : cluster) {
-        work.slots.clear();
-        for (const std::uint32_t i : groups.groups[g]) {
-          const Viewpoint& at = work.at(i);
-          if (flat.polygon.side_of(at.position) != side->side) continue;
-          if (above_horizon(side->frame, at.position, at.normal) == Above::none) continue;
-          work.result->seen[i] = Seen::none;
-          if (at.geometric_normal && above_horizon(side->frame, at.position, *at.geometric_normal) == Above::none) continue;
-          work.slots.push_back(i);
-        }
-        work.add(work.slots);
-        if (!work.slots.empty()) with_light.push_back(work.slots);
-      }
-      if (with_light.empty()) continue;
-      const Shaft shaft(side->frame, work.positions, work.up);
-      tree_.gather(packs_, shaft, work.edges);
-      work.crossing.clear();
-      for (const std::uint32_t t : side->crossing)
-        if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
-      work.tile.assign(mesh_, side->frame, work.edges, work.crossing);
-      for (const auto& slots : with_light) {
-        work.take(slots);
-        const Shaft of_group(side->frame, work.positions, work.up);
-        work.cut_outs = meets_cut_outs(of_group);
-        work.group.assign_needed(packs_, mesh_, work.tile, side->frame, of_group);
-        find_group(
-            slots, [&](std::uint32_t) { return &*side; }, work);
-      }
+    std::vector<const std::vector<std::uint32_t>*> slots;
+    for (const std::uint32_t g : cluster) slots.push_back(&groups.groups[g]);
+    for (const std::optional<LightSide>& side : flat.sides)
+      if (side) find_side(slots, flat.polygon, *side, work);
+  }
+}
+
+// Finds what the groups of a cluster see of one side of a flat light.
+void ShadowPass::find_side(const std::vector<const std::vector<std::uint32_t>*>& groups, const PreparedPolygon& polygon,
+                           const LightSide& side, Work& work) const {
+  // The slots of each group that may see this side of the light.
+  std::vector<std::vector<std::uint32_t>> with_light;
+  work.take({});
+  for (const std::vector<std::uint32_t>* group : groups) {
+    work.slots.clear();
+    for (const std::uint32_t i : *group) {
+      const Viewpoint& at = work.at(i);
+      if (polygon.side_of(at.position) != side.side) continue;
+      if (above_horizon(side.frame, at.position, at.normal) == Above::none) continue;
+      work.result->seen[i] = Seen::none;
+      if (at.geometric_normal && above_horizon(side.frame, at.position, *at.geometric_normal) == Above::none) continue;
+      work.slots.push_back(i);
     }
+    work.add(work.slots);
+    if (!work.slots.empty()) with_light.push_back(work.slots);
+  }
+  if (with_light.empty()) return;
+  const Shaft shaft(side.frame, work.positions, work.up);
+  tree_.gather(packs_, shaft, work.edges);
+  work.crossing.clear();
+  for (const std::uint32_t t : side.crossing)
+    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+  work.tile.assign(mesh_, side.frame, work.edges, work.crossing);
+  for (const auto& slots : with_light) {
+    work.take(slots);
+    const Shaft of_group(side.frame, work.positions, work.up);
+    work.cut_outs = meets_cut_outs(of_group);
+    work.group.assign_needed(packs_, mesh_, work.tile, side.frame, of_group);
+    find_group(
+        slots, [&](std::uint32_t) { return &side; }, work);
   }
 }
 

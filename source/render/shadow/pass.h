@@ -62,12 +62,13 @@ class ShadowPass {
   Work& begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const;
   void find_area(const PointGroups& groups, const PackLight& light, Work& work) const;
   void find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
+  void find_side(const std::vector<const std::vector<std::uint32_t>*>& groups, const PreparedPolygon& polygon, const LightSide& side,
+                 Work& work) const;
   void find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
   std::optional<LightSide> gather_solid(const Solid& solid, Work& work) const;
   void find_solid(const PointGroups& groups, const Solid& solid, Work& work) const;
-  void find_solid_alone(const std::vector<std::uint32_t>& slots, const Solid& solid, Work& work) const;
+  std::vector<std::uint32_t> find_solid_alone(const std::vector<std::uint32_t>& slots, const Solid& solid, Work& work) const;
   void find_solid_group(const std::vector<std::uint32_t>& all, const shadow::SolidLight& light, const LightSide& side, Work& work) const;
-  void find_face(const std::vector<std::uint32_t>& all, const Flat& face, Work& work) const;
   void find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const;
   using SideAt = ShadowTaker::SideAt;
   // work.group holds the data that the group needs.

@@ -52,30 +52,40 @@ void ShadowPass::find_solid(const PointGroups& groups, const Solid& solid, Work&
     work.take({});
     for (const std::uint32_t g : cluster) work.add(groups.groups[g]);
     if (work.positions.empty()) continue;
-    const std::optional<LightSide> together = gather_solid(solid, work);
-    for (const std::uint32_t g : cluster) {
-      if (together)
-        find_solid_group(groups.groups[g], *solid.light, *together, work);
-      else
-        find_solid_alone(groups.groups[g], solid, work);
+    if (const std::optional<LightSide> together = gather_solid(solid, work)) {
+      for (const std::uint32_t g : cluster) find_solid_group(groups.groups[g], *solid.light, *together, work);
+      continue;
     }
+    std::vector<std::vector<std::uint32_t>> without_frame(cluster.size());
+    for (std::size_t g = 0; g < cluster.size(); ++g) without_frame[g] = find_solid_alone(groups.groups[cluster[g]], solid, work);
+    std::vector<const std::vector<std::uint32_t>*> left;
+    for (const auto& slots : without_frame)
+      if (!slots.empty()) left.push_back(&slots);
+    if (left.empty()) continue;
+    for (const Flat& face : solid.faces)
+      if (face.sides[0]) find_side(left, face.polygon, *face.sides[0], work);
   }
 }
 
-// Finds what the slots of a group see that has no frame in common with its neighbours.
-void ShadowPass::find_solid_alone(const std::vector<std::uint32_t>& slots, const Solid& solid, Work& work) const {
+// Finds what the slots of a group see that has no frame in common with its neighbours. Returns the slots without any frame.
+std::vector<std::uint32_t> ShadowPass::find_solid_alone(const std::vector<std::uint32_t>& slots, const Solid& solid, Work& work) const {
   work.take(slots);
-  if (const std::optional<LightSide> side = gather_solid(solid, work)) return find_solid_group(slots, *solid.light, *side, work);
+  if (const std::optional<LightSide> side = gather_solid(solid, work)) {
+    find_solid_group(slots, *solid.light, *side, work);
+    return {};
+  }
   const Box3d box = box_of(work.positions);
   const int axis = box.longest_side();
-  if (slots.size() == 1 || !(coordinate(box.size(), axis) > kFarApart * solid.light->box.radius())) {
-    for (const Flat& face : solid.faces) find_face(slots, face, work);
-    return;
-  }
+  if (slots.size() == 1 || !(coordinate(box.size(), axis) > kFarApart * solid.light->box.radius())) return slots;
   std::array<std::vector<std::uint32_t>, 2> halves;
   for (const std::uint32_t i : slots) halves[coordinate(work.at(i).position, axis) < coordinate(box.center(), axis) ? 0 : 1].push_back(i);
-  for (const auto& half : halves)
-    if (!half.empty()) find_solid_alone(half, solid, work);
+  std::vector<std::uint32_t> without_frame;
+  for (const auto& half : halves) {
+    if (half.empty()) continue;
+    const std::vector<std::uint32_t> more = find_solid_alone(half, solid, work);
+    without_frame.insert(without_frame.end(), more.begin(), more.end());
+  }
+  return without_frame;
 }
 
 void ShadowPass::find_solid_group(const std::vector<std::uint32_t>& all, const shadow::SolidLight& light, const LightSide& side,
@@ -94,31 +104,6 @@ void ShadowPass::find_solid_group(const std::vector<std::uint32_t>& all, const s
   work.cut_outs = meets_cut_outs(shaft);
   work.group.assign_needed(packs_, mesh_, work.tile, side.frame, shaft);
   work.group.add_light(mesh_, side.frame, light, shadow::contours_from(light, box_of(work.positions)));
-  find_group(
-      slots, [&](std::uint32_t) { return &side; }, work);
-}
-
-// Adds what some slots see of one face, for points that are too near to the light to see it as a whole.
-void ShadowPass::find_face(const std::vector<std::uint32_t>& all, const Flat& face, Work& work) const {
-  if (!face.sides[0]) return;
-  const LightSide& side = *face.sides[0];
-  std::vector<std::uint32_t> slots;
-  for (const std::uint32_t i : all) {
-    const Viewpoint& at = work.at(i);
-    if (face.polygon.side_of(at.position) <= 0 || above_horizon(side.frame, at.position, at.normal) == Above::none) continue;
-    if (work.result->seen[i] == Seen::dark) work.result->seen[i] = Seen::none;
-    if (at.geometric_normal && above_horizon(side.frame, at.position, *at.geometric_normal) == Above::none) continue;
-    slots.push_back(i);
-  }
-  if (slots.empty()) return;
-  work.take(slots);
-  const Shaft shaft(side.frame, work.positions, work.up);
-  tree_.gather(packs_, shaft, work.edges);
-  work.crossing.clear();
-  for (const std::uint32_t t : side.crossing)
-    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
-  work.cut_outs = meets_cut_outs(shaft);
-  work.group.assign(mesh_, side.frame, work.edges, work.crossing);
   find_group(
       slots, [&](std::uint32_t) { return &side; }, work);
 }

@@ -23,7 +23,7 @@ std::vector<SolidMesh> solid_meshes(const Scene& scene) {
     const Mesh& mesh = scene.meshes[m];
     if (mesh.is_light_shape || !mesh.is_emitter() || mesh.triangle_lights.size() < 2 * kFewestFaces) continue;
     const std::set<std::int32_t> numbers(mesh.triangle_lights.begin(), mesh.triangle_lights.end());
-    if (numbers.size() < kFewestFaces || *numbers.begin() < 0) continue;  // some triangle has no light
+    if (numbers.size() < kFewestFaces || numbers.size() > kMostFaces || *numbers.begin() < 0) continue;  // -1: a triangle without light
     const auto light = [&](std::int32_t number) -> const AreaLight& { return scene.area_lights[static_cast<std::size_t>(number)]; };
     if (!std::all_of(numbers.begin(), numbers.end(), [&](std::int32_t i) { return may_be_a_face(light(i), light(*numbers.begin())); }))
       continue;

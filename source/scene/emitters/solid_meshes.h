@@ -17,9 +17,10 @@ struct SolidMesh {
   std::size_t lights = 0;               // number of its lights
 };
 
-// The meshes of which all parts are closed and shine outwards with one radiance, and which have at least kFewestFaces lights. With fewer,
-// it costs less to treat the faces one by one.
-inline constexpr std::size_t kFewestFaces = 24;
+// The meshes of which all parts are closed and shine outwards with one radiance, and whose number of lights lies between these bounds. With
+// fewer, it costs less to treat the faces one by one. With more, points that need the faces would take too long: the weakest faces are
+// merged (keep_strongest).
+inline constexpr std::size_t kFewestFaces = 24, kMostFaces = 4096;
 std::vector<SolidMesh> solid_meshes(const Scene& scene);
 
 }  // namespace steradian::scene

@@ -43,7 +43,8 @@ TEST(SolidMeshes, AreClosedAndShineOutwards) {
   Mesh open = ring();
   open.indices.resize(open.indices.size() - 3);
   EXPECT_EQ(solid_meshes(shining(open, false)).size(), 0u);
-  EXPECT_EQ(solid_meshes(shining(ring_mesh({}, 0.5, 0.1, 0, 0, 3, 3), false)).size(), 0u);  // 18 faces
+  EXPECT_EQ(solid_meshes(shining(ring_mesh({}, 0.5, 0.1, 0, 0, 3, 3), false)).size(), 0u);      // 18 faces
+  EXPECT_EQ(solid_meshes(shining(ring_mesh({}, 0.5, 0.1, 0.4, 0, 80, 60), false)).size(), 0u);  // more than 4,800 faces
 }
 
 TEST(SolidMeshes, AreEvenEverywhere) {
