@@ -21,6 +21,7 @@
 #include "render/frame/surface_light.h"
 #include "render/frame/tile_lighting.h"
 #include "render/frame/timed_picture.h"
+#include "render/lights/solid_lights.h"
 #include "render/sampled/monte_carlo.h"
 #include "render/sampled/paths.h"
 #include "render/surface/gbuffer.h"
@@ -50,7 +51,7 @@ class Renderer {
         method_(choose_method(scene, options)),
         parts_(cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted())),
         surfaces_(scene, options, parts_, method_.table.get()),
-        lights_(prepare_lights(scene, surfaces_.environment_spots())),
+        lights_(own_lights()),
         many_lights_(prepare_many_lights()),
         lighting_(scene, options, method_, lights_, parts_, many_lights_.get()),
         tinted_(scene, options, method_, lights_, many_lights_.get()),
@@ -147,6 +148,14 @@ class Renderer {
   }
 
   Sorted sorted() const { return options_.shadows != Shadows::off && !method_.estimates() ? Sorted::for_rays_and_edges : Sorted::for_rays; }
+
+  // Rays that estimate shadows take the faces of closed meshes one by one.
+  std::vector<PackLight> own_lights() const {
+    std::vector<PackLight> lights = prepare_lights(scene_, surfaces_.environment_spots());
+    const bool by_outline =
+        options_.shadows == Shadows::on && !method_.estimates() && !(options_.time_limit > 0) && !(options_.shadow_error > 0);
+    return by_outline ? with_solids(std::move(lights), scene_) : lights;
+  }
 
   std::unique_ptr<ManyLightPass> prepare_many_lights() {
     constexpr std::size_t kMany = 64;  // from this many on, automatic uses the tree

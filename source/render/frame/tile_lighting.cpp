@@ -200,7 +200,7 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
       continue;
     }
     shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts, taker); });
-    if (work.shadow.is_plain()) {
+    if (work.shadow.is_plain() && !light->is_pieces()) {
       plain.push_back(light);
       continue;
     }

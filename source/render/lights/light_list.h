@@ -20,6 +20,7 @@ namespace steradian {
 
 class ProfiledLight;
 class TexturedLight;
+struct SolidPackLight;
 
 struct PackLight {
   std::variant<packed::Polygon, packed::Disk, packed::Ellipsoid, packed::Capsule, packed::Punctual, packed::Pieces> shape;
@@ -29,6 +30,7 @@ struct PackLight {
   PreparedPolygon polygon;                        // the polygon in double, if it is one
   std::shared_ptr<const TexturedLight> textured;  // null without a texture; radiance is then the mean
   std::shared_ptr<const ProfiledLight> profiled;  // null without an emission profile; radiance is then the mean
+  std::shared_ptr<const SolidPackLight> solid;    // a closed mesh that shines evenly; its shape are pieces (solid_lights.h)
 
   bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }
   bool is_even() const { return textured == nullptr && profiled == nullptr; }  // one radiance everywhere

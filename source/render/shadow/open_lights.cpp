@@ -9,6 +9,7 @@ namespace steradian {
 namespace {
 
 bool has_place(const PackLight& light) {
+  if (light.is_pieces()) return false;
   const auto* punctual = std::get_if<packed::Punctual>(&light.shape);
   return punctual == nullptr || punctual->kind != PunctualKind::directional;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "render/lights/solid_lights.h"
 #include "render/shadow/work.h"
 #include "shadow/rays/shafts.h"
 #include "shadow/region/round_light.h"
@@ -32,6 +33,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
       mesh_(edges_->mesh),
       tree_(edges_->edges),
       ellipse_(std::make_shared<const std::vector<shadow::Segment>>(shadow::outline_of_ellipse(kRoundCorners))),
+      nothing_(std::make_shared<const std::vector<shadow::Segment>>()),
       open_(lights, edges_->triangles, cut_outs_) {
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.is_light_shape || scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode != AlphaMode::mask) continue;
@@ -48,11 +50,13 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
     if (is_disk(light)) {
       flat.polygon = prepare_polygon(flat_polygon(*light.area, kRoundCorners));
     }
-    if (!flat.polygon.vertices.empty())
-      for (int s = 0; s < (flat.polygon.two_sided ? 2 : 1); ++s) {
-        flat.sides[s] = side_of(flat.polygon, s == 0 ? 1 : -1);
-        flat.sides[s]->crossing = shadow::crossing_triangles(mesh_, flat.sides[s]->frame);
-      }
+    if (!flat.polygon.vertices.empty()) flat = flat_of(flat.polygon);
+    Solid& solid = solids_.emplace_back();
+    if (light.solid != nullptr) {
+      solid.light = &light.solid->form;
+      solid.own = shadow::triangles_of(*solid.light, mesh_);
+      for (const PackLight& face : light.solid->faces) solid.faces.push_back(flat_of(face.polygon));
+    }
     if (light.is_round() && !is_disk(light)) {
       flat.body = Body::of(light.area->shape);
       const auto number = body_of.find(light.area);
@@ -63,11 +67,21 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
   }
 }
 
+ShadowPass::Flat ShadowPass::flat_of(const PreparedPolygon& polygon) const {
+  Flat flat;
+  flat.polygon = polygon;
+  for (int s = 0; s < (polygon.two_sided ? 2 : 1); ++s) {
+    flat.sides[s] = side_of(polygon, s == 0 ? 1 : -1);
+    flat.sides[s]->crossing = shadow::crossing_triangles(mesh_, flat.sides[s]->frame);
+  }
+  return flat;
+}
+
 ShadowPass::Work& ShadowPass::begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const {
   thread_local Work work;
   work.flat = nullptr;
   work.tube = nullptr;
-  work.turned = work.whole_outline = work.cut_outs = work.in_parts = false;
+  work.turned = work.whole_outline = work.cut_outs = work.in_parts = work.in_parts_only = false;
   work.points = &points.points;
   work.result = &result;
   work.counts = &counts;
@@ -93,7 +107,9 @@ void ShadowPass::find_at(const TilePoints& points, const PackLight& light, TileS
 
 void ShadowPass::find_area(const PointGroups& groups, const PackLight& light, Work& work) const {
   const Flat& flat = flats_[light.index];
-  if (!flat.polygon.vertices.empty())
+  if (light.solid != nullptr)
+    find_solid(groups, solids_[light.index], work);
+  else if (!flat.polygon.vertices.empty())
     find_flat(groups, light, flat, work);
   else
     find_round(groups, light, flat, work);
@@ -117,48 +133,53 @@ void ShadowPass::find_punctual(const SurfaceTile& tile, const PackLight& light, 
 
 void ShadowPass::find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const {
   work.whole_outline = is_disk(light);
-  std::vector<std::vector<std::uint32_t>> with_light;
   for (const std::vector<std::uint32_t>& cluster : groups.clusters) {
-    for (const std::optional<LightSide>& side : flat.sides) {
-      if (!side) continue;
-      // The slots of each group that may see this side of the light.
-      with_light.clear();
-      work.take({});
-      for (const std::uint32_t g : cluster) {
-        work.slots.clear();
-        for (const std::uint32_t i : groups.groups[g]) {
-          const Viewpoint& at = work.at(i);
-          if (flat.polygon.side_of(at.position) != side->side) continue;
-          if (above_horizon(side->frame, at.position, at.normal) == Above::none) continue;
-          work.result->seen[i] = Seen::none;
-          if (at.geometric_normal && above_horizon(side->frame, at.position, *at.geometric_normal) == Above::none) continue;
-          work.slots.push_back(i);
-        }
-        work.add(work.slots);
-        if (!work.slots.empty()) with_light.push_back(work.slots);
-      }
-      if (with_light.empty()) continue;
-      const Shaft shaft(side->frame, work.positions, work.up);
-      tree_.gather(packs_, shaft, work.edges);
-      work.crossing.clear();
-      for (const std::uint32_t t : side->crossing)
-        if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
-      work.tile.assign(mesh_, side->frame, work.edges, work.crossing);
-      for (const auto& slots : with_light) {
-        work.take(slots);
-        const Shaft of_group(side->frame, work.positions, work.up);
-        work.cut_outs = meets_cut_outs(of_group);
-        work.group.assign_needed(packs_, mesh_, work.tile, side->frame, of_group);
-        find_group(
-            slots, [&](std::uint32_t) { return &*side; }, work);
-      }
+    std::vector<const std::vector<std::uint32_t>*> slots;
+    for (const std::uint32_t g : cluster) slots.push_back(&groups.groups[g]);
+    for (const std::optional<LightSide>& side : flat.sides)
+      if (side) find_side(slots, flat.polygon, *side, work);
+  }
+}
+
+// Finds what the groups of a cluster see of one side of a flat light.
+void ShadowPass::find_side(const std::vector<const std::vector<std::uint32_t>*>& groups, const PreparedPolygon& polygon,
+                           const LightSide& side, Work& work) const {
+  // The slots of each group that may see this side of the light.
+  std::vector<std::vector<std::uint32_t>> with_light;
+  work.take({});
+  for (const std::vector<std::uint32_t>* group : groups) {
+    work.slots.clear();
+    for (const std::uint32_t i : *group) {
+      const Viewpoint& at = work.at(i);
+      if (polygon.side_of(at.position) != side.side) continue;
+      if (above_horizon(side.frame, at.position, at.normal) == Above::none) continue;
+      work.result->seen[i] = Seen::none;
+      if (at.geometric_normal && above_horizon(side.frame, at.position, *at.geometric_normal) == Above::none) continue;
+      work.slots.push_back(i);
     }
+    work.add(work.slots);
+    if (!work.slots.empty()) with_light.push_back(work.slots);
+  }
+  if (with_light.empty()) return;
+  const Shaft shaft(side.frame, work.positions, work.up);
+  tree_.gather(packs_, shaft, work.edges);
+  work.crossing.clear();
+  for (const std::uint32_t t : side.crossing)
+    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+  work.tile.assign(mesh_, side.frame, work.edges, work.crossing);
+  for (const auto& slots : with_light) {
+    work.take(slots);
+    const Shaft of_group(side.frame, work.positions, work.up);
+    work.cut_outs = meets_cut_outs(of_group);
+    work.group.assign_needed(packs_, mesh_, work.tile, side.frame, of_group);
+    find_group(
+        slots, [&](std::uint32_t) { return &side; }, work);
   }
 }
 
 void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const {
-  const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact;
-  const bool empty = work.group.empty();
+  const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact && !work.in_parts_only;
+  const bool empty = work.group.empty() && !work.in_parts_only;
   const bool even = !by_rays && !empty && !work.cut_outs;
   if (even && work.taker != nullptr && !work.in_parts && (work.flat == nullptr || work.flat->inside.empty()) &&
       work.taker->find({work.group, work.turned ? &work.base : nullptr, work.whole_outline, slots, *work.points, side_at})) {

@@ -15,6 +15,7 @@
 #include "render/shadow/viewpoints.h"
 #include "render/surface/ray_scene.h"
 #include "shadow/edges/edge_arrays.h"
+#include "shadow/edges/solid_light.h"
 #include "shadow/lanes/lanes.h"
 
 namespace steradian {
@@ -50,11 +51,24 @@ class ShadowPass {
     std::optional<Body> body;
     std::vector<std::uint32_t> near, inside;
   };
+  // A closed mesh that shines evenly, and its faces for points that do not see it as a whole.
+  struct Solid {
+    const shadow::SolidLight* light = nullptr;
+    std::vector<bool> own;  // by triangle: true for the light's
+    std::vector<Flat> faces;
+  };
   struct Work;
+  Flat flat_of(const PreparedPolygon& polygon) const;
   Work& begin(const TilePoints& points, TileShadow& result, ShadowCounts& counts, ShadowTaker* taker) const;
   void find_area(const PointGroups& groups, const PackLight& light, Work& work) const;
   void find_flat(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
+  void find_side(const std::vector<const std::vector<std::uint32_t>*>& groups, const PreparedPolygon& polygon, const LightSide& side,
+                 Work& work) const;
   void find_round(const PointGroups& groups, const PackLight& light, const Flat& flat, Work& work) const;
+  std::optional<LightSide> gather_solid(const Solid& solid, Work& work) const;
+  void find_solid(const PointGroups& groups, const Solid& solid, Work& work) const;
+  std::vector<std::uint32_t> find_solid_alone(const std::vector<std::uint32_t>& slots, const Solid& solid, Work& work) const;
+  void find_solid_group(const std::vector<std::uint32_t>& all, const shadow::SolidLight& light, const LightSide& side, Work& work) const;
   void find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const;
   using SideAt = ShadowTaker::SideAt;
   // work.group holds the data that the group needs.
@@ -82,6 +96,8 @@ class ShadowPass {
   std::vector<Box3d> cut_outs_;                                  // boxes of meshes whose material has holes
   std::shared_ptr<const std::vector<shadow::Segment>> ellipse_;  // outline of the polygons that stand for ellipsoids
   std::vector<Flat> flats_;                                      // one per light; without sides if the light is not flat
+  std::vector<Solid> solids_;                                    // one per light; without faces if the light is not solid
+  std::shared_ptr<const std::vector<shadow::Segment>> nothing_;  // an empty outline
   OpenLights open_;
 };
 

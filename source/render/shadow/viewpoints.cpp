@@ -48,6 +48,15 @@ void split(std::vector<Member>& members, std::vector<std::vector<std::uint32_t>>
   }
 }
 
+// False for a surface without a lobe, such as the black body of a lamp: no light changes it.
+bool reflects(const SurfaceTile& tile, std::uint32_t i) {
+  const SurfaceMaterial* material = tile.material[i];
+  if (material == nullptr || material->unlit) return false;
+  const auto is_black = [&](const TileVector& v) { return v.x[i] == 0 && v.y[i] == 0 && v.z[i] == 0; };
+  return !material->specular_override.empty() || !is_black(tile.albedo) || !is_black(tile.f0) || !is_black(tile.f90) || tile.coat[i] != 0 ||
+         !is_black(tile.sheen) || tile.any_passing;
+}
+
 // Number of a slot's square of 8 x 8 pixels, which is four blocks of slots.
 std::uint32_t square_of(std::uint32_t slot) {
   constexpr std::uint32_t kBlocks = kTileSide / 4;
@@ -60,7 +69,7 @@ std::uint32_t square_of(std::uint32_t slot) {
 PointGroups groups_of(const SurfaceTile& tile, const std::vector<Vec3d>& positions) {
   std::array<std::vector<Member>, kTilePixels / 64> squares;
   for (std::uint32_t i = 0; i < kTilePixels; ++i) {
-    if (tile.material[i] == nullptr || tile.material[i]->unlit) continue;
+    if (!reflects(tile, i)) continue;
     Member m{i, {}};
     m.box.add(positions[i]);
     squares[square_of(i)].push_back(m);

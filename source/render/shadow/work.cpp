@@ -25,7 +25,7 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
   for (std::size_t k = 0; k < count; ++k) {
     const LightSide& side = *sides[k];
     const Viewpoint& at = work.at(slots[k]);
-    const bool simple = side.middle && dot(*side.middle - at.position, at.normal) > 0 && !is_cut(side.frame, at);
+    const bool simple = !work.in_parts_only && side.middle && dot(*side.middle - at.position, at.normal) > 0 && !is_cut(side.frame, at);
     points[k] = {&side.frame, &at, side.outline.get(), !simple};
   }
   work.lanes.find(lanes_, work.group, work.turned ? work.base : sides[0]->frame, work.turned, {points, count});
@@ -45,7 +45,7 @@ void ShadowPass::find_lanes(const LightSide* const* sides, const std::uint32_t* 
     ++work.counts->points;
     rays.set(k, at.position, side.frame.way(at.position, open ? *side.middle : work.lanes.place(k)));
     asked |= bit(k);
-    if (open || ((occluded & bit(k)) == 0 && !is_cut(side.frame, at))) whole |= bit(k);
+    if (open || (!work.in_parts_only && (occluded & bit(k)) == 0 && !is_cut(side.frame, at))) whole |= bit(k);
   }
   const std::uint32_t free = asked & ~rays_.blocked_among(rays, asked);
   for (std::size_t k = 0; k < count; ++k) {
@@ -285,7 +285,7 @@ void ShadowPass::find_in_segments(const LightSide& side, std::uint32_t slot, Wor
   const Viewpoint& at = work.at(slot);
   find_visible_on_packs(packs_, side.frame, at.position, RayBlockers(rays_), work.scratch, work.region);
   if (work.region.boundary.empty()) return;
-  if (work.scratch.set.occluders == 0 && !is_cut(side.frame, at)) {
+  if (work.scratch.set.occluders == 0 && !work.in_parts_only && !is_cut(side.frame, at)) {
     work.result->seen[slot] = Seen::whole;
     return;
   }
@@ -351,13 +351,13 @@ void ShadowPass::find_point(const LightSide& side, std::uint32_t slot, Work& wor
     work.group.see_turned(packs_, work.base, side.frame, at, *side.outline, set);
   else
     work.group.see(packs_, side.frame, at, *side.outline, set);
-  if (set.occluders > kMostSegments && mode_ != Shadows::exact) {
+  if (set.occluders > kMostSegments && mode_ != Shadows::exact && !work.in_parts_only) {
     take_rays(side, slot, work);
     return;
   }
   // Without segments to arrange, one ray to any place of the light above the horizons decides.
   const auto sees = [&](Vec3d normal) { return dot(*side.middle - at.position, normal) > 0; };
-  if (set.occluders == 0 && side.middle && sees(at.normal) && !is_cut(side.frame, at)) {
+  if (set.occluders == 0 && !work.in_parts_only && side.middle && sees(at.normal) && !is_cut(side.frame, at)) {
     if (!rays_.between(at.position, at.position + side.frame.way(at.position, *side.middle))) work.result->seen[slot] = Seen::whole;
   } else {
     if (set.occluders == 0) shadow::add_surroundings(side.frame, at, *side.outline, set);

@@ -29,6 +29,7 @@ struct ShadowPass::Work {
   shadow::Scratch scratch;
   shadow::VisibleRegion region;
   shadow::PointLanes lanes;
+  shadow::TriangleTree::Viewers viewers;
   std::vector<Vec3d> positions;
   Vec3d up;  // sum of their surfaces' normals
   std::vector<std::uint32_t> slots, edges, crossing;
@@ -36,6 +37,7 @@ struct ShadowPass::Work {
   bool turned = false;         // the arrays are in that frame
   bool whole_outline = false;  // parts come with their light's polygon
   bool cut_outs = false;       // the group's shaft meets cut-outs
+  bool in_parts_only = false;  // the light is never found whole: that of a solid has no whole outline
   bool in_parts = false;       // the group sees the tube in its flat parts, one point at a time
   const Flat* flat = nullptr;  // of the round light
   const Capsule* tube = nullptr;

@@ -134,7 +134,7 @@ void EdgeArrays::clear() {
 }
 
 void EdgeArrays::pad() {
-  vertex_count_ = vertex_.size();
+  vertex_count_ = of_light_ = vertex_.size();
   plane_count_ = plane_.size();
   vertices_.resize(padded(vertex_count_));
   normals_.resize(padded(plane_count_));
@@ -157,7 +157,7 @@ EdgeView EdgeArrays::view() const {
 
 LaneEdges EdgeArrays::lane_edges() const {
   return {view(),       edge_.size(), plane_count_,       vertex_count_,    vertices_.view(), normals_.view(), offsets_.data(),
-          more_.data(), more_.size(), incidences_.data(), crossing_.data(), crossing_.size(), vertex_.data()};
+          more_.data(), more_.size(), incidences_.data(), crossing_.data(), crossing_.size(), vertex_.data(),  of_light_};
 }
 
 // Adds a crossing triangle and finds its twin: the first among the crossing ones with the same corners.
@@ -295,6 +295,52 @@ void EdgeArrays::assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, c
   pad();
 }
 
+void EdgeArrays::add_light(const EdgeMesh& mesh, const LightFrame& frame, const SolidLight& light,
+                           const std::vector<std::uint32_t>& edges) {
+  const std::size_t first = vertex_count_;
+  // Removes the padding.
+  for (Vectors* v : {&vertices_, &normals_}) v->resize(v == &vertices_ ? vertex_count_ : plane_count_);
+  offsets_.resize(plane_count_);
+  for (auto* v : {&v0_, &v1_, &plane0_, &plane1_}) v->resize(edge_.size());
+  for (auto* v : {&walks0_, &walks1_}) v->resize(edge_.size());
+  has_more_.resize(edge_.size());
+
+  const auto first_number = static_cast<std::uint32_t>(mesh.vertices.size());
+  vertices_seen.begin(mesh.vertices.size() + light.vertices.size());
+  planes_seen.begin(light.faces.size());
+  const auto vertex = [&](std::uint32_t v) {
+    return static_cast<std::int32_t>(vertices_seen.of(first_number + v, [&] {
+      vertices_.push_back(to_float(frame.axes.to_local(light.vertices[v] - anchor_)));
+      vertex_.push_back(first_number + v);
+      return static_cast<std::uint32_t>(vertex_.size() - 1);
+    }));
+  };
+  const auto plane = [&](std::uint32_t f) {
+    return static_cast<std::int32_t>(planes_seen.of(f, [&] {
+      const Plane& p = light.faces[f];
+      normals_.push_back(to_float(frame.axes.to_local(p.normal)));
+      offsets_.push_back(static_cast<float>(p.offset - dot(p.normal, anchor_)));
+      plane_.push_back(static_cast<std::uint32_t>(mesh.triangles.size()) + f);
+      return static_cast<std::uint32_t>(plane_.size() - 1);
+    }));
+  };
+  // A contour has two triangles, which would count as two occluders; the light's inside has the lower count.
+  constexpr float kWalks = -kLayer / 2;
+  for (const std::uint32_t number : edges) {
+    const SolidEdge& e = light.edges[number];
+    v0_.push_back(vertex(e.v0));
+    v1_.push_back(vertex(e.v1));
+    plane0_.push_back(plane(e.face0));
+    plane1_.push_back(plane(e.face1));
+    walks0_.push_back(kWalks);
+    walks1_.push_back(-kWalks);
+    has_more_.push_back(0);
+    edge_.push_back(static_cast<std::uint32_t>(mesh.edges.size()) + number);
+  }
+  pad();
+  of_light_ = first;
+}
+
 void EdgeArrays::see(const ShadowTable& packs, const LightFrame& frame, const Viewpoint& from, const std::vector<Segment>& outline,
                      SegmentSet& result) {
   collect(packs, frame, vertices_, frame.axes.to_local(from.position - anchor_), from, outline, result);
@@ -320,6 +366,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
   packs.facing(normals_.view(), offsets_.data(), normals_.size(), at, facing_.data());
   packs.project(vertices.view(), vertices.size(), {{eye.x, eye.y, eye.z}, {shift.x, shift.y, shift.z}, {box.x.v, box.y.v}, height},
                 {homogeneous_.span(), cell_x_.data(), cell_y_.data(), outside_.data()});
+  for (std::size_t v = of_light_; v < vertex_count_; ++v) outside_[v] = static_cast<float>(static_cast<int>(outside_[v]) & kBoxOut);
   std::size_t count = packs.contours(view(), facing_.data(), outside_.data(), found_.data(), weights_.data());
 
   if (!more_.empty()) {

@@ -9,6 +9,7 @@
 
 #include "shadow/edges/gather.h"
 #include "shadow/edges/segments.h"
+#include "shadow/edges/solid_light.h"
 #include "shadow/lanes/lanes.h"
 #include "shadow/lanes/packs.h"
 
@@ -23,6 +24,9 @@ class EdgeArrays {
               const std::vector<std::uint32_t>& crossing_triangles, std::span<const std::uint32_t> inside = {});
   // Takes the edges of a tile that a shaft needs. The shaft is in the world of the tile's frame.
   void assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, const EdgeArrays& tile, const LightFrame& frame, const Shaft& shaft);
+
+  // Adds edges of a solid light, in the coordinates of the frame of `assign`: each of its contours bounds a layer of the light.
+  void add_light(const EdgeMesh& mesh, const LightFrame& frame, const SolidLight& light, const std::vector<std::uint32_t>& edges);
 
   // Positions in float are relative to an anchor: the origin of a light's frame, or the middle of all triangles for a light that is so far
   // away that its coordinates have no digits for distances between triangles.
@@ -76,6 +80,7 @@ class EdgeArrays {
   Vec3d anchor_;
   bool is_far_ = false;
   std::size_t vertex_count_ = 0, plane_count_ = 0;
+  std::size_t of_light_ = 0;  // first vertex of a solid light
   Vectors vertices_;
   std::vector<std::uint32_t> vertex_;  // numbers in the mesh
   Vectors normals_;

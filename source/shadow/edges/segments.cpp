@@ -86,7 +86,9 @@ std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Sourc
 
 void add_horizons(const LightFrame& frame, const Viewpoint& from, Vec3d point, SegmentSet& result) {
   const Vec3d down{point.x, point.y, -point.z};
-  result.base = kHidden + add_horizon(frame, down, frame.axes.to_local(from.normal), Source::shading_horizon, result);
+  result.layered = frame.layered;
+  result.base =
+      (frame.layered ? kLayer : kHidden) + add_horizon(frame, down, frame.axes.to_local(from.normal), Source::shading_horizon, result);
   if (from.geometric_normal)
     result.base += add_horizon(frame, down, frame.axes.to_local(*from.geometric_normal), Source::geometric_horizon, result);
 }
@@ -101,6 +103,7 @@ void SegmentSet::clear() {
   events.clear();
   base = 0;
   occluders = 0;
+  layered = false;
 }
 
 double offset_from_surface(Vec3d p, double reach, double rounding) { return rounding * (64 * largest_coordinate(p) + 32 * reach); }
@@ -109,11 +112,15 @@ std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightF
   std::vector<std::uint32_t> result;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (std::binary_search(inside.begin(), inside.end(), t)) continue;
-    int below = 0;
-    for (const std::uint32_t v : mesh.triangles[t]) below += frame.to_local(mesh.vertices[v]).z < -frame.eta;
-    if (below == 1 || below == 2) result.push_back(t);
+    if (crosses(mesh, frame, t)) result.push_back(t);
   }
   return result;
+}
+
+bool crosses(const EdgeMesh& mesh, const LightFrame& frame, std::uint32_t triangle) {
+  int below = 0;
+  for (const std::uint32_t v : mesh.triangles[triangle]) below += frame.to_local(mesh.vertices[v]).z < -frame.eta;
+  return below == 1 || below == 2;
 }
 
 void add_incidences(const EdgeMesh& mesh, const Edge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to) {

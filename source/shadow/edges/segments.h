@@ -17,6 +17,14 @@ namespace steradian::shadow {
 inline constexpr std::int32_t kCells = 1 << 22;   // number from the middle of the box to a side (shadow_cells)
 inline constexpr std::int32_t kHidden = 1 << 20;  // weight of outline and horizons: larger than any number of triangles on a ray
 
+// The outline of a solid light may lie on itself. Its weight is kLayer, and a place that some layers of the light cover has the count
+// kLayer (1 - layers) + occluders. The layers are taken off before counts are compared, by the function below. There may be 128 layers, and
+// 1,023 occluding triangles more than at the box's corner.
+inline constexpr std::int32_t kLayer = 1 << 11;
+inline std::int32_t without_layers(std::int32_t count) {
+  return count > kLayer / 2 ? kHidden : ((count + kLayer / 2) & (kLayer - 1)) - kLayer / 2;
+}
+
 // Origin of a segment. Horizons move with nothing.
 enum class Source : std::uint8_t { edge, section, outline, shading_horizon, geometric_horizon };
 
@@ -49,6 +57,7 @@ struct SegmentSet {
   std::vector<LeftEvent> events;
   std::int32_t base = 0;      // count at the lower left corner, without triangles
   std::size_t occluders = 0;  // segments of edges and sections: S
+  bool layered = false;       // the light's outline may lie on itself; set with the horizons
 
   void clear();
 };
@@ -119,6 +128,9 @@ class LocalEdges {
 
 // Triangles that cross the plane z = -eta of a light, except those inside its body.
 std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightFrame& frame, std::span<const std::uint32_t> inside = {});
+
+// True if a triangle crosses the plane z = -eta of a light.
+bool crosses(const EdgeMesh& mesh, const LightFrame& frame, std::uint32_t triangle);
 
 // The triangles of an edge that block a light: those that are not inside its body. Appends them; without any that matter, appends none.
 void add_incidences(const EdgeMesh& mesh, const Edge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to);

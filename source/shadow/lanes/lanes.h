@@ -52,6 +52,7 @@ struct LaneEdges {
   const CrossingTriangle* crossing = nullptr;
   std::size_t crossing_count = 0;
   const std::uint32_t* vertex_numbers = nullptr;  // in the mesh
+  std::size_t of_light = 0;                       // first vertex of a solid light: the plane does not cut its edges
 };
 
 // A vertex as seen from all points.
@@ -126,6 +127,7 @@ struct LaneWork {
   SegmentLanes* segments = nullptr;
   std::size_t count = 0;
   std::uint32_t outline = 0;  // first segment of the light's outline
+  bool layered = false;       // the light's outline may lie on itself
   BoxArrays boxes;
   Room<CrossingLanes> crossings;
   Room<CrossedPiece> pieces;

@@ -277,9 +277,11 @@ __attribute__((flatten)) void count_in_lanes(LaneWork& work, const LaneView& vie
     }
   };
   const auto is_known = [&](std::uint32_t s) { return work.segments[s].known == work.segments[s].present; };
-  // Start from the light's outline, which many segments cross. Use rays where no crossing leads.
+  // Start from the light's outline, which many segments cross. Use rays where no crossing leads. A solid light has its outline among the
+  // edges.
+  const std::uint32_t start = work.outline < work.count ? work.outline : 0;
   for (const int by_rays : {0, 1})
-    for (std::uint32_t k = 0, s = work.outline; k < work.count; ++k, s = s + 1 < work.count ? s + 1 : 0) {
+    for (std::uint32_t k = 0, s = start; k < work.count; ++k, s = s + 1 < work.count ? s + 1 : 0) {
       if (is_known(s)) continue;
       const LaneBits known = work.segments[s].known;
       take_across(work, s);

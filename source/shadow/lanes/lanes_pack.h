@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/pack_bits.h"
+#include "shadow/edges/segments.h"
 #include "shadow/lanes/lanes.h"
 #include "steradian/kernels.h"
 
@@ -31,6 +32,13 @@ STERADIAN_INLINE PackMask mask_at(std::uint32_t bits, std::size_t i) { return ma
 
 STERADIAN_INLINE PackInt lower_of(const PackInt& a, const PackInt& b) { return select(a < b, a, b); }
 STERADIAN_INLINE PackInt where(const PackMask& m, const PackInt& a) { return select(m, a, PackInt(0)); }
+
+// Counts without the layers of a solid light, if there are any (without_layers).
+STERADIAN_INLINE PackInt comparable(const PackInt& count, bool layered) {
+  if (!layered) return count;
+  const PackInt half(shadow::kLayer / 2);
+  return select(count > half, PackInt(shadow::kHidden), ((count + half) & PackInt(shadow::kLayer - 1)) - half);
+}
 
 STERADIAN_INLINE shadow::LaneBits narrow(std::uint32_t bits) { return static_cast<shadow::LaneBits>(bits); }
 

@@ -159,7 +159,7 @@ void find_room(const LaneWork& work, const LaneView& view, const LaneInts& level
     });
   }
   each_pack([&](std::size_t i) {
-    const std::uint32_t inside = ~(bits_of(get(count, i) > get(level, i)) << i) & ~uncertain;
+    const std::uint32_t inside = ~(bits_of(comparable(get(count, i), work.layered) > get(level, i)) << i) & ~uncertain;
     put(room, i, select(mask_at(inside, i), sqrt(get(least2, i)), zero));
   });
 }

@@ -57,7 +57,7 @@ class View {
     to.right = narrow(out[1]);
     to.bottom = narrow(out[2]);
     to.top = narrow(out[3]);
-    to.above = narrow(above);
+    to.above = vertex < edges_.of_light ? narrow(above) : narrow(0);
   }
 
   // Cuts the edge by the light's plane, in the lanes of `cut`.

@@ -78,7 +78,7 @@ void PointLanes::add_surroundings(LaneBits lanes) {
       if ((lanes >> lane & 1) == 0) continue;
       const Viewpoint& at = *points_[lane].at;
       const LightFrame& frame = *points_[lane].frame;
-      if (h == 0) view_.base.at[lane] = kHidden;
+      if (h == 0) view_.base.at[lane] = frame.layered ? kLayer : kHidden;
       if (h == 1 && !at.geometric_normal) continue;
       horizon_.clear();
       const Vec3d local = frame.to_local(at.position);
@@ -233,6 +233,7 @@ void PointLanes::find(const LaneTable& packs, const EdgeArrays& edges, const Lig
   seen_ = packs.see(edges.lane_edges(), view_, front_.data(), place_of_.data(), vertices_.data(), segments_.data());
   work_.count = seen_.edges + seen_.sections;
   work_.outline = static_cast<std::uint32_t>(work_.count);
+  work_.layered = points.front().frame->layered;
   occluded_ = 0;
   for (std::size_t s = 0; s < work_.count; ++s) occluded_ |= segments_[s].present;
   LaneBits arranged = occluded_;
@@ -313,6 +314,7 @@ void PointLanes::pass_over_thin_levels(const LaneTable& packs, LaneBits arranged
 Width PointLanes::width_in(std::size_t lane) {
   of_lane_.clear();
   of_lane_.base = view_.base.at[lane];
+  of_lane_.layered = work_.layered;
   pieces_of_lane_.clear();
   const std::int32_t level = region_.level.at[lane];
   const auto add = [&](float ax, float ay, float bx, float by, std::size_t number, bool backwards) {

@@ -94,6 +94,28 @@ bool TriangleTree::is_open(Viewers& viewers, const Box3d& light, double margin) 
                          });
 }
 
+bool TriangleTree::is_open_beyond(const LightFrame& frame, Viewers& viewers, const Box3d& light, const std::vector<bool>& but) const {
+  viewers.ranges_.resize(mesh_.triangles.size());
+  viewers.stamps_.resize(mesh_.triangles.size());
+  const HullOfBoxes hull(viewers.box_, light);
+  const Vec3d n = frame.axes.z;
+  const double plane = dot(n, frame.origin) - frame.eta;
+  const auto blocks = [&](std::uint32_t triangle) {
+    if (but[triangle]) return false;
+    const auto& t = mesh_.triangles[triangle];
+    const Vec3d corners[3] = {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
+    return std::any_of(corners, corners + 3, [&](Vec3d c) { return dot(n, c) >= plane; }) && hull.may_meet(corners) &&
+           !separates(triangle, viewers, light, 0);
+  };
+  const auto enter = [&](const auto& node) {
+    const Vec3d c = node.volume.center(), h = node.volume.half();
+    return dot(n, c) + std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z >= plane && hull.may_meet(node.volume);
+  };
+  return !tree_.any_leaf(enter, [&](std::uint32_t first, std::uint32_t last) {
+    return std::any_of(tree_.order().begin() + first, tree_.order().begin() + last, blocks);
+  });
+}
+
 Ball ball_around(const AreaLight& area) {
   if (const auto* c = std::get_if<Capsule>(&area.shape)) return {(c->end_a + c->end_b) * 0.5, length(c->end_b - c->end_a) / 2 + c->radius};
   const auto& e = std::get<Ellipsoid>(area.shape);
@@ -136,10 +158,14 @@ double reach_of_polygon(const AreaLight& area) {
 
 std::vector<std::uint32_t> TriangleTree::near(const AreaLight& light, std::span<const std::uint32_t> inside) const {
   const Vec3d center = ball_around(light).center, reach = Box3d::all(reach_of_polygon(light));
-  const Box3d box{center - reach, center + reach};
+  std::vector<std::uint32_t> result = near({center - reach, center + reach});
+  std::erase_if(result, [&](std::uint32_t t) { return std::binary_search(inside.begin(), inside.end(), t); });
+  return result;
+}
+
+std::vector<std::uint32_t> TriangleTree::near(const Box3d& box) const {
   std::vector<std::uint32_t> result = near_box(tree_, box);
-  std::erase_if(result,
-                [&](std::uint32_t t) { return !box_of(mesh_, t).meets(box) || std::binary_search(inside.begin(), inside.end(), t); });
+  std::erase_if(result, [&](std::uint32_t t) { return !box_of(mesh_, t).meets(box); });
   std::sort(result.begin(), result.end());
   return result;
 }

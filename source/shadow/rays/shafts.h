@@ -62,6 +62,11 @@ class TriangleTree {
   // out of the light's box.
   bool is_open(Viewers& viewers, const Box3d& light, double margin) const;
 
+  // The same for triangles that reach beyond the plane of a frame, except those marked in `but`. They have no margin.
+  bool is_open_beyond(const LightFrame& frame, Viewers& viewers, const Box3d& light, const std::vector<bool>& but) const;
+
+  // Triangles whose box meets a box, ascending.
+  std::vector<std::uint32_t> near(const Box3d& box) const;
   // Triangles whose box meets the box of any polygon of a round light, ascending, except those inside the light.
   std::vector<std::uint32_t> near(const AreaLight& light, std::span<const std::uint32_t> inside) const;
 

@@ -390,7 +390,7 @@ std::int32_t count_at(const SegmentSet& set, double x, double y) {
     if (end_above && d < 0) count -= f.weight;
     if (start_above && d > 0) count += f.weight;
   }
-  return count;
+  return set.layered ? without_layers(count) : count;
 }
 
 }  // namespace steradian::shadow

@@ -70,7 +70,7 @@ struct SegmentArrays {
 // vertices that two segments share, so that one left ray serves the whole chain.
 void arrange(const ShadowTable& packs, const SegmentSet& set, SegmentArrays& arrays, std::vector<Piece>& pieces);
 
-// Count at a position that lies on no segment, in cells.
+// Count at a position that lies on no segment, in cells. The layers of a solid light are taken off.
 std::int32_t count_at(const SegmentSet& set, double x, double y);
 
 }  // namespace steradian::shadow

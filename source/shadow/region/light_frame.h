@@ -28,6 +28,7 @@ struct LightFrame {
   double eta = 0;                             // only geometry with z < -eta blocks
   std::vector<std::vector<Corner>> contours;  // walk order: the light lies on the left
   const Body* body = nullptr;                 // of a round light, which the frame represents for one point
+  bool layered = false;                       // the outline may lie on itself: that of a solid light (kLayer of segments.h)
 
   Vec3d to_local(Vec3d p) const { return axes.to_local(p - origin); }
   Vec3d to_world(Vec3d p) const { return origin + axes.to_world(p); }

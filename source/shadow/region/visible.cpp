@@ -89,7 +89,7 @@ struct ByPacks {
     count += set.base;
     for (const LeftEvent& event : set.events)
       if (static_cast<float>(event.y) < y) count += event.weight;
-    return count <= level;
+    return (set.layered ? without_layers(count) : count) <= level;
   }
 };
 
@@ -145,6 +145,8 @@ template <class By>
 void find_in_pieces(const By& by, const LightFrame& frame, Vec3d from, const Blockers& blockers, Scratch& scratch, VisibleRegion& result) {
   result.boundary.clear();
   result.rays = 0;
+  if (scratch.set.layered)
+    for (Piece& p : scratch.pieces) p.left = without_layers(p.left), p.right = without_layers(p.right);
   std::vector<std::int32_t>& levels = scratch.levels;
   levels.clear();
   for (const Piece& p : scratch.pieces)
