@@ -37,7 +37,11 @@ const int kHorizonLeft = 16;  // the box's left side cuts: start, end; then the 
 const int kShares = 256;      // the outline replaces a round light
 const int kBase = 512;        // times how often the lower left corner is occluded
 
-// Answers:
+// Answers, after a head of kShadowSpaces + 1 vectors. Points whose segments exceed a space go on to the next one.
+//   0  place of the parts, number of their vectors, capacity, 0
+//   and for each space: number of its points, 1, 1: a dispatch; place of their names after the answers, four a vector
+const int kShadowSpaces = 3;
+// An answer:
 //   0  begin of a ray, as the host has it; number of edges of the outline, and kAskRay
 //   1  vector of the ray to its end; the result so far
 const int kShadowAnswer = 2;

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Answers {
-    uvec4 unused;  // the head
+    uvec4 head[kShadowSpaces + 1];
     uvec4 answers[];
 };
 layout(std430, binding = 3) readonly buffer Hierarchy { uvec4 hierarchy[]; };

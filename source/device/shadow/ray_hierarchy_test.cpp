@@ -42,7 +42,7 @@ std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& w
   const Buffer& hierarchy = rays->hierarchy();
   ComputeProgram program(device, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 4);
   std::vector<Answer> answers(ways.size());
-  constexpr std::size_t kHead = 4 * sizeof(float);
+  constexpr std::size_t kHead = 4 * sizeof(float) * (kShadowSpaces + 1);
   Buffer buffer(device, kHead + answers.size() * sizeof answers[0]);
   char* at = static_cast<char*>(buffer.mapped()) + kHead;
   for (std::size_t i = 0; i < ways.size(); ++i)

@@ -1,6 +1,7 @@
 #include "device/shadow/shadows.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "core/budget.h"
@@ -19,12 +20,17 @@ constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by
 constexpr std::size_t kMostGroups = 65535, kMostPoints = 65535, kMostLights = 16384,
                       kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
 constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
-// Limits of a subgroup for one point: segments, and pieces of them; bytes of one of each in shared memory (shaders/shadow_lanes.glsl).
-constexpr std::size_t kMostSegments = 640, kLeastSegments = 256, kSegmentBytes = 48;
+// Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
+// (docs/theory/device.md). Bytes of a segment and a piece in shared memory: shaders/shadow_segments.glsl, shaders/shadow_count.glsl.
+constexpr std::array<std::size_t, kShadowSpaces> kSegments = {96, 208, 640};
+constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 48;
 
 // Layout of Answers in shaders/shadow_parts.comp.
 struct AnswersHead {
-  std::uint32_t parts_begin, parts_used, parts_room, first_name;
+  std::uint32_t parts_begin, parts_used, parts_room, unused;
+  struct Space {
+    std::uint32_t points, one_y, one_z, first_name;
+  } spaces[kShadowSpaces];
 };
 struct Answer {
   Vec3f origin;
@@ -32,7 +38,7 @@ struct Answer {
   Vec3f way;
   std::uint32_t sees;
 };
-static_assert(sizeof(AnswersHead) == kVector && sizeof(Answer) == kShadowAnswer * kVector);
+static_assert(sizeof(AnswersHead) == (kShadowSpaces + 1) * kVector && sizeof(Answer) == kShadowAnswer * kVector);
 
 constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow_rays.comp
 
@@ -113,20 +119,24 @@ void Shadows::upload(Batch& batch) {
 // Returns the number of vectors that the parts' records need.
 std::size_t Shadows::search(Batch& batch) {
   const std::size_t count = batch.all().point;
-  AnswersHead head{0, 0, number(parts().bytes() / kVector), number(count) * kShadowAnswer};
-  const std::size_t list = sizeof head + count * sizeof(Answer);
-  Buffer& answers = fitting(kept_.answers, list + (count + 3) / 4 * kVector, "points before lights");
+  const std::size_t list = (count + 3) / 4, first_list = count * kShadowAnswer;
+  AnswersHead head{0, 0, number(parts().bytes() / kVector), 0, {}};
+  for (std::size_t i = 0; i < kSegments.size(); ++i) head.spaces[i] = {i == 0 ? number(count) : 0, 1, 1, number(first_list + i * list)};
+  Buffer& answers = fitting(kept_.answers, sizeof head + (first_list + kSegments.size() * list) * kVector, "points before lights");
   answers.write(&head, sizeof head);
   batch.answers = reinterpret_cast<Answer*>(static_cast<char*>(answers.mapped()) + sizeof head);
   for (std::size_t i = 0; i < batch.tiles.size(); ++i)
     for (std::size_t k = 0; k < batch.tiles[i].points.size(); ++k)
       batch.answers[batch.begins[i].point + k] = {static_cast<Vec3f>(batch.tiles[i].points[k].at.position), 0, {}, kAskHost};
-  std::memcpy(static_cast<char*>(answers.mapped()) + list, batch.names.data(), batch.names.size() * sizeof(std::uint32_t));
+  std::memcpy(static_cast<void*>(batch.answers + count), batch.names.data(), batch.names.size() * sizeof(std::uint32_t));
   std::vector<ComputeProgram::Dispatch> dispatches;
-  if (count > 0) {
-    const DeviceInfo& device = kept_.device.info();
-    const int space = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kMostSegments));
-    dispatches.push_back({kept_.program.pipeline(0, {space, space, static_cast<int>(device.subgroup)}), number(count)});
+  const DeviceInfo& device = kept_.device.info();
+  for (std::size_t i = 0; i < kSegments.size() && count > 0; ++i) {
+    const int space = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i]));
+    dispatches.push_back({.pipeline = kept_.program.pipeline(0, {space, space, static_cast<int>(device.subgroup)}),
+                          .push = number(i),
+                          .groups = &answers,
+                          .groups_at = kVector * (i + 1)});
   }
   if (device_rays_ != nullptr && count > 0)
     dispatches.push_back({kept_.program.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
