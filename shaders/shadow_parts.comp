@@ -14,7 +14,8 @@ layout(std430, binding = 2) buffer Answers {
     uint parts_begin;
     uint parts_used;  // by all parts, including those that did not fit
     uint parts_room;
-    uint unused;
+    uint left;
+    uvec4 counts;
     uvec4 spaces[kShadowSpaces];
     uvec4 answers[];
 };
@@ -168,7 +169,6 @@ void main() {
     bool occluded = segment_count > 0;
     vec3 place = vec3(0.0);
     uint sees = uint(kSeesWhole);
-    uint edges = 0u;
     if (!too_much && (occluded || (flags & kArranged) != 0)) {
         see_surroundings(corners, at, flags);
         cut_segments(base);
@@ -184,7 +184,6 @@ void main() {
             uint room_of_polygon = shares ? uint(kPartSums + kPartHeader) + corners.count + 1u : 0u;
             uint begin = LANE > 0u ? 0u : atomicAdd(parts_used, room + room_of_polygon);
             begin = of_first_lane(begin);
-            edges = max(uint(piece_count), shares ? corners.count : 0u);
             if (begin + room + room_of_polygon <= parts_room) {
                 write_part(view, place.xy, parts_begin + begin, shares ? room + uint(kPartSums) : 0u);
                 if (shares) write_polygon(view, corners, parts_begin + begin + room);
@@ -201,10 +200,9 @@ void main() {
         return;
     }
     if (too_much) sees = uint(kAskHost);
-    if (sees != uint(kSeesNone) && sees != uint(kAskHost)) edges += uint(kAskRay);
     // The ray ends at the height below which things block.
     vec3 way = relative(view, place.xy * view.scale) * max(1.0 + eye.height / eye.eye.z, 0.0);
     uint to = uint(kShadowAnswer) * (h2.y + number);
-    answers[to].w = edges;
+    if (sees == uint(kSeesWhole) || sees >= uint(kSeesPart)) answers[to].w += uint(kAskRay);
     answers[to + 1u] = uvec4(floatBitsToUint(way), sees);
 }

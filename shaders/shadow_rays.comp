@@ -1,4 +1,4 @@
-// Tests if the rays to the places that shadow_parts.comp has found are free: a thread a point.
+// Tests if the rays to the places that shadow_parts.comp has found are free, and writes the states of the points: a thread a point.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -8,10 +8,14 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Answers {
-    uvec4 head[kShadowSpaces + 1];
+    uint unused[3];
+    uint left;
+    uint found;
+    uint others[4 * kAnswersHead - 5];
     uvec4 answers[];
 };
 layout(std430, binding = 3) readonly buffer Hierarchy { uvec4 hierarchy[]; };
+layout(std430, binding = 4) writeonly buffer States { uint states[]; };
 layout(push_constant) uniform Push { uint count; };
 
 #include "ray_hierarchy.glsl"
@@ -21,9 +25,13 @@ void main() {
     if (number >= count) return;
     uvec4 from = answers[uint(kShadowAnswer) * number];
     uvec4 to = answers[uint(kShadowAnswer) * number + 1u];
-    if ((from.w & uint(kAskRay)) == 0u) return;
-    int way = way_along(ray_of(uintBitsToFloat(from.xyz), uintBitsToFloat(to.xyz)));
-    if (way == kNotKnown) return;
-    answers[uint(kShadowAnswer) * number].w = from.w - uint(kAskRay);
-    if (way == kBlocked) answers[uint(kShadowAnswer) * number + 1u].w = uint(kSeesNone);
+    uint sees = to.w;
+    if ((from.w & uint(kAskRay)) != 0u) {
+        int way = way_along(ray_of(uintBitsToFloat(from.xyz), uintBitsToFloat(to.xyz)));
+        if (way != kFree) sees = uint(way == kBlocked ? kSeesNone : kAskHost);
+        answers[uint(kShadowAnswer) * number + 1u].w = sees;
+        if (way == kFree) states[from.w - uint(kAskRay)] = sees;
+    }
+    if (sees == uint(kAskHost) || sees == uint(kNoRoom)) atomicAdd(left, 1u);
+    if (sees >= uint(kSeesPart)) atomicAdd(found, 1u);
 }

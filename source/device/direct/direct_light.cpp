@@ -260,12 +260,12 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   // An uncut polygon has only its own edges, half of `edges`, and no arcs (light_records.cpp).
   const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
   const int most = std::max(own(most_edges_), 1);
-  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
+  const bool chunked = shadowed != nullptr || own(light.edges) > most;  // a part has any number of edges
   const bool by_arcs = pass.procedure == Procedure::closed_form || pass.procedure == Procedure::half_vector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
   const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
-  const int edges = chunked || shadowed != nullptr ? kMostEdges : light.kind == kPolygon ? most : space + 2;
+  const int edges = chunked ? kMostEdges : light.kind == kPolygon ? most : space + 2;
   const int arcs = by_arcs && !chunked ? edges : 1;
   const bool specular = pass.over_lobe();
   return {light.kind,
@@ -382,7 +382,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   work.add(key, own.name(), own.own != nullptr ? own.own->first : 0, place, numbers);
 }
 
-void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
+void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, Visibility visibility) {
   records_.keep(scene_lights_, scene_vertices_);
   Work work;
   for (std::size_t i = first_tile; i < end; ++i) {
@@ -398,11 +398,14 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
       if (!square.bounds.positions.is_empty()) list_shares(work, place, tiles[i], square);
     }
   }
-  if (work.groups.empty()) return;
+  if (work.groups.empty()) {
+    if (visibility.program != nullptr) visibility.program->run();
+    return;
+  }
   if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
     const std::size_t middle = (first_tile + end) / 2;
-    run(tiles, first_tile, middle, states, parts);
-    run(tiles, middle, end, states, parts);
+    run(tiles, first_tile, middle, visibility);
+    run(tiles, middle, end, {nullptr, visibility.states, visibility.parts});
     return;
   }
   fitting(kept_.means, work.means * sizeof(Vec4Floats));
@@ -433,10 +436,13 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   const Buffer* lights = write(kept_.lights, records_.values);
   const Buffer* vertices = write(kept_.vertices, records_.vertices);
   const Buffer *radiance = &kept_.radiance.get(), *none = lists;
-  const std::vector<double> ms =
-      kept_.program.run({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance,
-                         states != nullptr ? states : none, parts != nullptr ? parts : none, &kept_.means.get(), &kept_.details.get()},
-                        dispatches);
+  const Buffer* states = visibility.states != nullptr ? visibility.states : none;
+  const Buffer* parts = visibility.parts != nullptr ? visibility.parts : none;
+  kept_.program.record({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance, states, parts,
+                        &kept_.means.get(), &kept_.details.get()},
+                       dispatches);
+  kept_.program.run(visibility.program);
+  const std::vector<double>& ms = kept_.program.times();
   std::size_t i = 0;
   for (const auto& [key, group] : work.groups)
     if (i < ms.size()) times_[group.name] += ms[i++];

@@ -68,8 +68,7 @@ class DirectLight {
     struct Shadowed {
       const PackLight* light;
       std::uint32_t states;  // first state of the tile
-      int edges;             // most edges of a part
-      bool shares;           // some part counts as a fraction of a polygon's light: shaders/shadow_layout.glsl
+      bool shares;           // parts may count as fractions of a polygon's light: shaders/shadow_layout.glsl
     };
     std::vector<Shadowed> shadowed;
   };
@@ -78,10 +77,15 @@ class DirectLight {
   static std::size_t square_of_group(std::size_t group) { return group / 8 * 2 + group % 2; }
   // Lists the squares' lights from the tile's.
   void list_lights(Tile& tile) const;
-  // Adds the light of the lists to the radiance of some tiles. states, parts: of the shadowed lights (Shadows), if there are any.
-  void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Buffer* states = nullptr,
-           const Buffer* parts = nullptr);
-  void run(const std::vector<Tile>& tiles) { run(tiles, 0, tiles.size()); }
+  // Visibility of shadowed lights (Shadows), and the program that has recorded how to find it; null: it has run.
+  struct Visibility {
+    ComputeProgram* program = nullptr;
+    const Buffer* states = nullptr;
+    const Buffer* parts = nullptr;
+  };
+  // Adds the light of the lists to the radiance of some tiles.
+  void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, Visibility visibility);
+  void run(const std::vector<Tile>& tiles) { run(tiles, 0, tiles.size(), {}); }
   void take_radiance(std::size_t place, TileVector& radiance) const;
 
   // Milliseconds on the device so far, by pass; empty if it does not report them.

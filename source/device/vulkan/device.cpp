@@ -211,6 +211,7 @@ Device::~Device() {
 const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
 
 std::size_t Device::allocations() const { return handles_->allocations; }
+std::size_t Device::submissions() const { return handles_->submissions; }
 
 std::shared_ptr<const Device> open_device(const DeviceOptions& options) {
   const std::lock_guard lock(shared_mutex);

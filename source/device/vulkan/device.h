@@ -44,8 +44,9 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   // Warnings and errors of the validation layer so far.
   const std::vector<std::string>& validation_messages() const;
-  // Number of memory allocations so far.
+  // Numbers of memory allocations, and of submissions of work, so far.
   std::size_t allocations() const;
+  std::size_t submissions() const;
 
   struct Handles;  // handles.h, for this folder only
   const Handles& handles() const { return *handles_; }
