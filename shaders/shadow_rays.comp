@@ -27,10 +27,10 @@ void main() {
     uvec4 to = answers[uint(kShadowAnswer) * number + 1u];
     uint sees = to.w;
     if ((from.w & uint(kAskRay)) != 0u) {
-        int way = way_along(ray_of(uintBitsToFloat(from.xyz), uintBitsToFloat(to.xyz)));
-        if (way != kFree) sees = uint(way == kBlocked ? kSeesNone : kAskHost);
+        uint met = met_along(ray_of(uintBitsToFloat(from.xyz), uintBitsToFloat(to.xyz)), 0.0, 1.0, true);
+        if (met != uint(kMeetsNothing)) sees = uint(met == uint(kHostFinds) ? kAskHost : kSeesNone);
         answers[uint(kShadowAnswer) * number + 1u].w = sees;
-        if (way == kFree) states[from.w - uint(kAskRay)] = sees;
+        if (met == uint(kMeetsNothing)) states[from.w - uint(kAskRay)] = sees;
     }
     if (sees == uint(kAskHost) || sees == uint(kNoRoom)) atomicAdd(left, 1u);
     if (sees >= uint(kSeesPart)) atomicAdd(found, 1u);

@@ -50,12 +50,6 @@ void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TileP
   for (std::size_t i = 0; i < kTilePixels; ++i) to[i] = {v.x[i], v.y[i], v.z[i], beside[i]};
 }
 
-// Capacity in bytes; the limit of texels counts, too.
-std::size_t most_of_buffer(const DeviceInfo& device, BufferForm form = BufferForm::texels) {
-  const std::size_t texel = form == BufferForm::numbers ? sizeof(std::uint32_t) : sizeof(Vec4Floats);
-  return std::min({kLargestBuffer, device.storage_buffer, device.texel_buffer * texel});
-}
-
 // Squared distances of a point from a box.
 struct Distances {
   float nearest = 0, farthest = 0;
@@ -151,7 +145,7 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
     : kept_(kept),
       method_(method),
       specular_(methods::procedure_of(method.ggx, Brdf::ggx)),
-      light_details_(lights, most_of_buffer(kept.device.info()) / sizeof(Vec4Floats) - OwnLobes::most_vectors(scene)),
+      light_details_(lights, kept.details.most() / sizeof(Vec4Floats) - OwnLobes::most_vectors(scene)),
       own_lobes_(scene, method, light_details_.values().size()) {
   for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
   scene_lights_ = records_.lights.size();
@@ -180,15 +174,6 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
 }
 
 bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
-
-Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form) const {
-  const std::size_t most = most_of_buffer(kept_.device.info(), form);
-  if (bytes > most)
-    throw Error("Vulkan",
-                "the lights' lists take " + std::to_string(bytes) + " bytes, more than the " + std::to_string(most) + " of a buffer",
-                "use fewer --max-lights, or --backend cpu");
-  return buffer.fit_with_room(bytes, most);
-}
 
 Vec4Floats* DirectLight::planes_of(std::size_t place) {
   return static_cast<Vec4Floats*>(kept_.surfaces.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
@@ -408,7 +393,10 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
     run(tiles, middle, end, {nullptr, visibility.states, visibility.parts});
     return;
   }
-  fitting(kept_.means, work.means * sizeof(Vec4Floats));
+  const auto fit = [](KeptBuffer& buffer, std::size_t bytes) -> Buffer& {
+    return buffer.fit_with_room(bytes, "the lights' lists", "use fewer --max-lights, or --backend cpu");
+  };
+  fit(kept_.means, work.means * sizeof(Vec4Floats));
 
   std::vector<std::uint32_t> entries, numbers;
   std::vector<ComputeProgram::Dispatch> dispatches;
@@ -426,9 +414,8 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   entries.insert(entries.end(), numbers.begin(), numbers.end());
 
   const auto write = [&](KeptBuffer& buffer, const auto& values) {
-    using Value = typename std::decay_t<decltype(values)>::value_type;
-    const std::size_t bytes = values.size() * sizeof(Value);
-    Buffer& to = fitting(buffer, bytes, std::is_same_v<Value, std::uint32_t> ? BufferForm::numbers : BufferForm::texels);
+    const std::size_t bytes = values.size() * sizeof values[0];
+    Buffer& to = fit(buffer, bytes);
     to.write(values.data(), bytes);
     return &to;
   };

@@ -107,7 +107,6 @@ class DirectLight {
   std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                     const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
-  Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form = BufferForm::texels) const;
 
   Kept& kept_;
   const DirectMethod method_;

@@ -231,12 +231,6 @@ TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   };
   EXPECT_EQ(by_host(212), 0);
   EXPECT_EQ(by_host(213), 1);
-  // Triangles overlap: their crossings do or do not fit the turns of the loops.
-  for (const int triangles : {80, 200}) {
-    if (triangles == 200 && !test::is_night()) continue;
-    const double share = expect_same(std::to_string(triangles) + " triangles", under_triangles(triangles), options);
-    std::printf("%d triangles: %.2f %% of the parts by the host\n", triangles, 100 * share);
-  }
 }
 
 // Holes between needles have four pieces each. They exceed the first space with 12 needles, the second one with 20, all with 32. Behind a

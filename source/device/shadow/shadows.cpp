@@ -4,9 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "core/budget.h"
 #include "device/vulkan/shaders.h"
-#include "steradian/error.h"
 
 namespace steradian::vulkan {
 namespace {
@@ -62,23 +60,11 @@ bool Shadows::has(const DeviceInfo& device) {
   return device.adds && device.subgroup > 0 && device.shared_memory >= kLeastSegments * kSegmentBytes;
 }
 
-std::size_t Shadows::most_of_buffer() const { return std::min<std::size_t>(kLargestBuffer, kept_.device.info().storage_buffer); }
-
-Buffer& Shadows::fitting(KeptBuffer& buffer, std::size_t bytes, const char* what) const {
-  const std::size_t most = most_of_buffer();
-  if (bytes > most)
-    throw Error(
-        "Vulkan",
-        std::string(what) + " of one tile take " + readable_bytes(bytes) + ", more than the " + readable_bytes(most) + " of a buffer",
-        "use --backend cpu");
-  return buffer.fit_with_room(std::max(bytes, kVector), most);
-}
-
 void Shadows::upload_groups() {
   constexpr std::size_t kHeader = static_cast<std::size_t>(kShadowHeader);
   const std::size_t headers = begins_.back().group * kHeader;
   auto* to =
-      static_cast<std::uint32_t*>(fitting(kept_.groups, (headers + begins_.back().row) * kVector, "the edges before lights").mapped());
+      static_cast<std::uint32_t*>(kept_.groups.fit_with_room((headers + begins_.back().row) * kVector, "the edges before lights").mapped());
   names_.clear();
   std::size_t row = 0;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
@@ -99,10 +85,10 @@ void Shadows::upload_groups() {
 // Writes the states and records that the host knows.
 void Shadows::upload_states() {
   auto* to = static_cast<std::uint32_t*>(
-      fitting(kept_.states, begins_.back().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
+      kept_.states.fit_with_room(begins_.back().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
   const std::size_t wanted = std::max(begins_.back().point * kVectorsOfPart, wanted_);
   const std::size_t least = begins_.back().record * kVector;
-  Buffer& parts = fitting(kept_.parts, std::max(least, std::min(least + wanted * kVector, most_of_buffer())), "parts of lights");
+  Buffer& parts = kept_.parts.fit_with_room(std::max(least, std::min(least + wanted * kVector, kept_.parts.most())), "parts of lights");
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const std::vector<Vec4Floats>& records = tiles_[i].records;
     std::copy(records.begin(), records.end(), static_cast<Vec4Floats*>(parts.mapped()) + begins_[i].record);
@@ -117,7 +103,7 @@ void Shadows::upload_points() {
   AnswersHead head{number(begins_.back().record), 0, number(parts().bytes() / kVector - begins_.back().record), 0, 0, {}, {}};
   for (std::size_t i = 0; i < kSegments.size(); ++i)
     head.spaces[i] = {i == 0 ? number(names_.size()) : 0, 1, 1, number(first_list + i * list)};
-  Buffer& buffer = fitting(kept_.answers, sizeof head + (first_list + kSegments.size() * list) * kVector, "points before lights");
+  Buffer& buffer = kept_.answers.fit_with_room(sizeof head + (first_list + kSegments.size() * list) * kVector, "points before lights");
   buffer.write(&head, sizeof head);
   Answer* answers = answers_in(buffer);
   for (std::size_t i = 0; i < tiles_.size(); ++i)
@@ -134,7 +120,7 @@ void Shadows::upload_points() {
 std::size_t Shadows::record(std::span<TileShadows> tiles) {
   const auto fits = [&](const Begin& b) {
     return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues &&
-           b.record * kVector <= most_of_buffer() / 2;
+           b.record * kVector <= kept_.parts.most() / 2;
   };
   begins_.assign(1, {});
   for (const TileShadows& tile : tiles) {

@@ -61,8 +61,6 @@ class Shadows {
   void upload_states();
   void upload_points();
   void ask_host(TileShadows& tile, std::size_t begin);
-  Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, const char* what) const;
-  std::size_t most_of_buffer() const;  // bytes
 
   Kept& kept_;
   const SceneRays& rays_;
