@@ -80,26 +80,26 @@ bool look_at_segment(inout Walk e, int i) {
 // Sides of two segments to each other, in one order of the infinitely small displacements: of e's start from f, of f's start from e, and
 // what e's and f's directions add to them on the way to their ends.
 struct Sides {
-    Long ea;
-    Long fa;
-    Long turn;
+    int64_t ea;
+    int64_t fa;
+    int64_t turn;
 };
 // Signs: of e's start and end from f, and of f's start and end from e; then of e's middle from f.
 struct Signs {
     ivec4 ends;
     int middle;
 };
-int first_of(int sign, Long next) { return sign != 0 ? sign : sign_of(next); }
+int first_of(int sign, int64_t next) { return sign != 0 ? sign : sign_of(next); }
 Signs and_signs(Signs s, Sides sides) {
-    Long eb = long_sum(sides.ea, sides.turn);
-    Long fb = long_difference(sides.fa, sides.turn);
+    int64_t eb = sides.ea + sides.turn;
+    int64_t fb = sides.fa - sides.turn;
     ivec4 ends = ivec4(first_of(s.ends.x, sides.ea), first_of(s.ends.y, eb), first_of(s.ends.z, sides.fa), first_of(s.ends.w, fb));
-    return Signs(ends, first_of(s.middle, long_sum(sides.ea, eb)));
+    return Signs(ends, first_of(s.middle, sides.ea + eb));
 }
 // Fraction of the way from e's start to its end at which f lies, or -1 if the two are parallel.
 float place_between(Sides sides) {
     float a = to_float(sides.ea);
-    float d = a - to_float(long_sum(sides.ea, sides.turn));
+    float d = a - to_float(sides.ea + sides.turn);
     return d == 0.0 ? -1.0 : clamp(a / d, 0.0, 1.0);
 }
 
@@ -142,8 +142,7 @@ void settle_segment(inout Walk e, int i, bool asked) {
         ivec2 g = shift_e.zw - shift_e.xy;
         ivec2 gf = shift_f.zw - shift_f.xy;
         ivec2 r = shift_e.xy - shift_f.xy;
-        Sides first = Sides(long_sum(long_cross(df, r), long_cross(gf, q)), long_sum(long_cross(r, d), long_cross(q, g)),
-                            long_sum(long_cross(df, g), long_cross(gf, d)));
+        Sides first = Sides(long_cross(df, r) + long_cross(gf, q), long_cross(r, d) + long_cross(q, g), long_cross(df, g) + long_cross(gf, d));
         signs = and_signs(and_signs(signs, first), Sides(long_cross(gf, r), long_cross(r, g), long_cross(gf, g)));
         if (at < 0.0) at = place_between(first);
         ivec2 shifted = 2 * shift_f.yw - (shift_e.y + shift_e.w);

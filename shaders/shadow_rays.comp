@@ -1,4 +1,5 @@
-// Tests if the rays to the places that shadow_parts.comp has found are free, and writes the states of the points: a thread a point.
+// Tests if the rays to the places that shadow_parts.comp has found are free, and writes the states of the points: a thread a point. If the
+// parts exceed their capacity, it stops the lighting that follows.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -8,7 +9,9 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Answers {
-    uint unused[3];
+    uint unused;
+    uint parts_used;
+    uint parts_room;
     uint left;
     uint found;
     uint others[4 * kAnswersHead - 5];
@@ -16,6 +19,7 @@ layout(std430, binding = 2) buffer Answers {
 };
 layout(std430, binding = 3) readonly buffer Hierarchy { uvec4 hierarchy[]; };
 layout(std430, binding = 4) writeonly buffer States { uint states[]; };
+layout(std430, binding = 5) writeonly buffer Gates { uint gates[]; };
 layout(push_constant) uniform Push { uint count; };
 
 #include "ray_hierarchy.glsl"
@@ -32,6 +36,7 @@ void main() {
         answers[uint(kShadowAnswer) * number + 1u].w = sees;
         if (met == uint(kMeetsNothing)) states[from.w - uint(kAskRay)] = sees;
     }
-    if (sees == uint(kAskHost) || sees == uint(kNoRoom)) atomicAdd(left, 1u);
+    if (sees == uint(kAskHost)) atomicAdd(left, 1u);
     if (sees >= uint(kSeesPart)) atomicAdd(found, 1u);
+    for (uint i = parts_used > parts_room ? number : uint(gates.length()); i < uint(gates.length()); i += count) gates[i] = 0u;
 }

@@ -136,7 +136,8 @@ DirectLight::Kept::Kept(const Device& d)
       lights(d, BufferUse::host_writes, BufferForm::texels),
       vertices(d, BufferUse::host_writes, BufferForm::texels),
       lists(d, BufferUse::host_writes, BufferForm::numbers),
-      means(d, BufferUse::host_writes, BufferForm::texels) {
+      means(d, BufferUse::host_writes, BufferForm::texels),
+      gates(d) {
   surfaces.fit(tiles * bytes_of_planes(kPlanes));
   radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
 }
@@ -367,7 +368,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   work.add(key, own.name(), own.own != nullptr ? own.own->first : 0, place, numbers);
 }
 
-void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, Visibility visibility) {
+void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Visibility& visibility) {
   records_.keep(scene_lights_, scene_vertices_);
   Work work;
   for (std::size_t i = first_tile; i < end; ++i) {
@@ -383,14 +384,11 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
       if (!square.bounds.positions.is_empty()) list_shares(work, place, tiles[i], square);
     }
   }
-  if (work.groups.empty()) {
-    if (visibility.program != nullptr) visibility.program->run();
-    return;
-  }
+  if (work.groups.empty() && !visibility.record) return;
   if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
     const std::size_t middle = (first_tile + end) / 2;
     run(tiles, first_tile, middle, visibility);
-    run(tiles, middle, end, {nullptr, visibility.states, visibility.parts});
+    run(tiles, middle, end, visibility);
     return;
   }
   const auto fit = [](KeptBuffer& buffer, std::size_t bytes) -> Buffer& {
@@ -398,14 +396,16 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   };
   fit(kept_.means, work.means * sizeof(Vec4Floats));
 
-  std::vector<std::uint32_t> entries, numbers;
+  std::vector<std::uint32_t> entries, numbers, gates;
   std::vector<ComputeProgram::Dispatch> dispatches;
   std::size_t count = 0;
   for (const auto& [key, group] : work.groups) count += group.entries.size();
   const std::size_t after_entries = count * static_cast<std::size_t>(kEntry);
   for (const auto& [key, group] : work.groups) {
-    dispatches.push_back({kept_.program.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
-                          static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
+    dispatches.push_back({.pipeline = kept_.program.pipeline(key.shader, key.constants),
+                          .push = static_cast<std::uint32_t>(entries.size() / kEntry),
+                          .groups_at = gates.size() * sizeof gates[0]});
+    gates.insert(gates.end(), {static_cast<std::uint32_t>(kGroupsOfSquare), static_cast<std::uint32_t>(group.entries.size()), 1});
     for (const Work::Entry& entry : group.entries) {
       entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count, entry.own});
       numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());
@@ -422,13 +422,14 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   const Buffer* lists = write(kept_.lists, entries);
   const Buffer* lights = write(kept_.lights, records_.values);
   const Buffer* vertices = write(kept_.vertices, records_.vertices);
-  const Buffer *radiance = &kept_.radiance.get(), *none = lists;
+  const Buffer *radiance = &kept_.radiance.get(), *none = lists, *counts = write(kept_.gates, gates);
+  for (ComputeProgram::Dispatch& dispatch : dispatches) dispatch.groups = counts;
   const Buffer* states = visibility.states != nullptr ? visibility.states : none;
   const Buffer* parts = visibility.parts != nullptr ? visibility.parts : none;
   kept_.program.record({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance, states, parts,
                         &kept_.means.get(), &kept_.details.get()},
                        dispatches);
-  kept_.program.run(visibility.program);
+  kept_.program.run(visibility.record ? &visibility.record(*counts) : nullptr);
   const std::vector<double>& ms = kept_.program.times();
   std::size_t i = 0;
   for (const auto& [key, group] : work.groups)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ class DirectLight {
     const Device& device;
     const std::size_t tiles;  // per batch
     ComputeProgram program;
-    KeptBuffer surfaces, radiance, tables, details, lights, vertices, lists, means;
+    KeptBuffer surfaces, radiance, tables, details, lights, vertices, lists, means, gates;
   };
 
   // `kept`, the scene and the lights must outlive this object.
@@ -77,14 +78,15 @@ class DirectLight {
   static std::size_t square_of_group(std::size_t group) { return group / 8 * 2 + group % 2; }
   // Lists the squares' lights from the tile's.
   void list_lights(Tile& tile) const;
-  // Visibility of shadowed lights (Shadows), and the program that has recorded how to find it; null: it has run.
+  // Visibility of shadowed lights (Shadows). record: if not null, it records the search for it in a program that runs before. The search
+  // may write 0 to all numbers of `gates`. Then no light is added.
   struct Visibility {
-    ComputeProgram* program = nullptr;
+    std::function<ComputeProgram&(const Buffer& gates)> record;
     const Buffer* states = nullptr;
     const Buffer* parts = nullptr;
   };
   // Adds the light of the lists to the radiance of some tiles.
-  void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, Visibility visibility);
+  void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Visibility& visibility);
   void run(const std::vector<Tile>& tiles) { run(tiles, 0, tiles.size(), {}); }
   void take_radiance(std::size_t place, TileVector& radiance) const;
 

@@ -30,7 +30,7 @@ bool has_bent_coats(const SurfaceMaterial& m) {
 std::string first_lack(const Scene& scene, const RenderOptions& options, const DeviceInfo& device, const std::vector<PackLight>& lights,
                        const DirectLight& direct) {
   if (options.shadows != steradian::Shadows::off && !Shadows::has(device))
-    return "'" + device.name + "' has no shadows: its subgroups cannot add";
+    return "'" + device.name + "' has no shadows: its subgroups cannot add, or it has no whole numbers of 64 bits";
   if (options.indirect.mode == IndirectMode::path) return "it has no bounce by paths";
   if (options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0) return "it has no --indirect-shadows";
   for (const Mesh& mesh : scene.meshes) {
@@ -220,7 +220,7 @@ struct Frame::Parts {
       return direct.run(tiles);
     if (!shadows) shadows.emplace(made(kept->shadows, *device), host, *device_rays);
     for (std::size_t first = 0; first < tiles.size();) {
-      const std::size_t end = first + shadows->record(all.subspan(first));
+      const std::size_t end = first + shadows->upload(all.subspan(first));
       std::uint32_t states = 0;
       for (std::size_t i = first; i < end; ++i) {
         tiles[i].shadowed.clear();
@@ -229,14 +229,13 @@ struct Frame::Parts {
           states += static_cast<std::uint32_t>(kTilePixels);
         }
       }
-      direct.run(tiles, first, end, {&shadows->program(), &shadows->states(), &shadows->parts()});
-      if (!shadows->finish([this](std::size_t n, const auto& work) { each(n, work); })) {
-        first = end;
-        continue;
-      }
-      // The next run adds the light of the points that are left.
-      for (std::size_t i = first; i < end; ++i)
+      direct.run(tiles, first, end,
+                 {[&](const Buffer& gates) -> ComputeProgram& { return shadows->record(gates); }, &shadows->states(), &shadows->parts()});
+      const Shadows::Outcome outcome = shadows->finish([this](std::size_t n, const auto& work) { each(n, work); });
+      // The next run adds the light of the points that are left, and of no other.
+      for (std::size_t i = first; outcome == Shadows::Outcome::left && i < end; ++i)
         for (DirectLight::Square& square : tiles[i].squares) square.lights.clear();
+      if (outcome == Shadows::Outcome::done) first = end;
     }
   }
 

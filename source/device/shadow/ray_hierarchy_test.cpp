@@ -40,18 +40,18 @@ std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& w
   const auto rays = SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene);
   const Device& device = rays->device();
   const Buffer& hierarchy = rays->hierarchy();
-  ComputeProgram program(device, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 5);
+  ComputeProgram program(device, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 6);
   std::vector<Answer> answers(ways.size());
   constexpr std::size_t kHead = 4 * sizeof(float) * kAnswersHead;
   Buffer buffer(device, kHead + answers.size() * sizeof answers[0]), states(device, ways.size() * sizeof(std::uint32_t));
-  char* at = static_cast<char*>(buffer.mapped()) + kHead;
+  char* at = std::fill_n(static_cast<char*>(buffer.mapped()), kHead, '\0');
   for (std::size_t i = 0; i < ways.size(); ++i)
     answers[i] = {ways[i].from, static_cast<std::uint32_t>(kAskRay + i), ways[i].along, static_cast<std::uint32_t>(kSeesWhole)};
   std::fill_n(static_cast<std::uint32_t*>(states.mapped()), ways.size(), static_cast<std::uint32_t>(kSeesNone));
   std::copy(answers.begin(), answers.end(), reinterpret_cast<Answer*>(at));
   const auto count = static_cast<std::uint32_t>(ways.size());
   const std::vector<double> ms =
-      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy, &states}, {{program.pipeline(1), (count + 63) / 64, 1, count}});
+      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy, &states, &states}, {{program.pipeline(1), (count + 63) / 64, 1, count}});
   if (!ms.empty()) std::printf("%zu triangles, %zu bytes: %.2f us a ray\n", scene.triangle_count(), hierarchy.bytes(), 1e3 * ms[0] / count);
   std::vector<Found> found;
   for (std::size_t i = 0; i < ways.size(); ++i) {

@@ -50,14 +50,14 @@ Answer* answers_in(const Buffer& buffer) { return reinterpret_cast<Answer*>(stat
 
 Shadows::Kept::Kept(const Device& d)
     : device(d),
-      program(d, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 5),
+      program(d, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 6),
       groups(d),
       answers(d, BufferUse::host_reads),
       parts(d),
       states(d) {}
 
 bool Shadows::has(const DeviceInfo& device) {
-  return device.adds && device.subgroup > 0 && device.shared_memory >= kLeastSegments * kSegmentBytes;
+  return device.adds && device.int64 && device.subgroup > 0 && device.shared_memory >= kLeastSegments * kSegmentBytes;
 }
 
 void Shadows::upload_groups() {
@@ -69,9 +69,7 @@ void Shadows::upload_groups() {
   std::size_t row = 0;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     for (const TileShadows::Search& group : tiles_[i].groups) {
-      for (std::size_t k = 0; k < group.points; ++k)
-        if (tiles_[i].points[group.header[9] + k].asked)
-          names_.push_back(number(row / kHeader * static_cast<std::size_t>(kGroupPoints) + k));
+      for (std::size_t k = 0; k < group.points; ++k) names_.push_back(number(row / kHeader * static_cast<std::size_t>(kGroupPoints) + k));
       auto header = group.header;
       for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + begins_[i].row);
       header[9] += number(begins_[i].point);
@@ -86,9 +84,9 @@ void Shadows::upload_groups() {
 void Shadows::upload_states() {
   auto* to = static_cast<std::uint32_t*>(
       kept_.states.fit_with_room(begins_.back().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
-  const std::size_t wanted = std::max(begins_.back().point * kVectorsOfPart, wanted_);
-  const std::size_t least = begins_.back().record * kVector;
-  Buffer& parts = kept_.parts.fit_with_room(std::max(least, std::min(least + wanted * kVector, kept_.parts.most())), "parts of lights");
+  const std::size_t record = begins_.back().record;
+  const std::size_t bytes = std::min((record + begins_.back().point * kVectorsOfPart) * kVector, kept_.parts.most());
+  Buffer& parts = kept_.parts.fit_with_room(std::max(bytes, (record + wanted_) * kVector), "parts of lights");
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const std::vector<Vec4Floats>& records = tiles_[i].records;
     std::copy(records.begin(), records.end(), static_cast<Vec4Floats*>(parts.mapped()) + begins_[i].record);
@@ -109,15 +107,13 @@ void Shadows::upload_points() {
   for (std::size_t i = 0; i < tiles_.size(); ++i)
     for (std::size_t k = 0; k < tiles_[i].points.size(); ++k) {
       const TileShadows::Point& point = tiles_[i].points[k];
-      answers[begins_[i].point + k] = {static_cast<Vec3f>(point.at.position),
-                                       number((begins_[i].light + point.light) * kTilePixels + point.slot),
-                                       {},
-                                       flag(point.asked ? kAskHost : kSeesNone)};
+      const std::size_t state = (begins_[i].light + point.light) * kTilePixels + point.slot;
+      answers[begins_[i].point + k] = {static_cast<Vec3f>(point.at.position), number(state), {}, kAskHost};
     }
   std::memcpy(static_cast<void*>(answers + count), names_.data(), names_.size() * sizeof(std::uint32_t));
 }
 
-std::size_t Shadows::record(std::span<TileShadows> tiles) {
+std::size_t Shadows::upload(std::span<TileShadows> tiles) {
   const auto fits = [&](const Begin& b) {
     return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues &&
            b.record * kVector <= kept_.parts.most() / 2;
@@ -127,13 +123,17 @@ std::size_t Shadows::record(std::span<TileShadows> tiles) {
     const Begin& b = begins_.back();
     const Begin next = {b.light + tile.by_light.size(), b.point + tile.points.size(), b.record + tile.records.size(),
                         b.row + tile.values.size() / 4, b.group + tile.groups.size()};
-    if (begins_.size() > 1 && !fits(next)) break;
+    if (begins_.size() > 1 && (!fits(next) || begins_.size() > most_tiles_)) break;
     begins_.push_back(next);
   }
   tiles_ = tiles.first(begins_.size() - 1);
   upload_groups();
   upload_states();
   upload_points();
+  return tiles_.size();
+}
+
+ComputeProgram& Shadows::record(const Buffer& gates) {
   std::vector<ComputeProgram::Dispatch> dispatches;
   if (!names_.empty()) {
     const DeviceInfo& device = kept_.device.info();
@@ -147,12 +147,12 @@ std::size_t Shadows::record(std::span<TileShadows> tiles) {
     const std::size_t count = begins_.back().point;
     dispatches.push_back({kept_.program.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
   }
-  kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get()},
+  kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get(), &gates},
                        dispatches);
-  return tiles_.size();
+  return kept_.program;
 }
 
-// The host finds the visible parts for the points that the device has not answered.
+// The host finds the visible parts for the points that the device has not answered. The tile then has only these.
 void Shadows::ask_host(TileShadows& tile, std::size_t begin) {
   const Answer* answers = answers_in(kept_.answers.get()) + begin;
   tile.records.clear();
@@ -165,40 +165,50 @@ void Shadows::ask_host(TileShadows& tile, std::size_t begin) {
   std::vector<std::uint32_t> slots;
   for (std::size_t g = 0; g < tile.groups.size(); ++g) {
     const std::size_t first = tile.groups[g].header[9], end = first + tile.groups[g].points;
-    TileShadows::Light& light = tile.by_light[tile.points[first].light];
+    const std::uint32_t number_of_light = tile.points[first].light;
     points.groups.groups.emplace_back();
     for (std::size_t k = first; k < end; ++k) {
-      TileShadows::Point& point = tile.points[k];
-      const bool left = point.asked && answers[k].sees == kAskHost;
-      point.asked = point.asked && answers[k].sees == kNoRoom;
-      light.listed = light.listed || point.asked || left;
-      if (!left) continue;
-      points.points[point.slot] = point.at;
-      points.groups.groups.back().push_back(point.slot);
-      slots.push_back(point.slot);
+      if (answers[k].sees != kAskHost) continue;
+      const std::uint32_t slot = tile.points[k].slot;
+      points.points[slot] = tile.points[k].at;
+      points.groups.groups.back().push_back(slot);
+      slots.push_back(slot);
     }
     if (points.groups.groups.back().empty())
       points.groups.groups.pop_back();
     else
       points.groups.clusters.push_back({number(points.groups.groups.size() - 1)});
-    const bool last = g + 1 == tile.groups.size() || tile.points[end].light != tile.points[first].light;
+    const bool last = g + 1 == tile.groups.size() || tile.points[end].light != number_of_light;
     if (!last || slots.empty()) continue;
-    tile.set(tile.points[first].light, slots, host_.find_at(points, *light.light));
+    TileShadows::Light& light = tile.by_light[number_of_light];
+    light.listed = true;
+    tile.set(number_of_light, slots, host_.find_at(points, *light.light));
     points.groups = {};
     slots.clear();
   }
+  tile.groups.clear();
+  tile.values.clear();
+  tile.points.clear();
 }
 
-bool Shadows::finish(const Each& each) {
+Shadows::Outcome Shadows::finish(const Each& each) {
   const std::vector<double>& times = kept_.program.times();
   for (std::size_t i = 0; i < times.size(); ++i) (i + 1 == times.size() ? rays_time_ : time_) += times[i];
   AnswersHead head;
   std::memcpy(&head, kept_.answers.get().mapped(), sizeof head);
+  if (head.parts_used > head.parts_room) {
+    const bool too_many = tiles_.size() > 1 && (begins_.back().record + head.parts_used) * kVector > kept_.parts.most();
+    if (too_many) most_tiles_ = tiles_.size() / 2;
+    wanted_ = too_many ? 0 : head.parts_used;
+    return Outcome::no_room;
+  }
+  wanted_ = 0;
+  most_tiles_ = SIZE_MAX;
   points_ += names_.size() - head.left;
   found_ += head.found;
-  wanted_ = head.parts_used;
-  if (head.left > 0) each(tiles_.size(), [&](std::size_t i) { ask_host(tiles_[i], begins_[i].point); });
-  return head.left > 0;
+  if (head.left == 0) return Outcome::done;
+  each(tiles_.size(), [&](std::size_t i) { ask_host(tiles_[i], begins_[i].point); });
+  return Outcome::left;
 }
 
 }  // namespace steradian::vulkan

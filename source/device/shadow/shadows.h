@@ -1,8 +1,9 @@
 // Shadows on a device: a subgroup per point finds the visible parts of lights behind edges (shaders/shadow_parts.comp). One ray per point
-// tests that the part is unoccluded (shaders/shadow_rays.comp). Lighting follows in the same submission. Points that exceed a capacity or
-// are uncertain are left: the host finds their parts, and a further run adds their light.
+// tests that the part is unoccluded (shaders/shadow_rays.comp). Lighting follows in the same submission. Points that exceed a capacity of
+// the subgroup or are uncertain are left: the host finds their parts, and a further run adds their light.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -31,19 +32,21 @@ class Shadows {
   // All arguments must outlive this object.
   Shadows(Kept& kept, TileLighting& host, const SceneRays& rays) : kept_(kept), rays_(rays), host_(host) {}
 
-  // Records the search for the points of the first tiles, as many as buffers have capacity for, and returns their number: at least one.
-  // Throws Error if one is too many.
-  std::size_t record(std::span<TileShadows> tiles);
+  // Uploads the points of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
+  // one is too many.
+  std::size_t upload(std::span<TileShadows> tiles);
+  // Records the search for these points. If their parts exceed the buffer, it writes 0 to all numbers of `gates`.
+  ComputeProgram& record(const Buffer& gates);
 
-  // The search of the last record(). Its results are, tile after tile and light after light, kTilePixels states; and the parts' records.
-  ComputeProgram& program() { return kept_.program; }
+  // Results: tile after tile and light after light, kTilePixels states; and the parts' records.
   const Buffer& states() const { return kept_.states.get(); }
   const Buffer& parts() const { return kept_.parts.get(); }
 
-  // To be called when the search has run. Returns true if points are left. The tiles then have only these, for the next record(). Calls
-  // each(count, work) for work in parallel.
+  // To be called when the search has run. left: the tiles have only the points that the device has left, for another upload().
+  // no_room: the same tiles must be uploaded again. Calls each(count, work) for work in parallel.
+  enum class Outcome { done, left, no_room };
   using Each = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
-  bool finish(const Each& each);
+  Outcome finish(const Each& each);
 
   // Milliseconds on the device so far.
   double time() const { return time_; }
@@ -65,10 +68,11 @@ class Shadows {
   Kept& kept_;
   const SceneRays& rays_;
   TileLighting& host_;
-  std::span<TileShadows> tiles_;      // of the last record()
+  std::span<TileShadows> tiles_;      // of the last upload()
   std::vector<Begin> begins_;         // of each, and the end
-  std::vector<std::uint32_t> names_;  // of the points that are asked
-  std::size_t wanted_ = 0;            // vectors that the parts of the last run took
+  std::vector<std::uint32_t> names_;  // of the points
+  std::size_t wanted_ = 0;            // vectors that the parts need, if a search has shown it
+  std::size_t most_tiles_ = SIZE_MAX;
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;
 };

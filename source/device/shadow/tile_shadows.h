@@ -33,7 +33,6 @@ class TileShadows : public ShadowTaker {
     const LightSide* side;
     bool shares;
     shadow::Viewpoint at;
-    bool asked = true;  // the device has not answered yet
   };
   struct Search {
     std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point

@@ -23,6 +23,7 @@ struct DeviceInfo {
   bool timestamps = false;         // for compute work
   bool broadcasts = false;         // threads that run in step can exchange a value ...
   bool adds = false;               // ... and sum their values
+  bool int64 = false;              // shaders have whole numbers of 64 bits
   std::size_t shared_memory = 0;   // bytes of a work group
 };
 
