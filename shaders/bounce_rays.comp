@@ -17,5 +17,5 @@ void main() {
     if (i >= count) return;
     vec4 from = rays[i * uint(kMapRay)];
     vec3 along = rays[i * uint(kMapRay) + 1u].xyz;
-    met[i] = dot(along, along) > 0.0 ? first_along(ray_of(from.xyz, along), from.w) : uint(kMeetsNothing);
+    met[i] = dot(along, along) > 0.0 ? met_along(ray_of(from.xyz, along), from.w, 3.0e38, false) : uint(kMeetsNothing);
 }

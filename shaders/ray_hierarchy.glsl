@@ -76,18 +76,16 @@ bool meets_triangle(Ray ray, float first, float last, vec3 v0, vec3 v1, vec3 v2,
 // loop one more. This many nodes stay below that. A traversal that is not at the end did not finish.
 const int kMostNodes = 10000;
 
-const float kFarthest = 3.0e38;
-
 uvec4 node_low(uint node) { return hierarchy[uint(kHead) + 2u * node]; }
 uvec4 node_high(uint node) { return hierarchy[uint(kHead) + 2u * node + 1u]; }
 
-// Number, from 1, of the first triangle that a ray meets from a place on.
-uint first_along(Ray ray, float first) {
+// Number, from 1, of the first triangle that a ray meets between two places; if `any`, of some triangle. kHostFinds: the traversal took too
+// many turns.
+uint met_along(Ray ray, float first, float last, bool any) {
     uint end = node_high(0u).w;
     uint node = 0u;
     uint met = uint(kMeetsNothing);
-    float last = kFarthest;
-    for (int turn = 0; turn < kMostNodes && node < end; turn++) {
+    for (int turn = 0; turn < kMostNodes && node < end && !(any && met != uint(kMeetsNothing)); turn++) {
         uvec4 low = node_low(node);
         uvec4 high = node_high(node);
         bool meets = meets_box(ray, first, last, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
@@ -104,30 +102,5 @@ uint first_along(Ray ray, float first) {
             }
         }
     }
-    return node >= end ? met : uint(kHostFinds);
-}
-
-const int kFree = 0;
-const int kBlocked = 1;
-const int kNotKnown = 2;  // the traversal took too many turns
-
-// Tests if anything occludes the ray between its beginning and the end of its vector.
-int way_along(Ray ray) {
-    uint end = node_high(0u).w;
-    uint node = 0u;
-    bool blocked = false;
-    for (int turn = 0; turn < kMostNodes && node < end && !blocked; turn++) {
-        uvec4 low = node_low(node);
-        uvec4 high = node_high(node);
-        bool meets = meets_box(ray, 0.0, 1.0, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
-        node = meets ? node + 1u : high.w;
-        uint first = low.w / uint(kLeafSizes);
-        uint last = meets ? first + 3u * (low.w % uint(kLeafSizes)) : first;
-        for (uint t = first; t < last; t += 3u) {
-            float place;
-            blocked = blocked || meets_triangle(ray, 0.0, 1.0, uintBitsToFloat(hierarchy[t].xyz), uintBitsToFloat(hierarchy[t + 1u].xyz),
-                                                uintBitsToFloat(hierarchy[t + 2u].xyz), place);
-        }
-    }
-    return blocked ? kBlocked : node >= end ? kFree : kNotKnown;
+    return node >= end || (any && met != uint(kMeetsNothing)) ? met : uint(kHostFinds);
 }

@@ -1,52 +1,6 @@
 // The counts along all segments, and the pieces at the lowest count: steps 5 and 6 of docs/shadows.md.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Terms of order 0, 1 and 2 of f x (p - scale f.a) in the infinitely small displacement. p, shift: a vertex, or twice a midpoint.
-struct Side {
-    Long d0;
-    Long d1;
-    Long d2;
-};
-Side side_of(ivec4 f, ivec4 shift_f, ivec2 p, ivec2 shift, int scale) {
-    ivec2 d = f.zw - f.xy;
-    ivec2 g = shift_f.zw - shift_f.xy;
-    ivec2 q = p - scale * f.xy;
-    ivec2 r = shift - scale * shift_f.xy;
-    return Side(long_cross(d, q), long_sum(long_cross(d, r), long_cross(g, q)), long_cross(g, r));
-}
-Side side_sum(Side a, Side b) { return Side(long_sum(a.d0, b.d0), long_sum(a.d1, b.d1), long_sum(a.d2, b.d2)); }
-bool is_left(Side s) {
-    int sign = sign_of(s.d0);
-    if (sign == 0) sign = sign_of(s.d1);
-    if (sign == 0) sign = sign_of(s.d2);
-    return sign >= 0;
-}
-// Fraction of the way between two vertices at which the line lies.
-float place_between(Side from, Side to) {
-    float a = to_float(from.d0);
-    float d = a - to_float(to.d0);
-    if (d == 0.0) {
-        a = to_float(from.d1);
-        d = a - to_float(to.d1);
-    }
-    return d == 0.0 ? 0.5 : clamp(a / d, 0.0, 1.0);
-}
-
-// Floats hold differences of cells exactly. A product has a relative error of 2^-24, and so has the difference of two. Returns 1 for left,
-// -1 for right, 0 if floats cannot decide.
-int float_side(ivec2 d, ivec2 q) {
-    float a = float(d.x) * float(q.y);
-    float b = float(d.y) * float(q.x);
-    float bound = 4.0e-7 * (abs(a) + abs(b));
-    return a - b > bound ? 1 : a - b < -bound ? -1 : 0;
-}
-
-bool share_an_end(uvec2 e, uvec2 f) {
-    uvec2 a = e & ~kLeftName;
-    uvec2 b = f & ~kLeftName;
-    return a.x == b.x || a.x == b.y || a.y == b.x || a.y == b.y;
-}
-
 // Pieces of segments at the lowest count so far: fractions of the way at which each begins and ends.
 shared vec2 pieces[PIECE_SPACE];
 shared int piece_segments[PIECE_SPACE];
@@ -54,220 +8,258 @@ int piece_count;
 int level;
 bool too_many_pieces;
 
-// Pieces of the segment that this lane handles.
-const int TAKEN_SPACE = kCrossings + 1;
-vec2 taken[TAKEN_SPACE];
-int taken_segments[TAKEN_SPACE];
-int taken_count;
-int taken_level;
-
-// Appends the pieces that each lane has taken to those of all lanes, if they are at the lowest count of all.
-void gather_pieces() {
-    int lowest = least_of_lanes(taken_level);
-    if (lowest < level) {
-        level = lowest;
-        piece_count = 0;
-        too_many_pieces = false;
-    }
-    uint all;
-    uint count = taken_level == level ? uint(taken_count) : 0u;
-    int to = piece_count + int(begin_of(count, all));
-    too_many_pieces = too_many_pieces || piece_count + int(all) > PIECE_SPACE;
-    for (int i = too_many_pieces ? int(count) : 0; i < int(count); i++) {
-        pieces[to + i] = taken[i];
-        piece_segments[to + i] = taken_segments[i];
-    }
-    if (!too_many_pieces) piece_count += int(all);
-    taken_count = 0;
-    taken_level = level;
-}
-
-void take_piece(vec2 ways, int segment, int left) {
-    int weight = weights[segment];
-    int low = min(left, left - weight);
-    if (low >= kHidden / 2 || low > taken_level || weight == 0) return;
-    if (low < taken_level) {
-        taken_level = low;
-        taken_count = 0;
-        too_many_pieces = false;
-    }
-    if (taken_count == TAKEN_SPACE) {
-        too_many_pieces = true;
-        return;
-    }
-    taken[taken_count] = ways;
-    taken_segments[taken_count] = segment;
-    ++taken_count;
-}
+// Crossings of the segments that the lanes have in work. Each segment has a chain of them, in their order along it.
+shared float crossing_at[PIECE_SPACE];
+shared int crossing_links[PIECE_SPACE];  // the change of the count, times kLinks; place of the next crossing
+int crossing_count;
+const int kLinkBits = 12;
+const int kLinks = 1 << kLinkBits;
+const int kNoLink = kLinks - 1;
 
 // Begin and end of a piece, with the side of the lower count on its left.
 vec4 piece_ends(int i) {
-    ivec4 e = cells[piece_segments[i]];
-    vec2 d = vec2(e.zw - e.xy);
+    vec4 e = cells[piece_segments[i]];
+    vec2 d = e.zw - e.xy;
     vec2 ways = pieces[i];
-    vec4 ends = vec4(vec2(e.xy) + ways.x * d, ways.y < 1.0 ? vec2(e.xy) + ways.y * d : vec2(e.zw));
-    return weights[piece_segments[i]] > 0 ? ends.zwxy : ends;
+    vec4 ends = vec4(e.xy + ways.x * d, ways.y < 1.0 ? e.xy + ways.y * d : e.zw);
+    return marks[piece_segments[i]] >= kMarks ? ends.zwxy : ends;
 }
 
-// Segments that a segment, or the left ray from its middle, may cross, with flags for what floats could decide.
-const int kMeets = 1;
-const int kNotCertain = 2;
-const int kEndAbove = 4;
-const int kCloseNumber = 8;
-int close[kClose];
-int close_count;
-
-// Crossings of one segment, in their order.
-float crossing_at[kCrossings];
-int crossing_change[kCrossings];
-int shifts_here;  // moves made while sorting them
-
-// A segment whose count is computed.
+// A segment e whose count is computed.
 struct Walk {
     int number;
-    ivec4 cells;
-    ivec4 shifts;
+    bool mine;          // false: the lane only takes part in the loops of all lanes
+    vec4 cells;
     uvec2 names;
-    ivec2 m;  // twice the middle
-    ivec2 shift_m;
-    ivec4 bounds;
+    int count;          // to the left of the middle
+    int before_middle;  // changes from the start to the middle
+    int first;          // place of the first crossing
 };
 
 // Change that a segment across a height adds to the count of a left ray at that height. left: the ray starts on the segment's left.
-int left_ray(int weight, bool upwards, bool left) { return upwards ? (left ? 0 : -weight) : (left ? weight : 0); }
+int left_ray(int weight, bool upwards, bool left) { return upwards == left ? 0 : upwards ? -weight : weight; }
 
-// Returns what segment i adds to the count left of the middle, as far as floats can decide. Stores it in `close` if more is needed.
-int look_at_segment(Walk e, int i) {
-    ivec4 f = cells[i];
-    uvec2 named_f = names[i];
-    int weight = weights[i];
-    int count = 0;
-    // Events of the box's left side, and the ends that lie above the middle; displacements break ties.
-    ivec2 height = 2 * f.yw - ivec2(e.m.y);
-    ivec2 shifted = 2 * height_shifts(i) - ivec2(e.shift_m.y);
-    bool start_above = height.x > 0 || (height.x == 0 && shifted.x > 0);
-    bool end_above = height.y > 0 || (height.y == 0 && shifted.y > 0);
-    bool start_below = height.x < 0 || (height.x == 0 && shifted.x < 0);
-    bool end_below = height.y < 0 || (height.y == 0 && shifted.y < 0);
-    if ((named_f.x & kLeftName) != 0u && start_below) count += weight;
-    if ((named_f.y & kLeftName) != 0u && end_below) count -= weight;
-    if (i == e.number) return count;
-
-    ivec2 d = e.cells.zw - e.cells.xy;
-    ivec2 df = f.zw - f.xy;
-    ivec2 low = min(f.xy, f.zw);
-    ivec2 high = max(f.xy, f.zw);
-    bool passes = start_above != end_above && 2 * low.x <= e.m.x;
-    bool certain = true;
-    if (passes) {
-        int side = 2 * high.x < e.m.x ? (end_above ? -1 : 1) : float_side(df, e.m - 2 * f.xy);
-        certain = side != 0;
-        count += left_ray(side == 0 ? 0 : weight, end_above, side > 0);
-    }
-    bool meets = all(lessThanEqual(low, e.bounds.zw)) && all(greaterThanEqual(high, e.bounds.xy)) && !share_an_end(e.names, named_f);
-    if (meets) {
-        int ea = float_side(df, e.cells.xy - f.xy);
-        int eb = float_side(df, e.cells.zw - f.xy);
-        int fa = float_side(d, f.xy - e.cells.xy);
-        int fb = float_side(d, f.zw - e.cells.xy);
-        meets = ea * eb <= 0 && fa * fb <= 0;
-    }
-    if (meets || !certain) {
-        too_much = too_much || close_count == kClose;
-        close[min(close_count, kClose - 1)] =
-            kCloseNumber * i + (meets ? kMeets : 0) + (certain ? 0 : kNotCertain) + (end_above ? kEndAbove : 0);
-        ++close_count;
-    }
-    return count;
+// Change that the events of a segment at the box's left side add at a height above its start, above its end.
+int left_events(int mark, bool above_start, bool above_end) {
+    return ((mark & kLeftStart) != 0 && above_start ? weight_of(mark) : 0) - ((mark & kLeftEnd) != 0 && above_end ? weight_of(mark) : 0);
 }
 
-// If `mine` is false, the lane only takes part in looking at the segments that all lanes look at.
-void cut_segment(int number, int base, bool mine) {
-    Walk w;
-    w.number = number;
-    w.cells = cells[number];
-    w.shifts = shifts_of(number);
-    w.names = names[number];
-    ivec4 e = w.cells;
-    ivec4 shift_e = w.shifts;
-    ivec2 d = e.zw - e.xy;
-    w.m = e.xy + e.zw;
-    w.shift_m = shift_e.xy + shift_e.zw;
-    w.bounds = ivec4(min(e.xy, e.zw), max(e.xy, e.zw));
-    close_count = 0;
-    int count = base;
-    for (int i = 0; i < segment_count; i += kAtOnce) {
-        count += look_at_segment(w, i);
-        if (i + 1 < segment_count) count += look_at_segment(w, i + 1);
-        if (i + 2 < segment_count) count += look_at_segment(w, i + 2);
-        if (i + 3 < segment_count) count += look_at_segment(w, i + 3);
+bool share_an_end(uvec2 a, uvec2 b) { return a.x == b.x || a.x == b.y || a.y == b.x || a.y == b.y; }
+
+// Adds to the count what segment f = i changes by floats alone. Returns true, and adds nothing, if they cannot decide.
+//
+// Three products tell all sides: of e's start from f, of f's start from e, and of e's direction from f's. The others are sums. Differences
+// of cells are exact. Each sum is off by less than 2^-22 of the sizes of all products, and 4e-7 is more.
+bool look_at_segment(inout Walk e, int i) {
+    vec4 f = cells[i];
+    int mark = marks[i];
+    vec2 d = e.cells.zw - e.cells.xy;
+    vec2 df = f.zw - f.xy;
+    vec2 q = e.cells.xy - f.xy;
+    vec2 ea = df * q.yx;
+    vec2 turn = df * d.yx;
+    vec2 fa = q * d.yx;
+    float start = ea.x - ea.y;
+    float all = turn.x - turn.y;
+    float other = fa.x - fa.y;
+    vec2 sizes = abs(ea) + abs(turn) + abs(fa);
+    float bound = 4.0e-7 * (sizes.x + sizes.y);
+    // They cross if both fractions of the way, -start / all and other / all, are between 0 and 1.
+    float along = all < 0.0 ? start : -start;
+    float across = all < 0.0 ? -other : other;
+    bool meets = min(along, across) >= -bound && max(along, across) <= abs(all) + bound && !share_an_end(e.names, names[i]);
+    float middle = 2.0 * start + all;
+    vec2 height = 2.0 * f.yw - (e.cells.y + e.cells.w);
+    bool passes = (height.x > 0.0) != (height.y > 0.0) && i != e.number;
+    bool open = meets || height.x == 0.0 || height.y == 0.0 || (passes && abs(middle) <= 2.0 * bound);
+    int change = left_events(mark, height.x < 0.0, height.y < 0.0) + (passes ? left_ray(weight_of(mark), height.y > 0.0, middle > 0.0) : 0);
+    e.count += open ? 0 : change;
+    return open;
+}
+
+// Sides of two segments to each other, in one order of the infinitely small displacements: of e's start from f, of f's start from e, and
+// what e's and f's directions add to them on the way to their ends.
+struct Sides {
+    int64_t ea;
+    int64_t fa;
+    int64_t turn;
+};
+// Signs: of e's start and end from f, and of f's start and end from e; then of e's middle from f.
+struct Signs {
+    ivec4 ends;
+    int middle;
+};
+int first_of(int sign, int64_t next) { return sign != 0 ? sign : sign_of(next); }
+Signs and_signs(Signs s, Sides sides) {
+    int64_t eb = sides.ea + sides.turn;
+    int64_t fb = sides.fa - sides.turn;
+    ivec4 ends = ivec4(first_of(s.ends.x, sides.ea), first_of(s.ends.y, eb), first_of(s.ends.z, sides.fa), first_of(s.ends.w, fb));
+    return Signs(ends, first_of(s.middle, sides.ea + eb));
+}
+// Fraction of the way from e's start to its end at which f lies, or -1 if the two are parallel.
+float place_between(Sides sides) {
+    float a = to_float(sides.ea);
+    float d = a - to_float(sides.ea + sides.turn);
+    return d == 0.0 ? -1.0 : clamp(a / d, 0.0, 1.0);
+}
+
+// Puts a crossing at its place in the chain of a segment. Returns the number of turns.
+int add_crossing(inout Walk e, int place, float at, int change) {
+    int before = kNoLink;
+    int next = e.first;
+    int steps = 0;
+    while (next != kNoLink && crossing_at[next] <= at) {
+        before = next;
+        next = crossing_links[next] & kNoLink;
+        ++steps;
     }
-    turns -= 2 * most_of_lanes(close_count);
-    too_much = too_much || turns < 0;
-    if (!mine || d == ivec2(0)) return;
-    int most_shifts = turns / int(LANES);
-    int before_middle = 0;
-    int crossings = 0;
-    for (int n = 0; n < close_count && !too_much; n++) {
-        int i = close[n] / kCloseNumber;
-        ivec4 f = cells[i];
-        ivec4 shift_f = shifts_of(i);
-        int weight = weights[i];
-        if ((close[n] & kNotCertain) != 0)
-            count += left_ray(weight, (close[n] & kEndAbove) != 0, is_left(side_of(f, shift_f, w.m, w.shift_m, 2)));
-        if ((close[n] & kMeets) == 0) continue;
-        Side ea = side_of(f, shift_f, e.xy, shift_e.xy, 1);
-        Side eb = side_of(f, shift_f, e.zw, shift_e.zw, 1);
-        bool to_left = is_left(eb);
-        if (is_left(ea) == to_left) continue;
-        if (is_left(side_of(e, shift_e, f.xy, shift_f.xy, 1)) == is_left(side_of(e, shift_e, f.zw, shift_f.zw, 1))) continue;
-        if (crossings == kCrossings || shifts_here > most_shifts) {
-            too_much = true;
-            break;
-        }
-        int change = to_left ? weight : -weight;
-        // The middle is still to come where it lies on the end's side.
-        if (is_left(side_sum(ea, eb)) == to_left) before_middle += change;
-        float t = place_between(ea, eb);
-        int k = crossings;
-        shifts_here += k;
-        while (k > 0 && crossing_at[k - 1] > t) {
-            crossing_at[k] = crossing_at[k - 1];
-            crossing_change[k] = crossing_change[k - 1];
-            --k;
-        }
-        crossing_at[k] = t;
-        crossing_change[k] = change;
-        ++crossings;
+    crossing_at[place] = at;
+    crossing_links[place] = kLinks * change + next;
+    if (before == kNoLink)
+        e.first = place;
+    else
+        crossing_links[before] = crossing_links[before] - next + place;
+    return steps;
+}
+
+// Adds to the count what segment i changes by whole numbers, and the crossing to the chain. Lanes without `asked` add nothing.
+void settle_segment(inout Walk e, int i, bool asked) {
+    ivec4 c = ivec4(e.cells);
+    ivec4 f = ivec4(cells[i]);
+    int mark = marks[i];
+    ivec2 d = c.zw - c.xy;
+    ivec2 df = f.zw - f.xy;
+    ivec2 q = c.xy - f.xy;
+    Sides sides = Sides(long_cross(df, q), long_cross(q, d), long_cross(df, d));
+    Signs signs = and_signs(Signs(ivec4(0), 0), sides);
+    float at = place_between(sides);
+    ivec2 height = 2 * f.yw - (c.y + c.w);
+    bool tie = any(equal(signs.ends, ivec4(0))) || signs.middle == 0 || any(equal(height, ivec2(0)));
+    // Displacements decide. A loop of at most one turn, as elsewhere.
+    for (int turn = tie && asked ? 0 : 1; turn < 1; turn++) {
+        ivec4 shift_e = displacements(e.names);
+        ivec4 shift_f = displacements(names[i]);
+        ivec2 g = shift_e.zw - shift_e.xy;
+        ivec2 gf = shift_f.zw - shift_f.xy;
+        ivec2 r = shift_e.xy - shift_f.xy;
+        Sides first = Sides(long_cross(df, r) + long_cross(gf, q), long_cross(r, d) + long_cross(q, g), long_cross(df, g) + long_cross(gf, d));
+        signs = and_signs(and_signs(signs, first), Sides(long_cross(gf, r), long_cross(r, g), long_cross(gf, g)));
+        if (at < 0.0) at = place_between(first);
+        ivec2 shifted = 2 * shift_f.yw - (shift_e.y + shift_e.w);
+        if (height.x == 0) height.x = shifted.x;
+        if (height.y == 0) height.y = shifted.y;
     }
+    bool passes = (height.x > 0) != (height.y > 0) && i != e.number;
+    if (asked) e.count += left_events(mark, height.x < 0, height.y < 0) + (passes ? left_ray(weight_of(mark), height.y > 0, signs.middle >= 0) : 0);
+
+    bool to_left = signs.ends.y >= 0;
+    bool crosses = asked && (signs.ends.x >= 0) != to_left && (signs.ends.z >= 0) != (signs.ends.w >= 0) && !share_an_end(e.names, names[i]);
+    int change = to_left ? weight_of(mark) : -weight_of(mark);
+    // The middle is still to come where it lies on the end's side.
+    if (crosses && (signs.middle >= 0) == to_left) e.before_middle += change;
+    int all;
+    int place = crossing_count + begin_of(crosses, all);
+    crossing_count += all;
+    too_much = too_much || crossing_count > PIECE_SPACE;
+    int steps = 0;
+    if (crosses && !too_much) steps = add_crossing(e, place, at < 0.0 ? 0.5 : at, change);
+    turns -= 4 + most_of_lanes(steps);
+}
+
+void look_at_all(inout Walk e) {
+    for (int first = 0; first < segment_count && !too_much; first += kSetOfPairs) {
+        int past = min(first + kSetOfPairs, segment_count);
+        uint open = 0u;
+        for (int i = first; i < past; i += kAtOnce) {
+            uint four = look_at_segment(e, i) ? 1u : 0u;
+            if (i + 1 < past && look_at_segment(e, i + 1)) four |= 2u;
+            if (i + 2 < past && look_at_segment(e, i + 2)) four |= 4u;
+            if (i + 3 < past && look_at_segment(e, i + 3)) four |= 8u;
+            open |= four << (i - first);
+        }
+        if (!e.mine) open = 0u;
+        while (any_of_lanes(open != 0u) && !too_much) {
+            settle_segment(e, first + max(findLSB(open), 0), open != 0u);
+            open &= open - 1u;
+            too_much = too_much || turns < 0;
+        }
+    }
+}
+
+// Appends the pieces of the lanes' segments to those of the segments before, if they are at the lowest count of all.
+void take_pieces(Walk e) {
+    float rise = e.cells.w - e.cells.y;
+    bool up = rise > 0.0;
+    for (int turn = rise == 0.0 ? 0 : 1; turn < 1; turn++) up = displacement(e.names.y).y > displacement(e.names.x).y;
+    int weight = weight_of(marks[e.number]);
     // The count is on the -x side, which is the left if the segment runs up.
-    bool up = d.y > 0 || (d.y == 0 && shift_e.w > shift_e.y);
-    int left = (up ? count : count + weights[number]) - before_middle;
-    float from = 0.0;
-    for (int k = 0; k <= crossings; k++) {
-        float to = k < crossings ? crossing_at[k] : 1.0;
-        if (to > from) {
-            take_piece(vec2(from, to), number, left);
-            from = to;
+    int begin = (up ? e.count : e.count + weight) - e.before_middle;
+    bool has_pieces = e.mine && weight != 0;
+    int lowest = kHidden / 2 - 1;
+    int count = 0;
+    int to = 0;
+    int steps = 0;
+    // The first pass counts the pieces at the lowest level, the second one stores them.
+    for (int pass = 0; pass < 2; pass++) {
+        bool walks = has_pieces;
+        int left = begin;
+        int next = e.first;
+        float from = 0.0;
+        count = 0;
+        while (walks) {
+            walks = next != kNoLink;
+            float until = walks ? crossing_at[next] : 1.0;
+            int low = min(left, left - weight);
+            if (until > from) {
+                if (low < lowest) {
+                    lowest = low;
+                    count = 0;
+                }
+                if (low == lowest) {
+                    if (pass == 1 && !too_many_pieces) {
+                        pieces[to + count] = vec2(from, until);
+                        piece_segments[to + count] = e.number;
+                    }
+                    ++count;
+                }
+                from = until;
+            }
+            if (walks) {
+                left += crossing_links[next] >> kLinkBits;
+                next = crossing_links[next] & kNoLink;
+            }
+            ++steps;
         }
-        if (k < crossings) left += crossing_change[k];
+        if (pass == 1) break;
+        int least = least_of_lanes(lowest);
+        if (least < level) {
+            level = least;
+            piece_count = 0;
+            too_many_pieces = false;
+        }
+        int all;
+        to = piece_count + begin_of(lowest == level ? count : 0, all);
+        too_many_pieces = too_many_pieces || piece_count + all > PIECE_SPACE;
+        if (!too_many_pieces) piece_count += all;
+        has_pieces = has_pieces && lowest == level;
     }
+    turns -= most_of_lanes(steps);
 }
 
 void cut_segments(int base) {
     piece_count = 0;
-    level = 2147483647;
+    level = kHidden / 2 - 1;
     too_many_pieces = false;
-    taken_count = 0;
-    taken_level = level;
     for (int first = 0; first < segment_count && !too_much; first += int(LANES)) {
-        uint i = uint(first) + LANE;
-        shifts_here = 0;
-        cut_segment(min(int(i), segment_count - 1), base, is_mine(i, uint(segment_count)));
-        turns -= sum_of_lanes(shifts_here);
-        too_much = any_of_lanes(too_much);
-        gather_pieces();
+        int i = first + int(LANE);
+        int number = min(i, segment_count - 1);
+        vec4 ends = cells[number];
+        Walk e = Walk(number, i < segment_count && ends.xy != ends.zw, ends, names[number], base, 0, kNoLink);
+        crossing_count = 0;
+        look_at_all(e);
+        take_pieces(e);
+        too_much = too_much || turns < 0;
     }
-    too_much = too_much || any_of_lanes(too_many_pieces);
+    too_much = too_much || too_many_pieces;
     meet();
 }

@@ -15,10 +15,17 @@ layout(local_size_x_id = 2) in;
 // Makes what lanes have written visible to all of them. Every lane must call this and all functions below, without divergent branches.
 void meet() { subgroupBarrier(); }
 // Place at which this lane's results begin among all lanes' results, in lane order. all: number of all results.
-uint begin_of(uint count, out uint all) {
+int begin_of(int count, out int all) {
     meet();
     all = subgroupAdd(count);
     return subgroupExclusiveAdd(count);
+}
+// The same for at most one result a lane.
+int begin_of(bool one, out int all) {
+    meet();
+    uvec4 lanes = subgroupBallot(one);
+    all = int(subgroupBallotBitCount(lanes));
+    return int(subgroupBallotExclusiveBitCount(lanes));
 }
 vec4 sum_of_lanes(vec4 x) { return subgroupAdd(x); }
 int sum_of_lanes(int x) { return subgroupAdd(x); }

@@ -37,11 +37,17 @@ const int kHorizonLeft = 16;  // the box's left side cuts: start, end; then the 
 const int kShares = 256;      // the outline replaces a round light
 const int kBase = 512;        // times how often the lower left corner is occluded
 
-// Answers:
-//   0  begin of a ray, as the host has it; number of edges of the outline, and kAskRay
+// Answers, after a head of two vectors and one for each space. Points whose segments exceed a space go on to the next one.
+//   0  place of the parts, number of their vectors, capacity; number of points that are left to the host
+//   1  number of points that see a part
+//   and for each space: number of its points, 1, 1: a dispatch; place of their names after the answers, four a vector
+const int kShadowSpaces = 3;
+const int kAnswersHead = 2 + kShadowSpaces;
+// An answer:
+//   0  begin of a ray, as the host has it; place of the point's state, and kAskRay
 //   1  vector of the ray to its end; the result so far
 const int kShadowAnswer = 2;
-const int kAskRay = 65536;  // set until it is known if the ray is free
+const int kAskRay = 1073741824;
 const int kSeesNone = 0;
 const int kSeesWhole = 1;    // if the ray is free; the same holds for a part
 const int kAskHost = 2;

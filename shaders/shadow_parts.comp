@@ -6,7 +6,7 @@
 #include "shadow_layout.glsl"
 
 layout(constant_id = 0) const int SEGMENT_SPACE = 32;
-layout(constant_id = 1) const int PIECE_SPACE = 32;
+layout(constant_id = 1) const int PIECE_SPACE = 32;  // for pieces, and for the crossings of LANES segments
 
 layout(std430, binding = 0) readonly buffer Groups { uvec4 groups[]; };
 layout(std430, binding = 1) writeonly buffer Parts { vec4 parts[]; };
@@ -14,9 +14,12 @@ layout(std430, binding = 2) buffer Answers {
     uint parts_begin;
     uint parts_used;  // by all parts, including those that did not fit
     uint parts_room;
-    uint first_name;  // after the answers: the names of the points, four a vector
+    uint left;
+    uvec4 counts;
+    uvec4 spaces[kShadowSpaces];
     uvec4 answers[];
 };
+layout(push_constant) uniform Push { uint space; };
 
 #include "prelude/prelude.glsl"
 #include "math/constants.glsl"
@@ -106,7 +109,7 @@ void write_polygon(View view, Corners corners, uint at) {
     at += uint(kPartSums);
     Moments m = moments_begin();
     for (uint i = LANE; i < corners.count; i += LANES) {
-        vec4 edge = vec4(corner_cells(corners, i)) * view.scale.xyxy;
+        vec4 edge = corner_cells(corners, i) * view.scale.xyxy;
         m = moments_add(m, edge.xy, edge.zw);
         if (i == 0u) parts[at + uint(kPartHeader)] = vec4(relative(view, edge.xy), 0.0);
         parts[at + uint(kPartHeader) + i + 1u] = vec4(relative(view, edge.zw), 1.0);
@@ -139,7 +142,7 @@ Eye eye_at(uint at, uint header, bool turned) {
 
 void main() {
     if (gl_NumSubgroups > 1u) return;
-    uint point = answers[first_name + gl_WorkGroupID.x / 4u][gl_WorkGroupID.x % 4u];
+    uint point = answers[spaces[space].w + gl_WorkGroupID.x / 4u][gl_WorkGroupID.x % 4u];
     uint header = point / uint(kGroupPoints) * uint(kShadowHeader);
     uvec4 h2 = groups[header + 2u];
     uint number = point % uint(kGroupPoints);
@@ -166,7 +169,6 @@ void main() {
     bool occluded = segment_count > 0;
     vec3 place = vec3(0.0);
     uint sees = uint(kSeesWhole);
-    uint edges = 0u;
     if (!too_much && (occluded || (flags & kArranged) != 0)) {
         see_surroundings(corners, at, flags);
         cut_segments(base);
@@ -182,7 +184,6 @@ void main() {
             uint room_of_polygon = shares ? uint(kPartSums + kPartHeader) + corners.count + 1u : 0u;
             uint begin = LANE > 0u ? 0u : atomicAdd(parts_used, room + room_of_polygon);
             begin = of_first_lane(begin);
-            edges = max(uint(piece_count), shares ? corners.count : 0u);
             if (begin + room + room_of_polygon <= parts_room) {
                 write_part(view, place.xy, parts_begin + begin, shares ? room + uint(kPartSums) : 0u);
                 if (shares) write_polygon(view, corners, parts_begin + begin + room);
@@ -192,12 +193,16 @@ void main() {
             }
         }
     }
-    if (too_much) sees = uint(kAskHost);
     if (LANE > 0u) return;
-    if (sees != uint(kSeesNone) && sees != uint(kAskHost)) edges += uint(kAskRay);
+    if (too_much && space + 1u < uint(kShadowSpaces)) {
+        uint place = atomicAdd(spaces[space + 1u].x, 1u);
+        answers[spaces[space + 1u].w + place / 4u][place % 4u] = point;
+        return;
+    }
+    if (too_much) sees = uint(kAskHost);
     // The ray ends at the height below which things block.
     vec3 way = relative(view, place.xy * view.scale) * max(1.0 + eye.height / eye.eye.z, 0.0);
     uint to = uint(kShadowAnswer) * (h2.y + number);
-    answers[to].w = edges;
+    if (sees == uint(kSeesWhole) || sees >= uint(kSeesPart)) answers[to].w += uint(kAskRay);
     answers[to + 1u] = uvec4(floatBitsToUint(way), sees);
 }

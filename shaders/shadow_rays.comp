@@ -1,4 +1,5 @@
-// Tests if the rays to the places that shadow_parts.comp has found are free: a thread a point.
+// Tests if the rays to the places that shadow_parts.comp has found are free, and writes the states of the points: a thread a point. If the
+// parts exceed their capacity, it stops the lighting that follows.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -8,10 +9,17 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Answers {
-    uvec4 unused;  // the head
+    uint unused;
+    uint parts_used;
+    uint parts_room;
+    uint left;
+    uint found;
+    uint others[4 * kAnswersHead - 5];
     uvec4 answers[];
 };
 layout(std430, binding = 3) readonly buffer Hierarchy { uvec4 hierarchy[]; };
+layout(std430, binding = 4) writeonly buffer States { uint states[]; };
+layout(std430, binding = 5) writeonly buffer Gates { uint gates[]; };
 layout(push_constant) uniform Push { uint count; };
 
 #include "ray_hierarchy.glsl"
@@ -21,9 +29,14 @@ void main() {
     if (number >= count) return;
     uvec4 from = answers[uint(kShadowAnswer) * number];
     uvec4 to = answers[uint(kShadowAnswer) * number + 1u];
-    if ((from.w & uint(kAskRay)) == 0u) return;
-    int way = way_along(ray_of(uintBitsToFloat(from.xyz), uintBitsToFloat(to.xyz)));
-    if (way == kNotKnown) return;
-    answers[uint(kShadowAnswer) * number].w = from.w - uint(kAskRay);
-    if (way == kBlocked) answers[uint(kShadowAnswer) * number + 1u].w = uint(kSeesNone);
+    uint sees = to.w;
+    if ((from.w & uint(kAskRay)) != 0u) {
+        uint met = met_along(ray_of(uintBitsToFloat(from.xyz), uintBitsToFloat(to.xyz)), 0.0, 1.0, true);
+        if (met != uint(kMeetsNothing)) sees = uint(met == uint(kHostFinds) ? kAskHost : kSeesNone);
+        answers[uint(kShadowAnswer) * number + 1u].w = sees;
+        if (met == uint(kMeetsNothing)) states[from.w - uint(kAskRay)] = sees;
+    }
+    if (sees == uint(kAskHost)) atomicAdd(left, 1u);
+    if (sees >= uint(kSeesPart)) atomicAdd(found, 1u);
+    for (uint i = parts_used > parts_room ? number : uint(gates.length()); i < uint(gates.length()); i += count) gates[i] = 0u;
 }

@@ -22,8 +22,8 @@ bool region_is_wide() {
 float distance_to_next(vec2 from, vec2 n, int but) {
     float nearest = 1.0e30;
     for (int i = int(LANE); i < segment_count; i += int(LANES)) {
-        vec2 a = vec2(cells[i].xy);
-        vec2 f = vec2(cells[i].zw) - a;
+        vec2 a = cells[i].xy;
+        vec2 f = cells[i].zw - a;
         vec2 p = a - from;
         float det = n.x * f.y - n.y * f.x;
         float inverse = 1.0 / (det != 0.0 ? det : 1.0);
@@ -40,7 +40,8 @@ float room_at(vec2 q, int base) {
     int count = 0;
     bool certain = true;
     for (int i = int(LANE); i < segment_count; i += int(LANES)) {
-        vec4 s = vec4(cells[i]);
+        vec4 s = cells[i];
+        int weight = weight_of(marks[i]);
         vec2 f = s.zw - s.xy;
         vec2 p = q - s.xy;
         vec2 r = p - clamp(dot(p, f) / max(dot(f, f), 1.0), 0.0, 1.0) * f;
@@ -52,10 +53,9 @@ float room_at(vec2 q, int base) {
         float b = f.y * p.x;
         if (start_above != end_above) {
             certain = certain && abs(a - b) > 1.0e-6 * (abs(a) + abs(b));
-            count += left_ray(weights[i], end_above, a > b);
+            count += left_ray(weight, end_above, a > b);
         }
-        if ((names[i].x & kLeftName) != 0u && s.y < q.y) count += weights[i];
-        if ((names[i].y & kLeftName) != 0u && s.w < q.y) count -= weights[i];
+        count += left_events(marks[i], s.y < q.y, s.w < q.y);
     }
     certain = !any_of_lanes(!certain);
     count = base + sum_of_lanes(count);

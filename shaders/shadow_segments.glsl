@@ -1,45 +1,47 @@
 // A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-shared ivec4 cells[SEGMENT_SPACE];  // start, end
+shared vec4 cells[SEGMENT_SPACE];  // start, end: whole numbers
 shared uvec2 names[SEGMENT_SPACE];
-shared int weights[SEGMENT_SPACE];
+shared int marks[SEGMENT_SPACE];  // the weight times kMarks, kLeftStart, kLeftEnd
 int segment_count;
 bool too_much;  // the capacity is exceeded
 
-const int kHidden = 1048576;  // source/shadow/edges/segments.h
+const int kMarks = 4;
+const int kLeftStart = 1;  // the box's left side cuts the segment at its start
+const int kLeftEnd = 2;
+// Weight of the outline: larger than the number of a group's triangles. The CPU has another one.
+const int kHidden = 65536;
 
+int weight_of(int mark) { return mark >> 2; }
 ivec4 displacements(uvec2 named) { return ivec4(displacement(named.x), displacement(named.y)); }
 
-shared ivec2 heights[SEGMENT_SPACE];  // displacements of both ends in y: the most frequent query
-
 // The segment that this lane has found.
-ivec4 found_cells;
+vec4 found_cells;
 uvec2 found_names;
-int found_weight;
+int found_mark;
 bool found;
 
-void add_segment(ivec4 ends, uvec2 named, int weight) {
+void add_segment(vec4 ends, uvec2 named, int weight) {
     found_cells = ends;
-    found_names = named;
-    found_weight = weight;
+    found_names = named & ~kLeftName;
+    found_mark = kMarks * weight + int(named.x / kLeftName) * kLeftStart + int(named.y / kLeftName) * kLeftEnd;
     found = true;
 }
 
 // Appends what each lane has found, one segment at most, after the first `before`. Returns the place of this lane's, or -1.
 int gather_segments(int before) {
-    uint all;
-    int to = before + int(begin_of(found ? 1u : 0u, all));
-    too_much = too_much || before + int(all) > SEGMENT_SPACE;
+    int all;
+    int to = before + begin_of(found, all);
+    too_much = too_much || before + all > SEGMENT_SPACE;
     if (too_much || !found) to = -1;
     found = false;
     if (to >= 0) {
         cells[to] = found_cells;
         names[to] = found_names;
-        weights[to] = found_weight;
-        heights[to] = displacements(found_names).yw;
+        marks[to] = found_mark;
     }
-    segment_count = before + (too_much ? 0 : int(all));
+    segment_count = before + (too_much ? 0 : all);
     return to;
 }
 
@@ -47,14 +49,9 @@ int gather_segments(int before) {
 void keep_gathered(int before, int own, bool keep) {
     meet();
     found = own >= 0 && keep;
-    if (found) found_weight = weights[own];
+    if (found) found_mark = marks[own];
     gather_segments(before);
 }
-
-void add_weight(int i, int weight) { atomicAdd(weights[i], weight); }
-
-ivec4 shifts_of(int i) { return displacements(names[i]); }
-ivec2 height_shifts(int i) { return heights[i]; }
 
 // A point in front of a light's plane.
 struct Eye {
@@ -95,7 +92,7 @@ float side_distance(float d, int outside, int bit) { return (outside & bit) != 0
 // clip_name: name of the segment's ends at the box.
 void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight) {
     if ((a.outside & b.outside & 15) != 0) return;
-    ivec4 ends = ivec4(ivec2(a.cell), ivec2(b.cell));
+    vec4 ends = vec4(a.cell, b.cell);
     ShadowSpan span;
     span.t0 = 0.0;
     span.t1 = 1.0;
@@ -113,11 +110,11 @@ void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight)
     if (!(span.t0 < span.t1) && at_a && at_b) return;
     vec3 d = b.h - a.h;
     if (at_a) {
-        ends.xy = ivec2(shadow_cell(a.h + d * span.t0, eye.box, span.sides.x));
+        ends.xy = shadow_cell(a.h + d * span.t0, eye.box, span.sides.x);
         named.x = clip_name | (span.sides.x < 1.5 ? kLeftName : 0u);
     }
     if (at_b) {
-        ends.zw = ivec2(shadow_cell(a.h + d * span.t1, eye.box, span.sides.y));
+        ends.zw = shadow_cell(a.h + d * span.t1, eye.box, span.sides.y);
         named.y = (clip_name + 1u) | (span.sides.y < 1.5 ? kLeftName : 0u);
     }
     add_segment(ends, named, weight);
@@ -220,9 +217,10 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
         int looks = 0;
         for (int i = first; i < own && !coincides; i++) {
             ++looks;
-            bool same = all(equal(names[i] & ~kLeftName, names[own] & ~kLeftName));
-            coincides = same || all(equal(names[i] & ~kLeftName, names[own].yx & ~kLeftName));
-            if (coincides) add_weight(i, same ? weights[own] : -weights[own]);
+            bool same = names[i] == names[own];
+            coincides = same || names[i] == names[own].yx;
+            int weight = weight_of(marks[own]);
+            if (coincides) atomicAdd(marks[i], kMarks * (same ? weight : -weight));
         }
         keep_gathered(before, own, !coincides);
         turns -= most_of_lanes(looks);
@@ -236,7 +234,7 @@ struct Corners {
     uint own;    // place of the point's, or 0
     uint count;
 };
-ivec4 corner_cells(Corners c, uint i) { return ivec4(groups[c.own > 0u ? c.own + i : c.first + uint(kShadowCorner) * i]); }
+vec4 corner_cells(Corners c, uint i) { return vec4(ivec4(groups[c.own > 0u ? c.own + i : c.first + uint(kShadowCorner) * i])); }
 
 // Adds the outline, and the horizons that the host has found.
 void see_surroundings(Corners c, uint at, int flags) {
@@ -254,7 +252,7 @@ void see_surroundings(Corners c, uint at, int flags) {
             int left = flags >> (2u * h);
             uvec2 named = uvec2(kHorizonName | (2u * h)) + uvec2(0u, 1u);
             named |= uvec2((left & kHorizonLeft) != 0 ? kLeftName : 0u, (left & (2 * kHorizonLeft)) != 0 ? kLeftName : 0u);
-            add_segment(ivec4(groups[at + 2u + h]), named, -kHidden);
+            add_segment(vec4(ivec4(groups[at + 2u + h])), named, -kHidden);
         }
         gather_segments(segment_count);
     }

@@ -2,22 +2,19 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Software devices silently end a thread's loops after 65,535 turns in all. The lanes of a subgroup turn together, and a loop that ends at
-// once takes a turn as well. So a turn looks at four segments, and a second loop handles those for which floats are not enough. The rest
-// of the budget is for pairs that need a close look, two turns each, for the sorting of crossings and for coincident sections.
+// once takes a turn as well. So a turn looks at four segments. The rest of the budget is for pairs for which floats are not enough, for
+// the sorting of crossings and for coincident sections.
 const int kAtOnce = 4;
+const int kSetOfPairs = 32;  // pairs of a segment whose results are bits of one number
 const int kMostTurns = 62000;
 const int kMostIncidences = 1024;  // tile_shadows.cpp
 int turns;  // remaining budget
 
-// Capacities for segments that may cross a segment, or the left ray from its middle, and for those that do cross it.
-const int kClose = 256;
-const int kCrossings = 96;
-
-// A triangle takes half more turns than an edge. A segment takes a look at all others, pieces between crossings (again where lanes gather
-// them), and five loops and their ends. Region and record go through segments and pieces fourteen times.
+// A triangle takes half more turns than an edge. A segment takes a look at all others, kSetOfPairs at a time, and six loops and their ends.
+// Region and record go through segments and pieces fourteen times.
 int turns_left(uint edges, uint triangles) {
     int gathered = int(4u * (edges / LANES + 1u) + 6u * (triangles / LANES + 1u)) + kMostIncidences;
     int own = SEGMENT_SPACE / int(LANES) + 1;
-    int cut = own * (SEGMENT_SPACE / kAtOnce + 2 * kCrossings + 5 + 14);
+    int cut = own * (SEGMENT_SPACE / kAtOnce + 3 * (SEGMENT_SPACE / kSetOfPairs + 1) + 6 + 14);
     return kMostTurns - gathered - cut;
 }

@@ -146,18 +146,8 @@ void Bounce::find_first_hits_by(std::shared_ptr<const SceneRays> rays) {
   }
 }
 
-// Returns the capacity of a buffer. Throws Error if `bytes` exceeds it.
-std::size_t Bounce::most_of_buffer(std::size_t bytes, const std::string& what) const {
-  const std::size_t most = device_.info().storage_buffer;
-  if (bytes > most)
-    throw Error("Vulkan device '" + device_.info().name + "'",
-                "has storage buffers of at most " + readable_bytes(most) + "; " + what + " takes " + readable_bytes(bytes),
-                "render a smaller picture with fewer --vpls, or use --backend cpu");
-  return most;
-}
-
 Buffer& Bounce::fitting(KeptBuffer& buffer, std::size_t bytes, const std::string& what) const {
-  return buffer.fit_with_room(bytes, most_of_buffer(bytes, what));
+  return buffer.fit_with_room(bytes, what, "render a smaller picture with fewer --vpls, or use --backend cpu");
 }
 
 void Bounce::run(const std::vector<ComputeProgram::Dispatch>& dispatches, const std::vector<const char*>& names) {
@@ -201,8 +191,7 @@ void Bounce::upload(const FrameSurfaces& s) {
   const auto width = static_cast<std::size_t>(s.raster.width), height = static_cast<std::size_t>(s.raster.height);
   float* to[kPlanes];
   const std::size_t bytes = width * height * kVector;
-  most_of_buffer(bytes, "a picture's surfaces");
-  for (std::size_t p = 0; p < kPlanes; ++p) to[p] = static_cast<float*>(planes_[p].fit(bytes).mapped());
+  for (std::size_t p = 0; p < kPlanes; ++p) to[p] = static_cast<float*>(fitting(planes_[p], bytes, "a picture's surfaces").mapped());
   tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t from = s.raster.at(static_cast<int>(x), static_cast<int>(y)), at = 4 * (y * width + x);

@@ -42,7 +42,6 @@ class Bounce final : public indirect::Passes {
   };
   enum Kernel : std::size_t { kBoxes, kCull, kLight, kFilter, kResolve };
 
-  std::size_t most_of_buffer(std::size_t bytes, const std::string& what) const;
   Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, const std::string& what) const;
   void upload(const indirect::FrameSurfaces& surfaces);
   void upload_lights(const std::vector<indirect::LightSet>& sets, const indirect::BounceSettings& settings, std::size_t first,

@@ -50,12 +50,6 @@ void put_vector(Vec4Floats* planes, int number, const TileVector& v, const TileP
   for (std::size_t i = 0; i < kTilePixels; ++i) to[i] = {v.x[i], v.y[i], v.z[i], beside[i]};
 }
 
-// Capacity in bytes; the limit of texels counts, too.
-std::size_t most_of_buffer(const DeviceInfo& device, BufferForm form = BufferForm::texels) {
-  const std::size_t texel = form == BufferForm::numbers ? sizeof(std::uint32_t) : sizeof(Vec4Floats);
-  return std::min({kLargestBuffer, device.storage_buffer, device.texel_buffer * texel});
-}
-
 // Squared distances of a point from a box.
 struct Distances {
   float nearest = 0, farthest = 0;
@@ -142,7 +136,8 @@ DirectLight::Kept::Kept(const Device& d)
       lights(d, BufferUse::host_writes, BufferForm::texels),
       vertices(d, BufferUse::host_writes, BufferForm::texels),
       lists(d, BufferUse::host_writes, BufferForm::numbers),
-      means(d, BufferUse::host_writes, BufferForm::texels) {
+      means(d, BufferUse::host_writes, BufferForm::texels),
+      gates(d) {
   surfaces.fit(tiles * bytes_of_planes(kPlanes));
   radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
 }
@@ -151,7 +146,7 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
     : kept_(kept),
       method_(method),
       specular_(methods::procedure_of(method.ggx, Brdf::ggx)),
-      light_details_(lights, most_of_buffer(kept.device.info()) / sizeof(Vec4Floats) - OwnLobes::most_vectors(scene)),
+      light_details_(lights, kept.details.most() / sizeof(Vec4Floats) - OwnLobes::most_vectors(scene)),
       own_lobes_(scene, method, light_details_.values().size()) {
   for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
   scene_lights_ = records_.lights.size();
@@ -180,15 +175,6 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
 }
 
 bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
-
-Buffer& DirectLight::fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form) const {
-  const std::size_t most = most_of_buffer(kept_.device.info(), form);
-  if (bytes > most)
-    throw Error("Vulkan",
-                "the lights' lists take " + std::to_string(bytes) + " bytes, more than the " + std::to_string(most) + " of a buffer",
-                "use fewer --max-lights, or --backend cpu");
-  return buffer.fit_with_room(bytes, most);
-}
 
 Vec4Floats* DirectLight::planes_of(std::size_t place) {
   return static_cast<Vec4Floats*>(kept_.surfaces.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
@@ -260,12 +246,12 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
   // An uncut polygon has only its own edges, half of `edges`, and no arcs (light_records.cpp).
   const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
   const int most = std::max(own(most_edges_), 1);
-  const bool chunked = shadowed != nullptr ? std::max(light.edges, shadowed->edges + 2) > kMostEdges : own(light.edges) > most;
+  const bool chunked = shadowed != nullptr || own(light.edges) > most;  // a part has any number of edges
   const bool by_arcs = pass.procedure == Procedure::closed_form || pass.procedure == Procedure::half_vector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
   const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
   const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
-  const int edges = chunked || shadowed != nullptr ? kMostEdges : light.kind == kPolygon ? most : space + 2;
+  const int edges = chunked ? kMostEdges : light.kind == kPolygon ? most : space + 2;
   const int arcs = by_arcs && !chunked ? edges : 1;
   const bool specular = pass.over_lobe();
   return {light.kind,
@@ -382,7 +368,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   work.add(key, own.name(), own.own != nullptr ? own.own->first : 0, place, numbers);
 }
 
-void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Buffer* states, const Buffer* parts) {
+void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Visibility& visibility) {
   records_.keep(scene_lights_, scene_vertices_);
   Work work;
   for (std::size_t i = first_tile; i < end; ++i) {
@@ -398,23 +384,28 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
       if (!square.bounds.positions.is_empty()) list_shares(work, place, tiles[i], square);
     }
   }
-  if (work.groups.empty()) return;
+  if (work.groups.empty() && !visibility.record) return;
   if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
     const std::size_t middle = (first_tile + end) / 2;
-    run(tiles, first_tile, middle, states, parts);
-    run(tiles, middle, end, states, parts);
+    run(tiles, first_tile, middle, visibility);
+    run(tiles, middle, end, visibility);
     return;
   }
-  fitting(kept_.means, work.means * sizeof(Vec4Floats));
+  const auto fit = [](KeptBuffer& buffer, std::size_t bytes) -> Buffer& {
+    return buffer.fit_with_room(bytes, "the lights' lists", "use fewer --max-lights, or --backend cpu");
+  };
+  fit(kept_.means, work.means * sizeof(Vec4Floats));
 
-  std::vector<std::uint32_t> entries, numbers;
+  std::vector<std::uint32_t> entries, numbers, gates;
   std::vector<ComputeProgram::Dispatch> dispatches;
   std::size_t count = 0;
   for (const auto& [key, group] : work.groups) count += group.entries.size();
   const std::size_t after_entries = count * static_cast<std::size_t>(kEntry);
   for (const auto& [key, group] : work.groups) {
-    dispatches.push_back({kept_.program.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
-                          static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
+    dispatches.push_back({.pipeline = kept_.program.pipeline(key.shader, key.constants),
+                          .push = static_cast<std::uint32_t>(entries.size() / kEntry),
+                          .groups_at = gates.size() * sizeof gates[0]});
+    gates.insert(gates.end(), {static_cast<std::uint32_t>(kGroupsOfSquare), static_cast<std::uint32_t>(group.entries.size()), 1});
     for (const Work::Entry& entry : group.entries) {
       entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count, entry.own});
       numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());
@@ -423,20 +414,23 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   entries.insert(entries.end(), numbers.begin(), numbers.end());
 
   const auto write = [&](KeptBuffer& buffer, const auto& values) {
-    using Value = typename std::decay_t<decltype(values)>::value_type;
-    const std::size_t bytes = values.size() * sizeof(Value);
-    Buffer& to = fitting(buffer, bytes, std::is_same_v<Value, std::uint32_t> ? BufferForm::numbers : BufferForm::texels);
+    const std::size_t bytes = values.size() * sizeof values[0];
+    Buffer& to = fit(buffer, bytes);
     to.write(values.data(), bytes);
     return &to;
   };
   const Buffer* lists = write(kept_.lists, entries);
   const Buffer* lights = write(kept_.lights, records_.values);
   const Buffer* vertices = write(kept_.vertices, records_.vertices);
-  const Buffer *radiance = &kept_.radiance.get(), *none = lists;
-  const std::vector<double> ms =
-      kept_.program.run({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance,
-                         states != nullptr ? states : none, parts != nullptr ? parts : none, &kept_.means.get(), &kept_.details.get()},
-                        dispatches);
+  const Buffer *radiance = &kept_.radiance.get(), *none = lists, *counts = write(kept_.gates, gates);
+  for (ComputeProgram::Dispatch& dispatch : dispatches) dispatch.groups = counts;
+  const Buffer* states = visibility.states != nullptr ? visibility.states : none;
+  const Buffer* parts = visibility.parts != nullptr ? visibility.parts : none;
+  kept_.program.record({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance, states, parts,
+                        &kept_.means.get(), &kept_.details.get()},
+                       dispatches);
+  kept_.program.run(visibility.record ? &visibility.record(*counts) : nullptr);
+  const std::vector<double>& ms = kept_.program.times();
   std::size_t i = 0;
   for (const auto& [key, group] : work.groups)
     if (i < ms.size()) times_[group.name] += ms[i++];

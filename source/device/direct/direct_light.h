@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ class DirectLight {
     const Device& device;
     const std::size_t tiles;  // per batch
     ComputeProgram program;
-    KeptBuffer surfaces, radiance, tables, details, lights, vertices, lists, means;
+    KeptBuffer surfaces, radiance, tables, details, lights, vertices, lists, means, gates;
   };
 
   // `kept`, the scene and the lights must outlive this object.
@@ -68,8 +69,7 @@ class DirectLight {
     struct Shadowed {
       const PackLight* light;
       std::uint32_t states;  // first state of the tile
-      int edges;             // most edges of a part
-      bool shares;           // some part counts as a fraction of a polygon's light: shaders/shadow_layout.glsl
+      bool shares;           // parts may count as fractions of a polygon's light: shaders/shadow_layout.glsl
     };
     std::vector<Shadowed> shadowed;
   };
@@ -78,10 +78,16 @@ class DirectLight {
   static std::size_t square_of_group(std::size_t group) { return group / 8 * 2 + group % 2; }
   // Lists the squares' lights from the tile's.
   void list_lights(Tile& tile) const;
-  // Adds the light of the lists to the radiance of some tiles. states, parts: of the shadowed lights (Shadows), if there are any.
-  void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Buffer* states = nullptr,
-           const Buffer* parts = nullptr);
-  void run(const std::vector<Tile>& tiles) { run(tiles, 0, tiles.size()); }
+  // Visibility of shadowed lights (Shadows). record: if not null, it records the search for it in a program that runs before. The search
+  // may write 0 to all numbers of `gates`. Then no light is added.
+  struct Visibility {
+    std::function<ComputeProgram&(const Buffer& gates)> record;
+    const Buffer* states = nullptr;
+    const Buffer* parts = nullptr;
+  };
+  // Adds the light of the lists to the radiance of some tiles.
+  void run(const std::vector<Tile>& tiles, std::size_t first, std::size_t end, const Visibility& visibility);
+  void run(const std::vector<Tile>& tiles) { run(tiles, 0, tiles.size(), {}); }
   void take_radiance(std::size_t place, TileVector& radiance) const;
 
   // Milliseconds on the device so far, by pass; empty if it does not report them.
@@ -103,7 +109,6 @@ class DirectLight {
   std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
                                     const Tile::Shadowed* shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
-  Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, BufferForm form = BufferForm::texels) const;
 
   Kept& kept_;
   const DirectMethod method_;

@@ -30,7 +30,7 @@ bool has_bent_coats(const SurfaceMaterial& m) {
 std::string first_lack(const Scene& scene, const RenderOptions& options, const DeviceInfo& device, const std::vector<PackLight>& lights,
                        const DirectLight& direct) {
   if (options.shadows != steradian::Shadows::off && !Shadows::has(device))
-    return "'" + device.name + "' has no shadows: its subgroups cannot add";
+    return "'" + device.name + "' has no shadows: its subgroups cannot add, or it has no whole numbers of 64 bits";
   if (options.indirect.mode == IndirectMode::path) return "it has no bounce by paths";
   if (options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0) return "it has no --indirect-shadows";
   for (const Mesh& mesh : scene.meshes) {
@@ -121,10 +121,14 @@ struct Frame::Parts {
     for (const PackLight& light : lights) light_pointers.push_back(&light);
     lacks = first_lack(s, o, device->info(), lights, direct);
     if (!lacks.empty()) return;
-    const bool bounces = has_bounce(), maps = bounces && all_cast_exactly(s);
-    if ((maps || host.has_shadows()) && (rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software)))
-      device_rays = rays_of(s, device, cache);
-    if (bounces) {
+    const bool maps =
+        has_bounce() && all_cast_exactly(s) && (rays == RaysBy::device || (rays == RaysBy::automatic && !device->info().software));
+    if (maps || host.has_shadows()) device_rays = rays_of(s, device, cache);
+    if (host.has_shadows() && device_rays == nullptr) {
+      lacks = "its buffers have no space for the " + std::to_string(s.triangle_count()) + " triangles that shadow rays may meet";
+      return;
+    }
+    if (has_bounce()) {
       bounce = &made(kept->bounce, *device);
       bounce->find_first_hits_by(maps ? device_rays : nullptr);
     }
@@ -211,23 +215,29 @@ struct Frame::Parts {
     return tiles;
   }
 
-  // Lights as many tiles at once as there is capacity for their shadows' data.
+  // Lights as many tiles at once as there is capacity for their shadows' data: one submission, or two if points are left to the host.
   void light_tiles(std::vector<DirectLight::Tile>& tiles) {
-    const auto end = shadowed.begin() + static_cast<std::ptrdiff_t>(tiles.size());
-    if (!host.has_shadows() || std::all_of(shadowed.begin(), end, [](const TileShadows& s) { return s.by_light.empty(); }))
+    const std::span all(shadowed.data(), tiles.size());
+    if (!host.has_shadows() || std::all_of(all.begin(), all.end(), [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows.emplace(made(kept->shadows, *device), parts, host, device_rays.get());
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), host, *device_rays);
     for (std::size_t first = 0; first < tiles.size();) {
-      const std::size_t count =
-          shadows->find({shadowed.data() + first, tiles.size() - first}, [this](std::size_t n, const auto& work) { each(n, work); });
+      const std::size_t end = first + shadows->upload(all.subspan(first));
       std::uint32_t states = 0;
-      for (std::size_t i = first; i < first + count; ++i)
+      for (std::size_t i = first; i < end; ++i) {
+        tiles[i].shadowed.clear();
         for (const TileShadows::Light& light : shadowed[i].by_light) {
-          tiles[i].shadowed.push_back({light.light, states, light.edges, light.shares});
+          if (light.listed) tiles[i].shadowed.push_back({light.light, states, light.shares});
           states += static_cast<std::uint32_t>(kTilePixels);
         }
-      direct.run(tiles, first, first + count, &shadows->states(), &shadows->parts());
-      first += count;
+      }
+      direct.run(tiles, first, end,
+                 {[&](const Buffer& gates) -> ComputeProgram& { return shadows->record(gates); }, &shadows->states(), &shadows->parts()});
+      const Shadows::Outcome outcome = shadows->finish([this](std::size_t n, const auto& work) { each(n, work); });
+      // The next run adds the light of the points that are left, and of no other.
+      for (std::size_t i = first; outcome == Shadows::Outcome::left && i < end; ++i)
+        for (DirectLight::Square& square : tiles[i].squares) square.lights.clear();
+      if (outcome == Shadows::Outcome::done) first = end;
     }
   }
 
@@ -338,7 +348,7 @@ struct Frame::Parts {
   std::vector<const PackLight*> light_pointers;
   TileLighting host;
   DirectLight direct;
-  std::shared_ptr<const SceneRays> device_rays;  // null: the host's rays
+  std::shared_ptr<const SceneRays> device_rays;  // null without shadows, and if the host traces the bounce's shadow map
   std::string lacks;
   std::string kept_on_host;
   std::optional<Shadows> shadows;             // created on first use

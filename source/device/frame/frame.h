@@ -18,8 +18,7 @@ std::string lack_of_devices(const Scene& scene, const RenderOptions& options);
 // something keeps the host at it.
 enum class SurfacesBy { automatic, host, device };
 
-// Choice of who tests the ways to visible parts of lights, and who traces the rays of the bounce's shadow map. automatic: the device,
-// unless it is software, slower at that than the host.
+// Choice of who traces the rays of the bounce's shadow map. automatic: the device, unless it is software, slower at that than the host.
 enum class RaysBy { automatic, host, device };
 
 // Buffers and pipelines are created once, for any number of frames of a scene.

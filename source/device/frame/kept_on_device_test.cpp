@@ -2,6 +2,7 @@
 #include "device/frame/kept_on_device.h"
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "device/vulkan/handles.h"
@@ -90,6 +91,23 @@ TEST_F(KeptOnVulkan, AMovedCameraOrLampAsksForNoMemory) {
 
 TEST_F(KeptOnVulkan, NorDoTheirShadows) {
   expect_nothing_asked_for({device(), scene_of("room"), tiny("ltc-compact", steradian::Shadows::on), SurfacesBy::host, RaysBy::device});
+}
+
+// A lamp goes to and fro above occluders.
+TEST_F(KeptOnVulkan, AFilmOfTwoHundredFramesAsksForNoMemoryAfterTheSecond) {
+  Pictures p{device(), under_triangles(12), tiny("ltc-compact", steradian::Shadows::on)};
+  p.options.width = 32;
+  p.options.height = 18;
+  const std::vector<Vec3d> vertices = std::get<Polygon>(p.scene.area_lights[0].shape).vertices;
+  std::size_t allocations = 0, submissions = 0;
+  for (int frame = 0; frame < 200; ++frame) {
+    if (frame == 2) allocations = p.device->allocations(), submissions = p.device->submissions();
+    const Vec3d by{0.5 * std::sin(0.1 * frame), 0.1 * std::sin(0.23 * frame), 0.5 * std::sin(0.17 * frame)};
+    for (std::size_t i = 0; i < vertices.size(); ++i) std::get<Polygon>(p.scene.area_lights[0].shape).vertices[i] = vertices[i] + by;
+    p.next();
+  }
+  EXPECT_EQ(p.device->allocations(), allocations);
+  EXPECT_EQ(p.device->submissions() - submissions, 198u);
 }
 
 TEST_F(KeptOnVulkan, NorDoSurfacesByRaster) {

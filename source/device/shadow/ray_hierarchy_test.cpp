@@ -33,29 +33,31 @@ enum class Found { free, blocked, not_known };
 std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& ways) {
   struct Answer {
     Vec3f from;
-    std::uint32_t asked;
+    std::uint32_t state;
     Vec3f along;
     std::uint32_t sees;
   };
   const auto rays = SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene);
   const Device& device = rays->device();
   const Buffer& hierarchy = rays->hierarchy();
-  ComputeProgram program(device, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 4);
+  ComputeProgram program(device, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 6);
   std::vector<Answer> answers(ways.size());
-  constexpr std::size_t kHead = 4 * sizeof(float);
-  Buffer buffer(device, kHead + answers.size() * sizeof answers[0]);
-  char* at = static_cast<char*>(buffer.mapped()) + kHead;
+  constexpr std::size_t kHead = 4 * sizeof(float) * kAnswersHead;
+  Buffer buffer(device, kHead + answers.size() * sizeof answers[0]), states(device, ways.size() * sizeof(std::uint32_t));
+  char* at = std::fill_n(static_cast<char*>(buffer.mapped()), kHead, '\0');
   for (std::size_t i = 0; i < ways.size(); ++i)
-    answers[i] = {ways[i].from, static_cast<std::uint32_t>(kAskRay), ways[i].along, static_cast<std::uint32_t>(kSeesWhole)};
+    answers[i] = {ways[i].from, static_cast<std::uint32_t>(kAskRay + i), ways[i].along, static_cast<std::uint32_t>(kSeesWhole)};
+  std::fill_n(static_cast<std::uint32_t*>(states.mapped()), ways.size(), static_cast<std::uint32_t>(kSeesNone));
   std::copy(answers.begin(), answers.end(), reinterpret_cast<Answer*>(at));
   const auto count = static_cast<std::uint32_t>(ways.size());
   const std::vector<double> ms =
-      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy}, {{program.pipeline(1), (count + 63) / 64, 1, count}});
+      program.run({&hierarchy, &hierarchy, &buffer, &hierarchy, &states, &states}, {{program.pipeline(1), (count + 63) / 64, 1, count}});
   if (!ms.empty()) std::printf("%zu triangles, %zu bytes: %.2f us a ray\n", scene.triangle_count(), hierarchy.bytes(), 1e3 * ms[0] / count);
   std::vector<Found> found;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const Answer& answer = reinterpret_cast<const Answer*>(at)[i];
-    found.push_back(answer.asked != 0 ? Found::not_known : answer.sees == kSeesNone ? Found::blocked : Found::free);
+    found.push_back(answer.sees == kAskHost ? Found::not_known : answer.sees == kSeesNone ? Found::blocked : Found::free);
+    EXPECT_EQ(static_cast<const std::uint32_t*>(states.mapped())[i] == kSeesWhole, found.back() == Found::free) << i;
   }
   return found;
 }

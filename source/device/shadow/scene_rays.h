@@ -59,7 +59,7 @@ class FirstHits final : public indirect::FirstHits {
  private:
   const std::shared_ptr<const SceneRays> scene_;
   ComputeProgram program_;
-  std::unique_ptr<Buffer> rays_, met_;
+  KeptBuffer rays_, met_;
   double time_ = 0;
 };
 

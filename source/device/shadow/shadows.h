@@ -1,19 +1,18 @@
 // Shadows on a device: a subgroup per point finds the visible parts of lights behind edges (shaders/shadow_parts.comp). One ray per point
-// tests that the part is unoccluded, on the device (shaders/shadow_rays.comp) or on the host. The host's rays also serve if a buffer has no
-// capacity for the triangles, or if a traversal does not end. The host handles points that exceed the capacity or are uncertain.
+// tests that the part is unoccluded (shaders/shadow_rays.comp). Lighting follows in the same submission. Points that exceed a capacity of
+// the subgroup or are uncertain are left: the host finds their parts, and a further run adds their light.
 #pragma once
 
-#include <map>
-#include <memory>
+#include <cstdint>
+#include <functional>
 #include <span>
-#include <string>
+#include <vector>
 
 #include "device/shadow/scene_rays.h"
 #include "device/shadow/tile_shadows.h"
 #include "device/vulkan/buffer.h"
 #include "device/vulkan/compute_program.h"
 #include "render/frame/tile_lighting.h"
-#include "render/surface/ray_scene.h"
 
 namespace steradian::vulkan {
 
@@ -30,17 +29,24 @@ class Shadows {
   // Returns true if a device supports a subgroup per point.
   static bool has(const DeviceInfo& device);
 
-  // All arguments must outlive this object; parts: with edges. rays: null for the host's.
-  Shadows(Kept& kept, const SceneParts& parts, TileLighting& host, const SceneRays* rays);
+  // All arguments must outlive this object.
+  Shadows(Kept& kept, TileLighting& host, const SceneRays& rays) : kept_(kept), rays_(rays), host_(host) {}
 
-  // Finds the shadows of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
-  // one is too many. Calls each(count, work) for work in parallel.
-  using Each = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
-  std::size_t find(std::span<TileShadows> tiles, const Each& each);
+  // Uploads the points of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
+  // one is too many.
+  std::size_t upload(std::span<TileShadows> tiles);
+  // Records the search for these points. If their parts exceed the buffer, it writes 0 to all numbers of `gates`.
+  ComputeProgram& record(const Buffer& gates);
 
-  // Results for the tiles of the last find(), light after light: kTilePixels states each; and the parts' records.
+  // Results: tile after tile and light after light, kTilePixels states; and the parts' records.
   const Buffer& states() const { return kept_.states.get(); }
   const Buffer& parts() const { return kept_.parts.get(); }
+
+  // To be called when the search has run. left: the tiles have only the points that the device has left, for another upload().
+  // no_room: the same tiles must be uploaded again. Calls each(count, work) for work in parallel.
+  enum class Outcome { done, left, no_room };
+  using Each = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
+  Outcome finish(const Each& each);
 
   // Milliseconds on the device so far.
   double time() const { return time_; }
@@ -50,20 +56,23 @@ class Shadows {
   std::uint64_t found() const { return found_; }
 
  private:
-  struct Batch;
-  void upload(Batch& batch);
-  std::size_t search(Batch& batch);
-  void trace(Batch& batch, const Each& each);
-  void ask_host(Batch& batch, const Each& each);
-  void write_states(Batch& batch, const Each& each);
-  Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, const char* what) const;
-
-  std::size_t most_of_buffer() const;  // bytes
+  // First places of a tile's data among those of all.
+  struct Begin {
+    std::size_t light = 0, point = 0, record = 0, row = 0, group = 0;
+  };
+  void upload_groups();
+  void upload_states();
+  void upload_points();
+  void ask_host(TileShadows& tile, std::size_t begin);
 
   Kept& kept_;
-  const RayScene& rays_;
-  const SceneRays* const device_rays_;  // null: the host's rays
+  const SceneRays& rays_;
   TileLighting& host_;
+  std::span<TileShadows> tiles_;      // of the last upload()
+  std::vector<Begin> begins_;         // of each, and the end
+  std::vector<std::uint32_t> names_;  // of the points
+  std::size_t wanted_ = 0;            // vectors that the parts need, if a search has shown it
+  std::size_t most_tiles_ = SIZE_MAX;
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;
 };

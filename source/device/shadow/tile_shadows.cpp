@@ -218,7 +218,7 @@ std::size_t TileShadows::add_record(const Vec4Floats& center, const Vec4Floats& 
   return records.size() - static_cast<std::size_t>(kPartHeader);
 }
 
-std::size_t TileShadows::add_outline(const packed::Pieces& pieces, std::size_t point, float weight, int& edges) {
+std::size_t TileShadows::add_outline(const packed::Pieces& pieces, std::size_t point, float weight) {
   constexpr std::size_t kBlock = packed::Pieces::kBlock;
   const float* e = pieces.elements(point);
   const auto element = [&](std::size_t first, float w) {
@@ -226,29 +226,26 @@ std::size_t TileShadows::add_outline(const packed::Pieces& pieces, std::size_t p
   };
   const std::size_t begin = add_record(element(0, 0), element(3, e[12 * kBlock]), element(6, weight), element(9, 0));
   const std::size_t first = records.size();
-  int count = 0;
   for (std::size_t k = 0; k < pieces.edge_count(point); ++k) {
     const float* edge = pieces.edge(point, k);
     const Vec3f a{edge[0], edge[kBlock], edge[2 * kBlock]}, b{edge[3 * kBlock], edge[4 * kBlock], edge[5 * kBlock]};
     if (a == b) continue;
-    if (count == 0 || with(a, 1) != records.back()) records.push_back(with(a, 0));
+    if (records.size() == first || with(a, 1) != records.back()) records.push_back(with(a, 0));
     records.push_back(with(b, 1));
-    ++count;
   }
   records[begin][3] = static_cast<float>(records.size() - first);
-  edges = std::max(edges, count);
   return begin;
 }
 
 // Returns the state of a slot that sees the part.
 std::uint32_t TileShadows::add_part(const TileShadow::Batch& batch, std::size_t point, Light& to) {
-  const std::size_t begin = add_outline(batch.visible, point, batch.passes[point], to.edges);
+  const std::size_t begin = add_outline(batch.visible, point, batch.passes[point]);
   if (records[begin][3] == 0) return flag(kSeesNone);
   if (batch.all.point_count() > 0) {
     to.shares = true;
     records.resize(records.size() + static_cast<std::size_t>(kPartSums), Vec4Floats{});
     records[begin + 3][3] = static_cast<float>(records.size() - begin);
-    add_outline(batch.all, point, 1, to.edges);
+    add_outline(batch.all, point, 1);
   }
   return flag(kSeesPart) + whole(begin);
 }
@@ -270,6 +267,7 @@ void TileShadows::set(std::size_t light, const std::vector<std::uint32_t>& slots
 
 void TileShadows::take(const PackLight& light, const TileShadow& shadow) {
   by_light.push_back({&light});
+  if (!points.empty() && points.back().light + 1 == by_light.size()) by_light.back().shares = points.back().shares;
   static const std::vector<std::uint32_t> all = [] {
     std::vector<std::uint32_t> slots(kTilePixels);
     for (std::uint32_t i = 0; i < kTilePixels; ++i) slots[i] = i;

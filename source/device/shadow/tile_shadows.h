@@ -25,8 +25,8 @@ class TileShadows : public ShadowTaker {
   struct Light {
     const PackLight* light;
     std::array<std::uint32_t, kTilePixels> states{};  // records of parts are counted from the tile's first one
-    int edges = 0;                                    // most edges of a part
-    bool shares = false;                              // some part counts as a fraction of a polygon's light
+    bool shares = false;                              // parts may count as fractions of a polygon's light
+    bool listed = true;                               // the next run adds its light
   };
   struct Point {
     std::uint32_t light, slot;
@@ -47,7 +47,7 @@ class TileShadows : public ShadowTaker {
 
  private:
   std::size_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
-  std::size_t add_outline(const packed::Pieces& pieces, std::size_t point, float weight, int& edges);
+  std::size_t add_outline(const packed::Pieces& pieces, std::size_t point, float weight);
   std::uint32_t add_part(const TileShadow::Batch& batch, std::size_t point, Light& to);
 };
 

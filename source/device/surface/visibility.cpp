@@ -210,7 +210,7 @@ double Visibility::draw(const SceneBuffers& scene, const CameraView& view, Pixel
     h.commands.pipelineBarrier(Stage::eTransfer, Stage::eComputeShader | Stage::eHost, {}, copied, nullptr, nullptr);
     if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 1);
     h.commands.end();
-    submit_and_wait(device_, h.commands, h.done, "drawing");
+    submit_and_wait(device_, {*h.commands}, h.done, "drawing");
     return timed ? times_between(device_, h.queries, 2).front() : 0.0;
   });
 }

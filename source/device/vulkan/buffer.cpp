@@ -78,12 +78,26 @@ void Buffer::read(void* data, std::size_t bytes) const {
 
 void* Buffer::mapped() const { return handles_->mapped; }
 
-Buffer& KeptBuffer::fit_with_room(std::size_t bytes, std::size_t most) {
+std::size_t KeptBuffer::most() const {
+  const DeviceInfo& device = device_.info();
+  if (form_ == BufferForm::storage) return device.storage_buffer;
+  const std::size_t texel = (form_ == BufferForm::texels ? 4 : 1) * sizeof(float);
+  return std::min(device.storage_buffer, device.texel_buffer * texel);
+}
+
+Buffer& KeptBuffer::fit_with_room(std::size_t bytes, const std::string& what, const std::string& advice) {
+  if (bytes > most())
+    throw Error("Vulkan device '" + device_.info().name + "'",
+                what + " take " + readable_bytes(bytes) + ", more than the " + readable_bytes(most()) + " of a buffer", advice);
+  return grow(bytes, std::min(bytes + bytes / 2, most()));
+}
+
+Buffer& KeptBuffer::grow(std::size_t bytes, std::size_t room) {
   constexpr std::size_t kLeast = 256;  // no buffer is empty
   if (!buffer_ || buffer_->bytes() < bytes) {
     buffer_.reset();  // there may be no memory for both
     held_.reset();
-    buffer_.emplace(device_, std::max({bytes, std::min(bytes + bytes / 2, most), kLeast}), use_, form_);
+    buffer_.emplace(device_, std::max(room, kLeast), use_, form_);
   }
   return *buffer_;
 }

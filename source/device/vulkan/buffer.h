@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/fingerprint.h"
 #include "device/vulkan/device.h"
@@ -49,9 +50,11 @@ class KeptBuffer {
       : device_(device), use_(use), form_(form) {}
 
   // Grows to at least `bytes`. Growing discards the contents. fit_with_room is for sizes that differ from picture to picture. It grows to
-  // half as much again, at most `most` bytes, so that the following pictures need no growth.
-  Buffer& fit(std::size_t bytes) { return fit_with_room(bytes, bytes); }
-  Buffer& fit_with_room(std::size_t bytes, std::size_t most);
+  // half as much again, as far as most() allows, so that the following pictures need no growth. Throws Error if `bytes` exceed most().
+  Buffer& fit(std::size_t bytes) { return grow(bytes, bytes); }
+  Buffer& fit_with_room(std::size_t bytes, const std::string& what, const std::string& advice = "use --backend cpu");
+  // Bytes of the largest buffer that shaders of the device read in this form.
+  std::size_t most() const;
   // Makes the buffer hold these bytes; writes them only if it holds others.
   Buffer& hold(const void* data, std::size_t bytes);
   template <class Value>
@@ -65,6 +68,8 @@ class KeptBuffer {
   const Buffer& get() const { return *buffer_; }
 
  private:
+  Buffer& grow(std::size_t bytes, std::size_t room);
+
   const Device& device_;
   const BufferUse use_;
   const BufferForm form_;

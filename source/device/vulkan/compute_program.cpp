@@ -19,6 +19,7 @@ struct ComputeProgram::Handles {
   vk::raii::Fence done = nullptr;
   vk::raii::QueryPool queries = nullptr;
   std::size_t query_count = 0;
+  std::uint32_t stamps = 0;  // that the commands write
 };
 
 namespace {
@@ -79,8 +80,8 @@ std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::
   return p.numbers.emplace(std::pair(shader, constants), p.made.size() - 1).first->second;
 }
 
-std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches) {
-  return checked(device_, "run a compute shader", [&] {
+void ComputeProgram::record(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches) {
+  checked(device_, "record a compute shader", [&] {
     const Device::Handles& d = device_.handles();
     Handles& h = *handles_;
     for (std::uint32_t i = 0; i < buffers.size(); ++i) {
@@ -90,10 +91,10 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
       d.device.updateDescriptorSets(write, nullptr);
     }
     const bool timed = device_.info().timestamps;
-    const auto stamps = static_cast<std::uint32_t>(dispatches.size() + 1);
-    if (timed && h.query_count < stamps) {
-      h.queries = d.device.createQueryPool({{}, vk::QueryType::eTimestamp, stamps});
-      h.query_count = stamps;
+    h.stamps = timed ? static_cast<std::uint32_t>(dispatches.size() + 1) : 0;
+    if (h.query_count < h.stamps) {
+      h.queries = d.device.createQueryPool({{}, vk::QueryType::eTimestamp, h.stamps});
+      h.query_count = h.stamps;
     }
 
     // Writes of a dispatch become visible to the next one, and to the host. Once llvmpipe has drawn something, it takes a timestamp only
@@ -108,7 +109,7 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
     };
     h.commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (timed) {
-      h.commands.resetQueryPool(*h.queries, 0, stamps);
+      h.commands.resetQueryPool(*h.queries, 0, h.stamps);
       h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 0);
       wait();
     }
@@ -125,10 +126,28 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
       wait();
     }
     h.commands.end();
-
-    submit_and_wait(device_, h.commands, h.done, "a compute shader");
-    return timed ? times_between(device_, h.queries, stamps) : std::vector<double>{};
   });
+}
+
+void ComputeProgram::read_times() {
+  times_ = handles_->stamps > 0 ? times_between(device_, handles_->queries, handles_->stamps) : std::vector<double>{};
+}
+
+void ComputeProgram::run(ComputeProgram* before) {
+  checked(device_, "run a compute shader", [&] {
+    std::vector<vk::CommandBuffer> commands;
+    if (before != nullptr) commands.push_back(*before->handles_->commands);
+    commands.push_back(*handles_->commands);
+    submit_and_wait(device_, commands, handles_->done, "a compute shader");
+    if (before != nullptr) before->read_times();
+    read_times();
+  });
+}
+
+const std::vector<double>& ComputeProgram::run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches) {
+  record(buffers, dispatches);
+  run();
+  return times_;
 }
 
 }  // namespace steradian::vulkan

@@ -30,14 +30,22 @@ class ComputeProgram {
     const Buffer* groups = nullptr;
     std::size_t groups_at = 0;  // bytes
   };
-  // Runs the dispatches in order, with the buffers by their bindings. Each dispatch sees the writes of those before. Waits until the host
-  // can read the results. Returns the milliseconds of each, empty if the device does not report them. Throws Error if the device is lost
-  // or does not finish.
-  std::vector<double> run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches);
+  // Records dispatches for the next run, in order, with the buffers by their bindings. Each dispatch sees the writes of those before.
+  void record(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches);
+  // Runs what `before` has recorded, if it is not null, and then what this program has recorded. Waits until the host can read the
+  // results. Throws Error if the device is lost or does not finish.
+  void run(ComputeProgram* before = nullptr);
+  // Milliseconds of each dispatch of the last run; empty if the device does not report them.
+  const std::vector<double>& times() const { return times_; }
+  // Records, runs, and returns times().
+  const std::vector<double>& run(const std::vector<const Buffer*>& buffers, const std::vector<Dispatch>& dispatches);
 
  private:
   struct Handles;
+  void read_times();
+
   const Device& device_;
+  std::vector<double> times_;
   std::unique_ptr<Handles> handles_;
 };
 

@@ -89,6 +89,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_
   info.broadcasts = static_cast<bool>(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eBallot) &&
                     static_cast<bool>(subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute);
   info.adds = info.broadcasts && static_cast<bool>(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic);
+  info.int64 = static_cast<bool>(device.getFeatures().shaderInt64);
   info.shared_memory = properties.limits.maxComputeSharedMemorySize;
   info.timestamps = device.getQueueFamilyProperties()[queue_family].timestampValidBits > 0 && properties.limits.timestampPeriod > 0;
   return info;
@@ -190,7 +191,9 @@ Device::Device(const DeviceOptions& options) {
       h.timestamp_period = h.physical.getProperties().limits.timestampPeriod;
       const float priority = 1.0f;
       const vk::DeviceQueueCreateInfo queue({}, h.queue_family, 1, &priority);
-      h.device = h.physical.createDevice({{}, queue});
+      vk::PhysicalDeviceFeatures features;
+      features.shaderInt64 = info_.int64;
+      h.device = h.physical.createDevice({{}, queue, {}, {}, &features});
       h.queue = h.device.getQueue(h.queue_family, 0);
       const std::vector<char> cached = read_pipeline_cache(h.physical);
       h.pipeline_cache = h.device.createPipelineCache({{}, cached.size(), cached.data()});
@@ -211,6 +214,7 @@ Device::~Device() {
 const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
 
 std::size_t Device::allocations() const { return handles_->allocations; }
+std::size_t Device::submissions() const { return handles_->submissions; }
 
 std::shared_ptr<const Device> open_device(const DeviceOptions& options) {
   const std::lock_guard lock(shared_mutex);

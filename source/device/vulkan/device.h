@@ -23,6 +23,7 @@ struct DeviceInfo {
   bool timestamps = false;         // for compute work
   bool broadcasts = false;         // threads that run in step can exchange a value ...
   bool adds = false;               // ... and sum their values
+  bool int64 = false;              // shaders have whole numbers of 64 bits
   std::size_t shared_memory = 0;   // bytes of a work group
 };
 
@@ -44,8 +45,9 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   // Warnings and errors of the validation layer so far.
   const std::vector<std::string>& validation_messages() const;
-  // Number of memory allocations so far.
+  // Numbers of memory allocations, and of submissions of work, so far.
   std::size_t allocations() const;
+  std::size_t submissions() const;
 
   struct Handles;  // handles.h, for this folder only
   const Handles& handles() const { return *handles_; }

@@ -41,7 +41,7 @@ struct Device::Handles {
   // pipelines take longer to create than pictures.
   mutable std::map<std::vector<std::uint32_t>, Pipelines> pipelines;
   std::vector<std::string> messages;
-  mutable std::size_t allocations = 0;
+  mutable std::size_t allocations = 0, submissions = 0;
   mutable bool hangs = false;  // submitted work has not ended, and still uses its objects
 
   vk::raii::DeviceMemory allocate(const vk::MemoryAllocateInfo& info) const {
@@ -79,12 +79,14 @@ inline vk::raii::ShaderModule module_of(const vk::raii::Device& device, std::spa
   return device.createShaderModule({{}, spirv.size_bytes(), spirv.data()});
 }
 
-// Submits the commands to the device and waits until they are done. work: what a hanging device did not finish, for the error.
-inline void submit_and_wait(const Device& device, const vk::raii::CommandBuffer& commands, const vk::raii::Fence& done, const char* work) {
+// Submits the commands to the device at once and waits until they are done. work: what a hanging device did not finish, for the error.
+inline void submit_and_wait(const Device& device, const std::vector<vk::CommandBuffer>& commands, const vk::raii::Fence& done,
+                            const char* work) {
   constexpr std::uint64_t longest = 300'000'000'000;  // ns
   const Device::Handles& d = device.handles();
   d.device.resetFences(*done);
-  d.queue.submit(vk::SubmitInfo({}, {}, *commands, {}), *done);
+  d.queue.submit(vk::SubmitInfo({}, {}, commands, {}), *done);
+  ++d.submissions;
   if (d.device.waitForFences(*done, VK_TRUE, longest) != vk::Result::eSuccess) {
     d.hangs = true;
     throw Error("Vulkan device '" + device.info().name + "'", std::string("did not finish ") + work + " within five minutes",

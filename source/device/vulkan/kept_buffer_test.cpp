@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "steradian/error.h"
+
 namespace steradian::vulkan::kept_buffer_test {
 namespace {
 
@@ -27,12 +29,13 @@ TEST(KeptBuffer, GrowsAndWritesWhatIsNew) {
   values.resize(500);
   EXPECT_EQ(buffer.hold(values).bytes(), 4000u);
   EXPECT_EQ(device.allocations(), 1u);
-  EXPECT_EQ(buffer.fit_with_room(5000, 6000).bytes(), 6000u);
+  EXPECT_EQ(buffer.fit_with_room(4400, "numbers").bytes(), 6600u);
   held()[5] = 0;
   buffer.hold(values);
   EXPECT_EQ(held()[5], 8) << "what it held was lost";
-  EXPECT_EQ(buffer.fit_with_room(6500, 100000).bytes(), 9750u);
-  EXPECT_EQ(buffer.fit(1).bytes(), 9750u);
+  EXPECT_EQ(buffer.fit_with_room(6602, "numbers").bytes(), 9903u);
+  EXPECT_EQ(buffer.fit(1).bytes(), 9903u);
+  EXPECT_THROW(buffer.fit_with_room(buffer.most() + 1, "numbers"), Error);
   EXPECT_EQ(device.allocations(), 3u);
 }
 
