@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "program.h"
+#include "steradian/vector.h"
 #include "support/gltf_test_file.h"
 
 namespace steradian::solve_program_test {
