@@ -53,7 +53,7 @@ std::vector<float> corners_of(const moment::NamedLight& light) {
 struct PhongOnDevice::Parts {
   Parts(const moment::PhongPlane& plane, const moment::NamedLight& light, int exponent, const PhongOptions& options,
         const std::string& name)
-      : device({name, false}), program(device, {kShader}, 3), count(plane.count) {
+      : device({name, false}), program(device, {{"phong.comp", kShader}}, 3), count(plane.count) {
     const std::vector<float> p = points_of(plane), c = corners_of(light);
     points = std::make_unique<Buffer>(device, p.size() * sizeof(float), BufferUse::host_writes);
     points->write(p.data(), p.size() * sizeof(float));

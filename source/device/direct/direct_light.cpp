@@ -36,8 +36,8 @@ using methods::Procedure;
 constexpr std::size_t kTextureMeans = 0, kShares = methods::kProcedures + 1;
 constexpr std::size_t shader_of(Procedure procedure) { return 1 + static_cast<std::size_t>(procedure); }
 
-std::vector<std::span<const std::uint32_t>> shaders() {
-  std::vector<std::span<const std::uint32_t>> all = {shader("texture_means.comp")};
+std::vector<ShaderCode> shaders() {
+  std::vector<ShaderCode> all = {shader("texture_means.comp")};
 #define STERADIAN_SHADER(name) all.push_back(shader(#name ".comp"));
   STERADIAN_PROCEDURES(STERADIAN_SHADER)
 #undef STERADIAN_SHADER
@@ -415,6 +415,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
   for (const auto& [key, group] : work.groups) {
     dispatches.push_back({kept_.program.pipeline(key.shader, key.constants), static_cast<std::uint32_t>(kGroupsOfSquare),
                           static_cast<std::uint32_t>(group.entries.size()), static_cast<std::uint32_t>(entries.size() / kEntry)});
+    for (const Work::Entry& entry : group.entries) dispatches.back().units += kSlotsOfSquare * entry.count;
     for (const Work::Entry& entry : group.entries) {
       entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count, entry.own});
       numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());

@@ -71,6 +71,7 @@ indirect::MapRay* FirstHits::rays(std::size_t count) {
     const std::size_t room = rays_ == nullptr ? std::max<std::size_t>(count, kThreads) : std::min(count + count / 2, most());
     rays_ = std::make_unique<Buffer>(scene_->device(), room * sizeof(indirect::MapRay), BufferUse::host_writes);
     met_ = std::make_unique<Buffer>(scene_->device(), room * sizeof(std::uint32_t), BufferUse::host_reads);
+    std::fill_n(static_cast<std::uint32_t*>(met_->mapped()), room, static_cast<std::uint32_t>(kHostFinds));  // until a device answers
   }
   return static_cast<indirect::MapRay*>(rays_->mapped());
 }

@@ -1,5 +1,6 @@
 #include "device/vulkan/compute_program.h"
 
+#include <chrono>
 #include <utility>
 
 #include "device/vulkan/buffer_handles.h"
@@ -7,7 +8,7 @@
 namespace steradian::vulkan {
 
 struct ComputeProgram::Handles {
-  std::uint32_t texels = 0;
+  std::uint32_t buffers = 0, texels = 0;
   vk::DescriptorType type(std::uint32_t binding) const {
     return binding < texels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
   }
@@ -25,17 +26,21 @@ namespace {
 
 // The device's pipelines for these shaders, created if it has none yet. type(i): type of binding i.
 template <class Type>
-Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::uint32_t buffers,
-                        std::uint32_t texels, Type type) {
+Pipelines& pipelines_of(const Device& device, const std::vector<ShaderCode>& shaders, std::uint32_t buffers, std::uint32_t texels,
+                        Type type) {
   const Device::Handles& d = device.handles();
   std::vector<std::uint32_t> key = {buffers, texels};
-  for (const auto& spirv : shaders) {
-    key.push_back(static_cast<std::uint32_t>(spirv.size()));
-    key.insert(key.end(), spirv.begin(), spirv.end());
+  for (const ShaderCode& shader : shaders) {
+    key.push_back(static_cast<std::uint32_t>(shader.words.size()));
+    key.insert(key.end(), shader.words.begin(), shader.words.end());
   }
   if (const auto found = d.pipelines.find(key); found != d.pipelines.end()) return found->second;
   Pipelines p;
-  for (const auto& spirv : shaders) p.shaders.push_back(module_of(d.device, spirv));
+  for (const ShaderCode& shader : shaders) {
+    p.shaders.push_back(module_of(d.device, shader.words));
+    p.names.push_back(shader.name);
+    p.module_bytes.push_back(shader.words.size_bytes());
+  }
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (std::uint32_t i = 0; i < buffers + texels; ++i) bindings.emplace_back(i, type(i), 1, vk::ShaderStageFlagBits::eCompute);
   p.set_layout = d.device.createDescriptorSetLayout({{}, bindings});
@@ -46,21 +51,27 @@ Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const 
 
 }  // namespace
 
-ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers,
-                               std::size_t texels)
+ComputeProgram::ComputeProgram(const Device& device, const std::vector<ShaderCode>& shaders, std::size_t buffers, std::size_t texels)
     : device_(device), handles_(std::make_unique<Handles>()) {
   checked(device, "make a compute program", [&] {
-    const vk::raii::Device& d = device.handles().device;
     Handles& h = *handles_;
+    h.buffers = static_cast<std::uint32_t>(buffers);
     h.texels = static_cast<std::uint32_t>(texels);
-    h.pipelines = &pipelines_of(device, shaders, static_cast<std::uint32_t>(buffers), h.texels, [&](std::uint32_t i) { return h.type(i); });
-    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, static_cast<std::uint32_t>(buffers)}};
-    if (texels > 0) sizes.emplace_back(vk::DescriptorType::eUniformTexelBuffer, h.texels);
-    h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
-    h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.pipelines->set_layout}).front());
-    h.commands = std::move(d.allocateCommandBuffers({*device.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
-    h.done = d.createFence({});
+    h.pipelines = &pipelines_of(device, shaders, h.buffers, h.texels, [&](std::uint32_t i) { return h.type(i); });
   });
+}
+
+// Creates what a run needs besides pipelines. Drivers that only compile do not have it.
+void ComputeProgram::prepare_to_run() {
+  const vk::raii::Device& d = device_.handles().device;
+  Handles& h = *handles_;
+  if (*h.done) return;
+  std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, h.buffers}};
+  if (h.texels > 0) sizes.emplace_back(vk::DescriptorType::eUniformTexelBuffer, h.texels);
+  h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+  h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.pipelines->set_layout}).front());
+  h.commands = std::move(d.allocateCommandBuffers({*device_.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
+  h.done = d.createFence({});
 }
 
 ComputeProgram::~ComputeProgram() { device_.handles().leave(handles_); }
@@ -74,7 +85,11 @@ std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::
     const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
                                                 constants.size() * sizeof(std::int32_t), constants.data());
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *p.shaders.at(shader), "main", &specialization);
-    p.made.push_back(device_.handles().device.createComputePipeline(device_.handles().pipeline_cache, {{}, stage, *p.layout}));
+    const Device::Handles& d = device_.handles();
+    const auto start = std::chrono::steady_clock::now();
+    p.made.push_back(d.device.createComputePipeline(d.pipeline_cache, {d.pipeline_flags(), stage, *p.layout}));
+    p.reports.push_back(d.reports.size());
+    report(d, p.made.back(), {{p.names[shader], constants, p.module_bytes[shader], ms_since(start)}});
   });
   return p.numbers.emplace(std::pair(shader, constants), p.made.size() - 1).first->second;
 }
@@ -83,6 +98,14 @@ std::vector<double> ComputeProgram::run(const std::vector<const Buffer*>& buffer
   return checked(device_, "run a compute shader", [&] {
     const Device::Handles& d = device_.handles();
     Handles& h = *handles_;
+    for (const Dispatch& one : dispatches) {
+      PipelineReport& of = d.reports[h.pipelines->reports.at(one.pipeline)];
+      ++of.dispatches;
+      of.groups += one.groups != nullptr ? 0 : std::uint64_t{one.groups_x} * one.groups_y;
+      of.units += one.units;
+    }
+    if (device_.only_compiles()) return std::vector<double>{};
+    prepare_to_run();
     for (std::uint32_t i = 0; i < buffers.size(); ++i) {
       const Buffer::Handles& buffer = buffers[i]->handles();
       const vk::DescriptorBufferInfo info(*buffer.buffer, 0, VK_WHOLE_SIZE);

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <tuple>
 
 #include "core/files.h"
 #include "device/vulkan/handles.h"
@@ -52,6 +53,12 @@ std::optional<std::uint32_t> compute_queue_family(const vk::raii::PhysicalDevice
   return {};
 }
 
+bool has_extension(const vk::raii::PhysicalDevice& device, const char* name) {
+  for (const auto& extension : device.enumerateDeviceExtensionProperties())
+    if (std::string(extension.extensionName.data()) == name) return true;
+  return false;
+}
+
 std::string version_text(std::uint32_t version) {
   return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
          std::to_string(VK_API_VERSION_PATCH(version));
@@ -77,6 +84,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_
   info.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
   info.vulkan = version_text(properties.apiVersion);
   info.memory = own_memory(device);
+  info.runs = info.memory > 0;  // Vulkan promises memory. A driver without its hardware, such as RADV's null device, has none
   info.storage_buffer = properties.limits.maxStorageBufferRange;
   info.graphics = static_cast<bool>(device.getQueueFamilyProperties()[queue_family].queueFlags & vk::QueueFlagBits::eGraphics);
   info.picture =
@@ -110,7 +118,8 @@ std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
     if (device.getProperties().apiVersion < VK_API_VERSION_1_2) continue;
     if (const auto family = compute_queue_family(device)) found.push_back({device, *family, describe(device, *family)});
   }
-  std::stable_partition(found.begin(), found.end(), [](const Candidate& c) { return !c.info.software; });
+  const auto rank = [](const Candidate& c) { return !c.info.runs ? 2 : c.info.software ? 1 : 0; };
+  std::stable_sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
   return found;
 }
 
@@ -147,7 +156,7 @@ void write_pipeline_cache(const vk::raii::PipelineCache& cache) noexcept {
 
 std::mutex shared_mutex;
 int shared_users = 0;
-std::map<std::pair<std::string, bool>, std::shared_ptr<const Device>> shared_devices;
+std::map<std::tuple<std::string, bool, bool>, std::shared_ptr<const Device>> shared_devices;
 
 }  // namespace
 
@@ -185,12 +194,21 @@ Device::Device(const DeviceOptions& options) {
       const bool is_place = options.name == std::to_string(place++);
       if (!is_place && (is_number(options.name) || c.info.name.find(options.name) == std::string::npos)) continue;
       info_ = c.info;
+      only_compiles_ = options.only_compiles;
+      if (!info_.runs && !only_compiles_)
+        throw Error("Vulkan device '" + info_.name + "'", "runs nothing: its driver compiles for hardware that is not here",
+                    "choose another --device, or --backend cpu; `steradian info SCENE --pipelines` reads its compiler's statistics");
       h.physical = c.device;
       h.queue_family = c.queue_family;
       h.timestamp_period = h.physical.getProperties().limits.timestampPeriod;
       const float priority = 1.0f;
       const vk::DeviceQueueCreateInfo queue({}, h.queue_family, 1, &priority);
-      h.device = h.physical.createDevice({{}, queue});
+      h.has_statistics = only_compiles_ && has_extension(h.physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+      const std::vector<const char*> extensions(h.has_statistics ? 1 : 0, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+      const vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics(VK_TRUE);
+      vk::DeviceCreateInfo device({}, queue, {}, extensions);
+      if (h.has_statistics) device.pNext = &statistics;
+      h.device = h.physical.createDevice(device);
       h.queue = h.device.getQueue(h.queue_family, 0);
       const std::vector<char> cached = read_pipeline_cache(h.physical);
       h.pipeline_cache = h.device.createPipelineCache({{}, cached.size(), cached.data()});
@@ -210,12 +228,14 @@ Device::~Device() {
 
 const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
 
+const std::vector<PipelineReport>& Device::pipelines() const { return handles_->reports; }
+
 std::size_t Device::allocations() const { return handles_->allocations; }
 
 std::shared_ptr<const Device> open_device(const DeviceOptions& options) {
   const std::lock_guard lock(shared_mutex);
   if (shared_users == 0) return std::make_shared<const Device>(options);
-  std::shared_ptr<const Device>& device = shared_devices[{options.name, options.validation}];
+  std::shared_ptr<const Device>& device = shared_devices[{options.name, options.validation, options.only_compiles}];
   if (device == nullptr) device = std::make_shared<const Device>(options);
   return device;
 }
