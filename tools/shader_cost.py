@@ -8,8 +8,8 @@ usage: shader_cost.py PROGRAM                   prints the tables of docs/measur
 
 Mesa's driver RADV makes a device for an AMD GPU that is not there (RADV_FORCE_FAMILY): it compiles and runs nothing. `steradian info SCENE
 --pipelines` makes all pipelines of a picture on it and prints the driver's statistics. gfx1100 is RDNA 3, navi21 RDNA 2, vega10 GCN 5.
-Instructions are of the whole pipeline: each loop's body counts once, and so do both sides of a branch. Scratch is memory of a wave of 32 or
-64 threads for private arrays. Needs the package mesa-vulkan-drivers; exit 77 without it.
+Instructions are of the whole pipeline: each loop's body counts once, and so do both sides of a branch. Scratch is memory of a wave of 64
+threads, for private arrays and spilled registers. The model of time is units of work x instructions / (lanes x clock), for the first picture. Needs the package mesa-vulkan-drivers; exit 77 without it.
 """
 import base64
 import json
@@ -34,6 +34,12 @@ PICTURES = [
     ("lamps.svg", ["scenes/plane/lamps.svg"]),
 ]
 SIZE = "640x360"
+GROUP = 64  # threads of a work group
+MODEL_SIZE = "1280x720"
+# Lanes and clock [Hz] of the model, from data sheets.
+PARTS = [("RX 7900 XTX", 6144, 2.5e9), ("RTX 4060", 3072, 2.46e9), ("Steam Deck", 512, 1.6e9)]
+# Bytes that a unit of the model reads and writes: vectors of 16 bytes of a pixel's surface and radiance (shaders/direct.glsl, resolve.comp).
+BYTES = {"diffuse.comp": 16 * 6, "closed_form.comp": 16 * 8, "ltc.comp": 16 * 9, "half_vector.comp": 16 * 8, "resolve.comp": 16 * 8}
 LIMITS = ROOT / "tools" / "shader_limits.json"
 # The limited numbers, by the driver's names.
 LIMITED = {"instructions": "Instructions", "spills": "Spilled VGPRs", "scratch": "Scratch size"}
@@ -60,7 +66,7 @@ def sheen_scene():
         "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]})
 
 
-def pipelines(program, family, arguments):
+def pipelines(program, family, arguments, size=SIZE):
     if arguments[0] == "SHEEN":
         with tempfile.TemporaryDirectory() as folder:
             scene = Path(folder) / "sheen.gltf"
@@ -68,7 +74,7 @@ def pipelines(program, family, arguments):
             return pipelines(program, family, [str(scene)] + arguments[1:])
     environment = dict(os.environ, RADV_FORCE_FAMILY=family, VK_ICD_FILENAMES=DRIVER, MESA_SHADER_CACHE_DISABLE="1",
                        STERADIAN_PIPELINE_CACHE="")
-    made = subprocess.run([program, "info", *arguments, "--pipelines", "--json", "--size", SIZE], env=environment, cwd=ROOT, capture_output=True, text=True)
+    made = subprocess.run([program, "info", *arguments, "--pipelines", "--json", "--size", size], env=environment, cwd=ROOT, capture_output=True, text=True)
     if made.returncode != 0:
         sys.exit(f"shader_cost: {' '.join(arguments)} on {family}: exit {made.returncode}: {made.stderr.strip()}")
     return json.loads(made.stdout)["pipelines"]
@@ -89,18 +95,23 @@ def excesses(shader, pipeline, limits):
     return found
 
 
+def of_family(limits, family):
+    """The limits of all families, with what a family has of its own."""
+    return {shader: dict(numbers, **limits.get(family, {}).get(shader, {})) for shader, numbers in limits["all"].items()}
+
+
 def check(reports):
     limits = json.loads(LIMITS.read_text())
     bad, used = [], {}
     for (family, picture), made in reports.items():
         for p in made:
-            bad += [f"{family}, {picture}: {sentence}" for sentence in excesses(p["shader"], p, limits)]
-            most = used.setdefault(p["shader"], dict.fromkeys(LIMITED, 0))
+            bad += [f"{family}, {picture}: {sentence}" for sentence in excesses(p["shader"], p, of_family(limits, family))]
+            most = used.setdefault((family, p["shader"]), dict.fromkeys(LIMITED, 0))
             for name in LIMITED:
                 most[name] = max(most[name], number(p, name))
     print("\n".join(bad) or f"{sum(map(len, reports.values()))} pipelines keep the limits; the largest numbers:")
-    for shader, most in sorted(used.items()):
-        print(f"  {json.dumps(shader)}: {json.dumps(most)},")
+    for (family, shader), most in sorted(used.items()):
+        print(f"  {family} {json.dumps(shader)}: {json.dumps(most)}")
     return 1 if bad else 0
 
 
@@ -111,6 +122,8 @@ def self_test():
     for name in LIMITED:
         less = dict(good, **{name: good[name] - 1})
         right = right and len(excesses("a.comp", pipeline, {"a.comp": less})) == 1
+    limits = {"all": {"a.comp": good}, "navi21": {"a.comp": {"scratch": 0}}}
+    right = right and not excesses("a.comp", pipeline, of_family(limits, "vega10")) and len(excesses("a.comp", pipeline, of_family(limits, "navi21"))) == 1
     right = right and len(excesses("b.comp", pipeline, {"a.comp": good})) == 1
     print("judged as they are" if right else "WRONG")
     return 0 if right else 1
@@ -141,6 +154,26 @@ def tables(reports):
             printed.add(row)
 
 
+def threads(pipeline):
+    """Threads that do a unit of work: as counted by the host, else those of the work groups."""
+    return pipeline["units"] or pipeline["groups"] * GROUP
+
+
+def model(made):
+    """Markdown: a row for each shader of a picture, and their sum."""
+    print("| shader | units | instructions a unit, mean | MB read and written | " + " | ".join(f"ms, {name}" for name, _, _ in PARTS) + " |")
+    print("|---|" + "--:|" * (3 + len(PARTS)))
+    total = 0
+    for shader in sorted({p["shader"] for p in made if threads(p)}):
+        of = [p for p in made if p["shader"] == shader]
+        units, work = sum(threads(p) for p in of), sum(threads(p) * number(p, "instructions") for p in of)
+        total += work
+        moved = f"{units * BYTES[shader] / 1e6:.1f}" if shader in BYTES else "-"
+        times = " | ".join(f"{1e3 * work / (lanes * clock):.3f}" for _, lanes, clock in PARTS)
+        print(f"| `{shader}` | {units:,} | {work / units:,.0f} | {moved} | {times} |")
+    print("| all | | | | " + " | ".join(f"{1e3 * total / (lanes * clock):.3f}" for _, lanes, clock in PARTS) + " |")
+
+
 def main():
     arguments = sys.argv[1:]
     if arguments == ["--test"]:
@@ -165,6 +198,8 @@ def main():
     if arguments[1:2] == ["--check"]:
         sys.exit(check(reports))
     tables(reports)
+    print()
+    model(pipelines(program, FAMILIES[0], PICTURES[0][1], MODEL_SIZE))
 
 
 if __name__ == "__main__":

@@ -221,7 +221,7 @@ struct Frame::Parts {
       std::uint32_t states = 0;
       for (std::size_t i = first; i < first + count; ++i)
         for (const TileShadows::Light& light : shadowed[i].by_light) {
-          tiles[i].shadowed.push_back({light.light, states, light.edges, light.shares});
+          tiles[i].shadowed.push_back({light.light, states, light.shares});
           states += static_cast<std::uint32_t>(kTilePixels);
         }
       direct.run(tiles, first, first + count, &shadows->states(), &shadows->parts());

@@ -91,7 +91,8 @@ vk::raii::RenderPass make_render_pass(const vk::raii::Device& d) {
 
 vk::raii::Pipeline make_pipeline(const Device::Handles& d, vk::PipelineLayout layout, vk::RenderPass pass) {
   const ShaderCode codes[] = {shader("visibility.vert"), shader("visibility.frag")};
-  const vk::raii::ShaderModule vertex = module_of(d.device, codes[0].words), fragment = module_of(d.device, codes[1].words);
+  const auto words = [&](int i) { return codes[i].modules.front().words; };
+  const vk::raii::ShaderModule vertex = module_of(d.device, words(0)), fragment = module_of(d.device, words(1));
   const vk::PipelineShaderStageCreateInfo stages[] = {{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
                                                       {{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main"}};
   const vk::PipelineVertexInputStateCreateInfo input;  // vertices come from buffers of texels
@@ -111,7 +112,7 @@ vk::raii::Pipeline make_pipeline(const Device::Handles& d, vk::PipelineLayout la
       d.pipeline_cache,
       {d.pipeline_flags(), stages, &input, &assembly, nullptr, &viewports, &raster, &samples, &depth, &blends, &dynamic, layout, pass, 0});
   std::vector<PipelineReport> reports;
-  for (const ShaderCode& code : codes) reports.push_back({code.name, {}, code.words.size_bytes(), ms_since(start)});
+  for (int i = 0; i < 2; ++i) reports.push_back({codes[i].name, {}, words(i).size_bytes(), ms_since(start)});
   report(d, made, std::move(reports));
   return made;
 }

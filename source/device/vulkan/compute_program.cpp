@@ -1,8 +1,10 @@
 #include "device/vulkan/compute_program.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "core/fingerprint.h"
 #include "device/vulkan/buffer_handles.h"
 
 namespace steradian::vulkan {
@@ -13,6 +15,7 @@ struct ComputeProgram::Handles {
     return binding < texels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
   }
 
+  std::vector<ShaderCode> shaders;
   Pipelines* pipelines = nullptr;  // the device's
   vk::raii::DescriptorPool pool = nullptr;
   vk::raii::DescriptorSet set = nullptr;
@@ -29,18 +32,11 @@ template <class Type>
 Pipelines& pipelines_of(const Device& device, const std::vector<ShaderCode>& shaders, std::uint32_t buffers, std::uint32_t texels,
                         Type type) {
   const Device::Handles& d = device.handles();
-  std::vector<std::uint32_t> key = {buffers, texels};
-  for (const ShaderCode& shader : shaders) {
-    key.push_back(static_cast<std::uint32_t>(shader.words.size()));
-    key.insert(key.end(), shader.words.begin(), shader.words.end());
-  }
+  std::vector<Fingerprint> key = {buffers, texels};
+  for (const ShaderCode& shader : shaders)
+    for (const ShaderModuleCode& module : shader.modules) key.push_back(fingerprint(module.words));
   if (const auto found = d.pipelines.find(key); found != d.pipelines.end()) return found->second;
   Pipelines p;
-  for (const ShaderCode& shader : shaders) {
-    p.shaders.push_back(module_of(d.device, shader.words));
-    p.names.push_back(shader.name);
-    p.module_bytes.push_back(shader.words.size_bytes());
-  }
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (std::uint32_t i = 0; i < buffers + texels; ++i) bindings.emplace_back(i, type(i), 1, vk::ShaderStageFlagBits::eCompute);
   p.set_layout = d.device.createDescriptorSetLayout({{}, bindings});
@@ -57,6 +53,7 @@ ComputeProgram::ComputeProgram(const Device& device, const std::vector<ShaderCod
     Handles& h = *handles_;
     h.buffers = static_cast<std::uint32_t>(buffers);
     h.texels = static_cast<std::uint32_t>(texels);
+    h.shaders = shaders;
     h.pipelines = &pipelines_of(device, shaders, h.buffers, h.texels, [&](std::uint32_t i) { return h.type(i); });
   });
 }
@@ -84,12 +81,16 @@ std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, i * 4u, sizeof(std::int32_t));
     const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
                                                 constants.size() * sizeof(std::int32_t), constants.data());
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *p.shaders.at(shader), "main", &specialization);
+    const ShaderCode& code = handles_->shaders.at(shader);
+    const auto module = std::find_if(code.modules.begin(), code.modules.end(), [&](const auto& m) { return m.serves(constants); });
+    if (module == code.modules.end()) throw Error("Vulkan", "the shader " + code.name + " has no module for these constants");
     const Device::Handles& d = device_.handles();
+    const vk::raii::ShaderModule made = module_of(d.device, module->words);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *made, "main", &specialization);
     const auto start = std::chrono::steady_clock::now();
     p.made.push_back(d.device.createComputePipeline(d.pipeline_cache, {d.pipeline_flags(), stage, *p.layout}));
     p.reports.push_back(d.reports.size());
-    report(d, p.made.back(), {{p.names[shader], constants, p.module_bytes[shader], ms_since(start)}});
+    report(d, p.made.back(), {{code.name, constants, module->words.size_bytes(), ms_since(start)}});
   });
   return p.numbers.emplace(std::pair(shader, constants), p.made.size() - 1).first->second;
 }

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <tuple>
 
-#include "core/files.h"
+#include "core/cache_file.h"
 #include "device/vulkan/handles.h"
 
 namespace steradian::vulkan {
@@ -123,35 +119,17 @@ std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
   return found;
 }
 
-const char* pipeline_cache_file() {
-  const char* path = std::getenv("STERADIAN_PIPELINE_CACHE");
-  return path != nullptr && *path != '\0' ? path : nullptr;
-}
-
-// The file's bytes if this driver wrote them for this device, else none: drivers may not survive the bytes of others.
-std::vector<char> read_pipeline_cache(const vk::raii::PhysicalDevice& device) {
-  if (pipeline_cache_file() == nullptr) return {};
-  std::ifstream file(pipeline_cache_file(), std::ios::binary);
-  std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
+// The device and its driver, for the file of its pipelines.
+std::string key_of(const vk::raii::PhysicalDevice& device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
-  VkPipelineCacheHeaderVersionOne header{};
-  if (bytes.size() < sizeof header) return {};
-  std::memcpy(&header, bytes.data(), sizeof header);
-  const bool ours =
-      header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
-      header.deviceID == properties.deviceID &&
-      std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), properties.pipelineCacheUUID.begin());
-  return ours ? bytes : std::vector<char>{};
-}
-
-// A cache that cannot be written costs time in the next run, and nothing else.
-void write_pipeline_cache(const vk::raii::PipelineCache& cache) noexcept {
-  if (pipeline_cache_file() == nullptr || !*cache) return;
-  try {
-    const auto bytes = cache.getData();
-    write_file(pipeline_cache_file(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  } catch (const std::exception&) {
-  }
+  std::string key;
+  const auto add = [&](std::uint32_t value, int digits) {
+    for (int i = digits - 1; i >= 0; --i) key += "0123456789abcdef"[value >> (4 * i) & 15u];
+  };
+  add(properties.vendorID, 8);
+  add(properties.deviceID, 8);
+  for (const std::uint8_t byte : properties.pipelineCacheUUID) add(byte, 2);
+  return key;
 }
 
 std::mutex shared_mutex;
@@ -210,8 +188,10 @@ Device::Device(const DeviceOptions& options) {
       if (h.has_statistics) device.pNext = &statistics;
       h.device = h.physical.createDevice(device);
       h.queue = h.device.getQueue(h.queue_family, 0);
-      const std::vector<char> cached = read_pipeline_cache(h.physical);
-      h.pipeline_cache = h.device.createPipelineCache({{}, cached.size(), cached.data()});
+      h.cache_key = key_of(h.physical);
+      h.cache_file = cache_file("STERADIAN_PIPELINE_CACHE", "pipelines-" + h.cache_key);
+      if (!h.cache_file.empty()) h.cached = read_cache_file(h.cache_file, h.cache_key);
+      h.pipeline_cache = h.device.createPipelineCache({{}, h.cached.size(), h.cached.data()});
       h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, h.queue_family});
       return;
     }
@@ -222,7 +202,12 @@ Device::Device(const DeviceOptions& options) {
 
 Device::~Device() {
   const Handles& h = *handles_;
-  if (!h.hangs) write_pipeline_cache(h.pipeline_cache);
+  if (!h.hangs && !h.cache_file.empty() && *h.pipeline_cache) try {
+      const auto bytes = h.pipeline_cache.getData();
+      const std::span<const char> now(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      if (!std::ranges::equal(now, h.cached)) write_cache_file(h.cache_file, h.cache_key, now);
+    } catch (const std::exception&) {  // the device is lost: its pipelines are made again
+    }
   h.leave(handles_);
 }
 

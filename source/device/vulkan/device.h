@@ -39,7 +39,8 @@ struct DeviceOptions {
   bool only_compiles = false;
 };
 
-// A Vulkan device. If the environment variable STERADIAN_PIPELINE_CACHE names a file, compiled pipelines are read from and written to it.
+// A Vulkan device. Compiled pipelines stay from run to run in the user's cache folder, or in the folder that the
+// environment variable STERADIAN_PIPELINE_CACHE names; if it is empty, they do not stay (core/cache_file.h).
 class Device {
  public:
   // Throws Error if there is no such device, or if it runs nothing but should.

@@ -13,16 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/fingerprint.h"
 #include "device/vulkan/device.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
 
-// Shaders over the same buffers, and the pipelines created from them so far.
+// The pipelines created so far from shaders over the same buffers.
 struct Pipelines {
-  std::vector<vk::raii::ShaderModule> shaders;
-  std::vector<std::string> names;         // of the shaders
-  std::vector<std::size_t> module_bytes;  // of the shaders
   vk::raii::DescriptorSetLayout set_layout = nullptr;
   vk::raii::PipelineLayout layout = nullptr;
   std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> numbers;  // by shader and constants
@@ -40,10 +38,12 @@ struct Device::Handles {
   vk::raii::Queue queue = nullptr;
   vk::raii::CommandPool commands = nullptr;
   vk::raii::PipelineCache pipeline_cache = nullptr;
-  float timestamp_period = 0;  // nanoseconds per tick
-  // The key distinguishes programs: the numbers of their buffers and the words of their shaders. Entries live as long as the device, since
-  // pipelines take longer to create than pictures.
-  mutable std::map<std::vector<std::uint32_t>, Pipelines> pipelines;
+  std::string cache_key, cache_file;  // the file is empty: none
+  std::vector<char> cached;           // its contents when the device was opened
+  float timestamp_period = 0;         // nanoseconds per tick
+  // The key distinguishes programs: the numbers of their buffers and the fingerprints of their shaders' words. Entries live as long as the
+  // device, since pipelines take longer to create than pictures.
+  mutable std::map<std::vector<Fingerprint>, Pipelines> pipelines;
   bool has_statistics = false;  // the driver reports statistics of pipelines, and somebody asked for them
   mutable std::vector<PipelineReport> reports;
   std::vector<std::string> messages;
