@@ -45,13 +45,17 @@ bool has_clipped_edge() {
     return dot(chord, chord) > smallest_divisor();
 }
 
-// Goes on to the next arc of the horizon. False: there is none.
+// Goes on to the next arc of the horizon; a thread without one gets an edge without length. False: no thread has one. Threads that leave a
+// loop together need fewer registers, since none keeps its sums while others go on.
 bool next_arc() {
-    if (arcs_left == 0) return false;
-    clip_begin = vec3(arc_begin, 0.0);
-    clip_end = vec3(arc_end, 0.0);
-    if (arcs_left == 2) clip_end = horizon_arc_middle(clip_begin, clip_end, clip_facing);
-    arc_begin = clip_end.xy;
+    clip_begin = clip_end;
+    if (arcs_left > 0) {
+        clip_begin = vec3(arc_begin, 0.0);
+        clip_end = vec3(arc_end, 0.0);
+        if (arcs_left == 2) clip_end = horizon_arc_middle(clip_begin, clip_end, clip_facing);
+        arc_begin = clip_end.xy;
+    }
+    bool there = arcs_left > 0;
     --arcs_left;
-    return true;
+    return subgroupBallot(there) != uvec4(0u);
 }

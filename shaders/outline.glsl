@@ -37,16 +37,19 @@ struct Place {
     bool joined;  // a contour begins at each place that is not; the first is one of them
 };
 
+// transform_transposed for a right-handed frame, without its y, which would take registers.
+vec3 into_frame(mat3 frame, vec3 d) { return vec3(dot(frame[0], d), dot(frame[2], cross(frame[0], d)), dot(frame[2], d)); }
+
 // The place of one turn. An ellipse's corners need their neighbours, so its turns come one after another.
 Place outline_place(Light light, mat3 frame, vec3 p, int i) {
     Place place;
     if (by_pieces()) {
         vec4 v = parts[part.first + kPartHeader + i];
-        place.direction = polygon_direction(transform_transposed(frame, v.xyz));
+        place.direction = polygon_direction(into_frame(frame, v.xyz));
         place.joined = v.w > 0.5;
     } else if (KIND == kPolygon) {
         vec4 v = texelFetch(vertices, int(in_common(uint(light.r[0].w) + uint(i))));
-        place.direction = polygon_direction(transform_transposed(frame, v.xyz - p));
+        place.direction = polygon_direction(into_frame(frame, v.xyz - p));
         place.joined = v.w > 0.5;
     } else if (KIND == kCapsule) {
         place.direction = polygon_direction(capsule_fan_corner(capsule_fan_about, i > 0 ? i - 1 : corner_count - 1));

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
 layout(constant_id = 0) const int METHOD = 0;  // number in phong_methods.glsl
 layout(constant_id = 1) const int N = 1;
@@ -47,9 +48,10 @@ void main() {
         vec3 here = polygon_direction(transform_transposed(frame, corners[min(k, CORNERS - 1)].xyz - p));
         put_clipped(previous, here, k == CORNERS);
         do {
-            if (!has_clipped_edge()) continue;
-            MomentEdge edge = moment_edge(clip_begin, clip_end, axis);
-            sum += moment_edge_share(edge, phong_front(edge, float(N)));
+            if (has_clipped_edge()) {
+                MomentEdge edge = moment_edge(clip_begin, clip_end, axis);
+                sum += moment_edge_share(edge, phong_front(edge, float(N)));
+            }
         } while (next_arc());
         previous = here;
     }

@@ -12,11 +12,12 @@ float sheen_over_outline(Light light, Seen seen, mat3 frame, vec3 p, CharlieLobe
         for (int i = outline_first(); i < count; i++) {
             if (!clipped_place(light, frame, p, i)) continue;
             do {
-                if (!has_clipped_edge()) continue;
-                if (turn == 0)
-                    e += polygon_edge(clip_begin, clip_end);
-                else
-                    c = charlie_cubature_edge(c, clip_begin, clip_end);
+                if (has_clipped_edge()) {
+                    if (turn == 0)
+                        e += polygon_edge(clip_begin, clip_end);
+                    else
+                        c = charlie_cubature_edge(c, clip_begin, clip_end);
+                }
             } while (!UNCUT && next_arc());
         }
         if (turn == 0) c = charlie_cubature_begin(lobe, e, facing);

@@ -191,30 +191,54 @@ vec3 vector_of(GgxView view, ConicArc edge) {
 }
 #endif
 
-// Two walks over the edges: one sums their vectors, the other is the cubature about that sum.
-vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
+// The sums of a cubature. The rest of its state follows from E, and costs less to compute for each edge than registers.
+struct CubatureSums {
+    float weight;
+    float centre_weight;
+    vec2 weighted;
+    vec2 lowest;
+    vec2 highest;
+};
+CubatureSums sums_of(GgxCubature c) { return CubatureSums(c.weight, c.centre_weight, c.weighted, c.lowest, c.highest); }
+
+GgxCubature cubature_with(CubatureSums sums, GgxView view, vec3 e, float facing) {
+    GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
+    c.weight = sums.weight;
+    c.centre_weight = sums.centre_weight;
+    c.weighted = sums.weighted;
+    c.lowest = sums.lowest;
+    c.highest = sums.highest;
+    return c;
+}
+
+// Two walks over the edges: one sums their vectors, the other is the cubature about that sum. Each edge prepares the view again: to hold it
+// takes registers.
+vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, vec3 v, float ax, float ay) {
     float facing = seen.reversed ? -1.0 : 1.0;
     vec3 e = vec3(0.0);
-    GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
+    CubatureSums sums = CubatureSums(0.0, 0.0, vec2(0.0), vec2(0.0), vec2(0.0));
     int count = clipped_length(light);
     for (int turn = 0; turn < (DRAFT || EXACT ? 1 : 2); turn++) {
         begin_clip(facing);
         for (int i = outline_first(); i < count; i++) {
             if (!clipped_place(light, frame, p, i)) continue;
             do {
-                if (!has_clipped_edge()) continue;
-                ConicArc arc = ggx_edge(view, clip_begin, clip_end);
-                if (turn == 0)
-                    e += vector_of(view, arc);
-                else
-                    c = ggx_cubature_edge(c, arc, EXTRA_NODES);
+                if (has_clipped_edge()) {
+                    GgxView view = ggx_view(v, ax, ay);
+                    ConicArc arc = ggx_edge(view, clip_begin, clip_end);
+                    if (turn == 0)
+                        e += vector_of(view, arc);
+                    else
+                        sums = sums_of(ggx_cubature_edge(cubature_with(sums, view, e, facing), arc, EXTRA_NODES));
+                }
             } while (!UNCUT && next_arc());
         }
-        if (turn == 0) c = ggx_cubature_begin(view, e, SMITH, facing);
+        if (turn == 0) sums = sums_of(ggx_cubature_begin(ggx_view(v, ax, ay), e, SMITH, facing));
     }
+    GgxView view = ggx_view(v, ax, ay);
     if (EXACT) return vec2(ggx_unshadowed(view, e * facing), 0.0);
     if (DRAFT) return ggx_draft(view, e, SMITH, facing);
-    return ggx_cubature_finish(c);
+    return ggx_cubature_finish(cubature_with(sums, view, e, facing));
 }
 #else
 vec2 representative_point(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha) {
@@ -226,9 +250,10 @@ vec2 representative_point(Light light, Seen seen, mat3 frame, vec3 p, vec3 view,
     for (int i = outline_first(); i < count; i++) {
         if (!clipped_place(light, frame, p, i)) continue;
         do {
-            if (!has_clipped_edge()) continue;
-            nearest = representative_add_edge(nearest, mirror, clip_begin, clip_end);
-            solid_angle = solid_angle_add_edge(solid_angle, clip_begin, clip_end);
+            if (has_clipped_edge()) {
+                nearest = representative_add_edge(nearest, mirror, clip_begin, clip_end);
+                solid_angle = solid_angle_add_edge(solid_angle, clip_begin, clip_end);
+            }
         } while (!UNCUT && next_arc());
     }
     float lobe =
@@ -273,14 +298,13 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
     if (!seen.lit || !(dot(n, v) > 0.0)) return answer;
     mat3 frame = frame_from_normal_and_view(n, lobe.tangent);
     vec3 view = transform_transposed(frame, v);
-    GgxView prepared = ggx_view(view, lobe.ax, lobe.ay);
     LightElementsLimits limits = light_elements_transformed();
     if (LOBE == LOBE_CLOSED_FORM) limits = light_elements_along_arcs();
     if (LOBE == LOBE_HALF_VECTOR) limits = light_elements_along_half_vectors(0.0);
     if (may_be_small(light, p, limits)) {
         LightElements e = elements_in(light, seen, frame, p);
         if (elements_serve(e, light_elements_half_vector_sharpness(0.5 * min(lobe.ax, lobe.ay), view.z), limits)) {
-            answer.specular = by_elements(e, prepared);
+            answer.specular = by_elements(e, ggx_view(view, lobe.ax, lobe.ay));
             return answer;
         }
     }
@@ -288,7 +312,7 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
 #if LOBE == LOBE_REPRESENTATIVE_POINT
     answer.specular = representative_point(light, seen, frame, p, view, lobe.ax);
 #else
-    answer.specular = by_arcs(light, seen, frame, p, prepared);
+    answer.specular = by_arcs(light, seen, frame, p, view, lobe.ax, lobe.ay);
 #endif
     return answer;
 #endif
