@@ -26,7 +26,9 @@ vec3 irradiance_vector(Light light, Seen seen, mat3 frame, vec3 p) {
     }
     if (KIND == kPolygon || by_pieces()) return polygon_vector(light, seen, frame, p);
     if (KIND == kCapsule) return capsule_irradiance_vector(capsule_in(light, frame, p));
-    if (BALLS) return capsule_irradiance_vector(capsule_between(light.r[2].xyz, light.r[2].xyz, light.r[2].w, frame, p));
+    if (KIND == kEllipsoid) {
+        if (BALLS) return capsule_irradiance_vector(capsule_between(light.r[2].xyz, light.r[2].xyz, light.r[2].w, frame, p));
+    }
     if (UNCUT) return ellipse_whole_irradiance_vector(ellipse_in(frame));
     return ellipse_irradiance_vector(ellipse_in(frame));
 }
