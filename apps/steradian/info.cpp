@@ -101,15 +101,15 @@ void add_info(CommandLine& line) {
   verb.add_word("--indirect", r.indirect.mode, "one bounce").more(pipelines);
   verb.add_limits(options->limits);
   verb.callback([options, verb] {
-    const bool listed = options->pipelines;
-    const char* needs = "SCENE --pipelines";
+    const bool listed = options->pipelines, in_space = listed && !is_plane_scene(options->scene);
+    const char *needs = "SCENE --pipelines", *third = "--pipelines of a scene in three dimensions (.gltf, .glb)";
     verb.refuse_without_effect({{"--pipelines", !options->scene.empty(), "SCENE"},
                                 {"--device", listed, needs},
                                 {"--size", listed, needs},
-                                {"--method", listed, needs},
-                                {"--quality", listed, needs},
-                                {"--shadows", listed, needs},
-                                {"--indirect", listed, needs}});
+                                {"--method", in_space, third},
+                                {"--quality", in_space, third},
+                                {"--shadows", in_space, third},
+                                {"--indirect", in_space, third}});
     if (listed) {
       const PictureSize size = picture_size(options->size);
       options->render.width = size.width;
