@@ -90,7 +90,7 @@ void add_info(CommandLine& line) {
   verb.add_flag("--json", options->json, "print JSON");
   const char* pipelines = "Pipelines of a Vulkan device";
   verb.add_flag("--pipelines", options->pipelines, "list those of a picture of SCENE, with the compiler's statistics").more(pipelines);
-  verb.add("--device", r.device, "number or part of the name; it may compile for hardware that is not here").more(pipelines);
+  verb.add("--device", r.device, "number or part of the name; its hardware may be absent").more(pipelines);
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels").more(pipelines);
   verb.add("--method", r.method, "method of the specular lobe")
       .check([](const std::string& name) { return unknown_method(name, false); })
