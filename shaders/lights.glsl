@@ -29,7 +29,10 @@ struct Seen {
     bool reversed;
 };
 
-EllipsoidOutline round_outline(Light light, vec3 p) {
+// The outline of a disk or an ellipsoid: see() computes it.
+EllipsoidOutline round_outline;
+
+EllipsoidOutline round_outline_from(Light light, vec3 p) {
     if (KIND == kDisk) {
         EllipsoidOutline outline;
         outline.center = light.r[2].xyz - p;
@@ -43,10 +46,7 @@ EllipsoidOutline round_outline(Light light, vec3 p) {
     return ellipsoid_outline(light.r[2].xyz - p, axes, inverse_axes);
 }
 
-Ellipse ellipse_in(Light light, mat3 frame, vec3 p) {
-    EllipsoidOutline outline = round_outline(light, p);
-    return ellipse_in_units(frame, outline.center, outline.axis_a, outline.axis_b);
-}
+Ellipse ellipse_in(mat3 frame) { return ellipse_in_units(frame, round_outline.center, round_outline.axis_a, round_outline.axis_b); }
 
 Capsule capsule_between(vec3 end_a, vec3 end_b, float radius, mat3 frame, vec3 p) {
     return capsule_in_units(transform_transposed(frame, end_a - p), transform_transposed(frame, end_b - p), radius);
@@ -59,6 +59,7 @@ Capsule capsule_in(Light light, mat3 frame, vec3 p) {
 Seen see(Light light, vec3 p) {
     Seen seen;
     seen.reversed = false;
+    if (KIND == kDisk || KIND == kEllipsoid) round_outline = round_outline_from(light, p);
     if (UNCUT || KIND == kPunctual || by_pieces()) {
         seen.lit = true;
     } else if (KIND == kPolygon || KIND == kDisk) {
@@ -69,7 +70,7 @@ Seen see(Light light, vec3 p) {
         seen.lit = apart && (!behind || light.r[1].w > 0.5);
         if (KIND == kPolygon) seen.reversed = behind;  // a disk's outline is always walked as it appears
     } else if (KIND == kEllipsoid) {
-        seen.lit = round_outline(light, p).outside;
+        seen.lit = round_outline.outside;
     } else {
         seen.lit = capsule_in(light, mat3(1.0), p).outside;
     }
@@ -110,8 +111,7 @@ LightElements elements_in(Light light, Seen seen, mat3 frame, vec3 p) {
     } else if (KIND == kCapsule) {
         e = capsule_elements((light.r[2].xyz - p + (light.r[3].xyz - p)) * 0.5, light.r[4].xyz * 2.0, light.r[2].w);
     } else {
-        EllipsoidOutline outline = round_outline(light, p);
-        e = ellipse_elements(ellipse_prepare(outline.center, outline.axis_a, outline.axis_b));
+        e = ellipse_elements(ellipse_prepare(round_outline.center, round_outline.axis_a, round_outline.axis_b));
     }
     e.center = transform_transposed(frame, e.center);
     e.reach_a = transform_transposed(frame, e.reach_a);

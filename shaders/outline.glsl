@@ -1,34 +1,31 @@
-// The only walk: corners of a light in walk order, as a point sees them, and the light's edges above the horizon.
+// The only walk: edges of a light in walk order, as a point sees them, whole or above the horizon. Nothing is stored from edge to edge, so
+// a lobe that needs two walks makes two: private arrays would live in memory.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Corners that replace a round light, gathered about a lobe.
-vec3 corners[CORNER_SPACE];
+// The polygon that replaces a round light, gathered about a lobe.
+EllipseFan ellipse_fan_about;
+CapsuleFan capsule_fan_about;
 int corner_count;
+vec2 corner_here;         // an ellipse's corner, and its gap to the one before
+float corner_gap_before;
+const int kCornersNearRim = 32;
 bool has_corners() { return KIND != kPolygon && !by_pieces(); }
+bool has_ellipse() { return KIND != kCapsule && has_corners(); }
 
 //   axis, width  of the lobe, in the shading frame
-void fill_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
+void prepare_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
     corner_count = CORNERS;
     if (KIND == kCapsule) {
-        CapsuleFan fan = capsule_fan(capsule_in(light, frame, p), axis, width, CORNERS);
-        for (int i = 0; i < CORNERS; i++) corners[i] = polygon_direction(capsule_fan_corner(fan, i));
+        capsule_fan_about = capsule_fan(capsule_in(light, frame, p), axis, width, CORNERS);
     } else {
-        EllipseFan fan = ellipse_fan_concentrated(ellipse_in(light, frame, p), axis, width);
-        if (!CAREFUL) fan.near = false;  // the host knows that no point of the tile is near the rim
-        if (fan.near) corner_count = CORNER_SPACE;
-        vec2 here = ellipse_corner(fan, 0, corner_count);
-        float gap_before = ellipse_gap(ellipse_corner(fan, -1, corner_count), here);
-        for (int i = 0; i < corner_count; i++) {
-            vec2 after = ellipse_corner(fan, i + 1, corner_count);
-            float gap = ellipse_gap(here, after);
-            corners[i] = polygon_direction(ellipse_corner_between(fan, here, gap_before + gap));
-            here = after;
-            gap_before = gap;
-        }
+        ellipse_fan_about = ellipse_fan_concentrated(ellipse_in(frame), axis, width);
+        if (!CAREFUL) ellipse_fan_about.near = false;  // the host knows that no point of the tile is near the rim
+        if (ellipse_fan_about.near) corner_count = kCornersNearRim;
     }
 }
 
-// Number of places of a walk. A contour begins at each place that is not joined; the first is one of them.
+// The turns of a walk: from outline_first() up to, but not including, outline_length(). Those before turn 1 prepare the first edge.
+int outline_first() { return has_ellipse() ? -2 : 0; }
 int outline_length(Light light) {
     if (by_pieces()) return part.places;
     if (KIND == kPolygon) return int(light.r[2].w);
@@ -37,77 +34,66 @@ int outline_length(Light light) {
 
 struct Place {
     vec3 direction;
-    bool joined;
+    bool joined;  // a contour begins at each place that is not; the first is one of them
 };
 
-//   i        counted by the turns of the walk, from 0
+// transform_transposed for a right-handed frame, without its y, which would take registers.
+vec3 into_frame(mat3 frame, vec3 d) { return vec3(dot(frame[0], d), dot(frame[2], cross(frame[0], d)), dot(frame[2], d)); }
+
+// The place of one turn. An ellipse's corners need their neighbours, so its turns come one after another.
 Place outline_place(Light light, mat3 frame, vec3 p, int i) {
     Place place;
     if (by_pieces()) {
         vec4 v = parts[part.first + kPartHeader + i];
-        place.direction = polygon_direction(transform_transposed(frame, v.xyz));
+        place.direction = polygon_direction(into_frame(frame, v.xyz));
         place.joined = v.w > 0.5;
     } else if (KIND == kPolygon) {
-        uint at = uint(light.r[0].w) + uint(i);
-        // A walk in pieces goes on from the place at which each thread's edges ran out of space.
-        if (!CHUNKED) at = in_common(at);
-        vec4 v = texelFetch(vertices, int(at));
-        place.direction = polygon_direction(transform_transposed(frame, v.xyz - p));
+        vec4 v = texelFetch(vertices, int(in_common(uint(light.r[0].w) + uint(i))));
+        place.direction = polygon_direction(into_frame(frame, v.xyz - p));
         place.joined = v.w > 0.5;
-    } else {
-        place.direction = corners[i > 0 ? i - 1 : corner_count - 1];
+    } else if (KIND == kCapsule) {
+        place.direction = polygon_direction(capsule_fan_corner(capsule_fan_about, i > 0 ? i - 1 : corner_count - 1));
         place.joined = i > 0;
+    } else {
+        vec2 after = ellipse_corner(ellipse_fan_about, i < 0 ? i + corner_count : i < corner_count ? i : 0, corner_count);
+        float gap = ellipse_gap(corner_here, after);
+        place.direction = polygon_direction(ellipse_corner_between(ellipse_fan_about, corner_here, corner_gap_before + gap));
+        place.joined = i > 0;
+        corner_here = after;
+        corner_gap_before = gap;
     }
     return place;
 }
 
-#include "edges.glsl"
-
-// State of a walk that fills the edges until their space is used up.
-struct ClippedWalk {
-    int next;
-    vec3 previous;
-    HorizonClip clip;
-    bool more;
-};
-
-ClippedWalk clipped_walk_begin(Light light, mat3 frame, vec3 p) {
-    ClippedWalk walk;
-    walk.next = 1;
-    walk.previous = outline_place(light, frame, p, 0).direction;
-    walk.clip = horizon_clip_begin();
-    walk.more = true;
-    return walk;
+// The edge that ends at the place of the last turn. Degenerate where a contour begins.
+vec3 edge_begin;
+vec3 edge_end;
+void next_edge(Light light, mat3 frame, vec3 p, int i) {
+    Place place = outline_place(light, frame, p, i);
+    edge_begin = place.joined ? edge_end : place.direction;
+    edge_end = place.direction;
 }
 
-// Most edges that one place of the outline adds: an edge, and an arc in two parts. The outline's end adds no more.
-const int kMostEdgesOfPlace = 3;
+#include "edges.glsl"
 
-ClippedWalk fill_edges(ClippedWalk walk, Light light, Seen seen, mat3 frame, vec3 p) {
-    edge_count = 0;
-    float facing = seen.reversed ? -1.0 : 1.0;
-    int count = outline_length(light);
-    do {
-        Place place = outline_place(light, frame, p, walk.next);
-        vec3 from = place.joined ? walk.previous : place.direction;
-        if (UNCUT) {
-            add_edge(from, place.direction);
-        } else {
-            walk.clip = horizon_clip_edge(walk.clip, from, place.direction);
-            add_edge(walk.clip.start, walk.clip.end);
-            add_arc_of_horizon(walk.clip, facing);
-        }
-        walk.previous = place.direction;
-        ++walk.next;
-    } while (walk.next < count && (!CHUNKED || edge_count + 2 * kMostEdgesOfPlace <= EDGE_SPACE));
-    if (walk.next >= count) {
-        if (!UNCUT) {
-            walk.clip = horizon_clip_finish(walk.clip);
-            add_arc_of_horizon(walk.clip, facing);
-        }
-        walk.more = false;
-    }
-    return walk;
+// The edges above the horizon, with the arcs of the horizon that close them:
+//
+//   begin_clip(facing);
+//   for (int i = outline_first(); i < clipped_length(light); i++) {
+//       if (!clipped_place(light, frame, p, i)) continue;
+//       do { use clip_begin, clip_end if has_clipped_edge() } while (!UNCUT && next_arc());
+//   }
+int clipped_length(Light light) { return outline_length(light) + (UNCUT ? 0 : 1); }  // the last turn closes the outline
+
+bool clipped_place(Light light, mat3 frame, vec3 p, int i) {
+    bool closes = !UNCUT && i == outline_length(light);
+    if (!closes) next_edge(light, frame, p, i);
+    if (i < 1) return false;
+    if (UNCUT)
+        put_edge(edge_begin, edge_end);
+    else
+        put_clipped(edge_begin, edge_end, closes);
+    return true;
 }
 
 // Irradiance, from an irradiance vector, that reaches a diffuse lobe below a boundary. view: in the vector's frame.

@@ -3,12 +3,12 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
 layout(constant_id = 0) const int METHOD = 0;  // number in phong_methods.glsl
 layout(constant_id = 1) const int N = 1;
 layout(constant_id = 2) const int F_IS_X = 0;  // form of the fits
 layout(constant_id = 3) const int CORNERS = 4;
-layout(constant_id = 4) const int EDGE_SPACE = 8;
 const int LOW_EXPONENT = 0;
 
 layout(local_size_x = 64) in;
@@ -40,24 +40,20 @@ void main() {
     vec3 view = transform_transposed(frame, points[3u * i + 2u].xyz);
     bool lit = view.z > 0.0 && dot(p - corners[0].xyz, corners[CORNERS].xyz) > 0.0;
 
-    edge_count = 0;
-    HorizonClip clip = horizon_clip_begin();
-    vec3 previous = polygon_direction(transform_transposed(frame, corners[CORNERS - 1].xyz - p));
-    for (int k = 0; k < CORNERS; k++) {
-        vec3 here = polygon_direction(transform_transposed(frame, corners[k].xyz - p));
-        clip = horizon_clip_edge(clip, previous, here);
-        add_edge(clip.start, clip.end);
-        add_arc_of_horizon(clip, 1.0);
-        previous = here;
-    }
-    clip = horizon_clip_finish(clip);
-    add_arc_of_horizon(clip, 1.0);
-
     vec3 axis = phong_mirror(view);
     float sum = 0.0;
-    for (int k = 0; k < edge_count; k++) {
-        MomentEdge edge = moment_edge(edge_begins[k], edge_ends[k], axis);
-        sum += moment_edge_share(edge, phong_front(edge, float(N)));
+    begin_clip(1.0);
+    vec3 previous = polygon_direction(transform_transposed(frame, corners[CORNERS - 1].xyz - p));
+    for (int k = 0; k <= CORNERS; k++) {
+        vec3 here = polygon_direction(transform_transposed(frame, corners[min(k, CORNERS - 1)].xyz - p));
+        put_clipped(previous, here, k == CORNERS);
+        do {
+            if (has_clipped_edge()) {
+                MomentEdge edge = moment_edge(clip_begin, clip_end, axis);
+                sum += moment_edge_share(edge, phong_front(edge, float(N)));
+            }
+        } while (next_arc());
+        previous = here;
     }
     results[i] = lit ? moment_phong_radiance(sum, false) : 0.0;
 }

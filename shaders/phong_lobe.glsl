@@ -33,11 +33,14 @@ float phong_at(PhongLobe lobe, vec3 l) {
 
 float phong_over_outline(Light light, Seen seen, mat3 frame, vec3 p, PhongLobe lobe) {
     float sum = 0.0;
-    ClippedWalk walk = clipped_walk_begin(light, frame, p);
-    do {
-        walk = fill_edges(walk, light, seen, frame, p);
-        for (int i = 0; i < edge_count; i++) sum += phong_share(edge_begins[i], edge_ends[i], lobe.mirror, lobe.n);
-    } while (CHUNKED && walk.more);
+    begin_clip(seen.reversed ? -1.0 : 1.0);
+    int count = clipped_length(light);
+    for (int i = outline_first(); i < count; i++) {
+        if (!clipped_place(light, frame, p, i)) continue;
+        do {
+            if (has_clipped_edge()) sum += phong_share(clip_begin, clip_end, lobe.mirror, lobe.n);
+        } while (!UNCUT && next_arc());
+    }
     return moment_phong_radiance(sum, seen.reversed);
 }
 
@@ -48,7 +51,7 @@ float phong_bias(PhongLobe lobe) {
 }
 
 // Radiance towards the view from a light of radiance 1, for a lobe of colour 1.
-float own_radiance(Light light, vec3 p, vec3 n, vec3 v, vec3 tangent, OwnLobe own) {
+float own_radiance(Light light, vec3 p, vec3 n, vec3 v, OwnLobe own) {
     mat3 frame = frame_from_normal(n);
     vec3 view = transform_transposed(frame, v);
     Seen seen = see(light, p);
@@ -58,18 +61,18 @@ float own_radiance(Light light, vec3 p, vec3 n, vec3 v, vec3 tangent, OwnLobe ow
         PunctualIncident incident = punctual_at(light, p);
         return incident.irradiance * phong_at(lobe, transform_transposed(frame, incident.direction));
     }
-    if (has_corners()) fill_corners(light, frame, p, lobe.mirror, inversesqrt(lobe.n + 1.0));
-    float sent = phong_over_outline(light, seen, frame, p, lobe);
     LightElementsLimits limits = light_elements_along_power(lobe.n, phong_bias(lobe));
     if (may_be_small(light, p, limits)) {
         LightElements e = elements_in(light, seen, frame, p);
         if (elements_serve(e, light_elements_power_sharpness(lobe.n), limits)) {
-            sent = 0.0;
+            float sent = 0.0;
             for (int i = 0; i < 4; i++) {
                 LightElement element = light_element_at(e, i);
                 sent += phong_at(lobe, element.direction) * element.solid_angle;
             }
+            return sent;
         }
     }
-    return sent;
+    if (has_corners()) prepare_corners(light, frame, p, lobe.mirror, inversesqrt(lobe.n + 1.0));
+    return phong_over_outline(light, seen, frame, p, lobe);
 }

@@ -17,7 +17,9 @@ layout(std430, binding = 7) writeonly buffer Surfaces { vec4 surfaces[]; };
 layout(std430, binding = 8) writeonly buffer Radiance { vec4 radiance[]; };
 layout(std430, binding = 9) writeonly buffer Taken { vec4 taken[]; };  // the same surfaces, for the host
 layout(constant_id = 0) const int kTaken = 0;                          // 1: the host needs them
-layout(constant_id = 1) const int kLayers = 0;                         // 1: some surface may have a layer of layers.glsl
+#ifndef LAYERS
+layout(constant_id = 1) const int LAYERS = 0;                         // 1: some surface may have a layer of layers.glsl
+#endif
 layout(constant_id = 2) const int kSmooth = 0;                         // 1: positions are those of the smooth terminator
 layout(push_constant) uniform Push { uint first_tile; };
 
@@ -169,7 +171,7 @@ Surface surface_of(uint triangle, vec3 direction) {
     int flags = int(rest.w);
     vec3 base = texelFetch(materials, material + kMaterialBase).xyz * texture_of(uses + kUse * kUseBase, c).xyz;
     if (mesh.z > 0.5) base *= blended(at, kVertexColor).xyz;
-    if (kLayers != 0 && (flags & kUnlit) != 0) {
+    if (LAYERS != 0 && (flags & kUnlit) != 0) {
         s.normal = s.coat_normal = up * side;
         s.tangent = frame_from_normal(up)[0];
         s.weights = surface_unlit(base);
@@ -187,7 +189,7 @@ Surface surface_of(uint triangle, vec3 direction) {
     float metallic = clamp(rest.x * rough_metal.z, 0.0, 1.0);
     s.alpha = vec2(surface_alpha(rest.y * rough_metal.y));
     vec3 along = frame.x;
-    if (kLayers != 0) {
+    if (LAYERS != 0) {
         s.coat_normal = surface_towards(bent_normal(uses + kUse * kUseCoatNormal, c, frame) * side, s.view, abs(towards));
         vec2 brushed = brush(s, material, c);
         along = along * brushed.x + frame.y * brushed.y;
@@ -198,7 +200,7 @@ Surface surface_of(uint triangle, vec3 direction) {
     float specular = colored.w * texture_of(uses + kUse * kUseSpecular, c).w;
     colored.xyz *= texture_of(uses + kUse * kUseSpecularColor, c).xyz;
     s.weights = surface_weights(emission.xyz, base, metallic, surface_dielectric(specular, colored.xyz, rest.z));
-    if (kLayers != 0) {
+    if (LAYERS != 0) {
         if ((flags & kScatters) != 0) scatter_between_facets(s);
         add_sheen(s, material, c);
         add_coat(s, material, c);
@@ -242,7 +244,7 @@ void main() {
         put(tile, slot, kF0, s.weights.f0, s.geometric.y);
         put(tile, slot, kF90, s.weights.f90, s.geometric.z);
         put(tile, slot, kTangent, s.tangent, s.weights.coat);
-        if (kLayers != 0) {
+        if (LAYERS != 0) {
             put(tile, slot, kCoatNormal, s.coat_normal, s.coat_alpha);
             put(tile, slot, kSheen, s.weights.sheen, s.sheen_alpha);
         }

@@ -56,9 +56,9 @@ vec2 ltc_towards(vec3 direction, vec3 n, vec3 v, float alpha) {
     return sent;
 }
 
-// Uses the light's elements instead of the outline where they are better.
-float ltc_small_or(float outline, LightElements e, LtcMatrix m) {
-    if (!elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), light_elements_transformed())) return outline;
+// The integral by the light's elements; -1 where the outline is better.
+float ltc_by_elements(LightElements e, LtcMatrix m) {
+    if (!elements_serve(e, light_elements_diffuse_sharpness() + ltc_sharpness(m, e.center), light_elements_transformed())) return -1.0;
     float sum = 0.0;
     for (int k = 0; k < 4; k++) {
         LightElement element = light_element_at(e, k);
@@ -72,18 +72,18 @@ vec2 clipless(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha
     LtcLobe lobe = ltc_lobe_at(0, sqrt(alpha), view);
     vec3 sum = vec3(0.0);
     int count = outline_length(light);
-    int i = 1;
-    vec3 previous = ltc_direction(lobe.matrix, outline_place(light, frame, p, 0).direction);
-    do {
+    vec3 previous = vec3(0.0);
+    for (int i = outline_first(); i < count; i++) {
         Place place = outline_place(light, frame, p, i);
         vec3 under = ltc_direction(lobe.matrix, place.direction);
-        if (place.joined) sum = ltc_clipless_add_edge(sum, previous, under);
+        if (i > 0 && place.joined) sum = ltc_clipless_add_edge(sum, previous, under);
         previous = under;
-        ++i;
-    } while (i < count);
+    }
     float integral = ltc_clipless_integral(sum, seen.reversed);
-    if (may_be_small(light, p, light_elements_transformed()))
-        integral = ltc_small_or(integral, elements_in(light, seen, frame, p), lobe.matrix);
+    if (may_be_small(light, p, light_elements_transformed())) {
+        float few = ltc_by_elements(elements_in(light, seen, frame, p), lobe.matrix);
+        if (few >= 0.0) integral = few;
+    }
     return vec2(lobe.n_a, lobe.f_a) * integral;
 }
 #else
@@ -93,62 +93,63 @@ struct LtcAnswer {
 };
 
 LtcAnswer ltc_walked(Light light, Seen seen, mat3 frame, vec3 p, LtcMatrix m) {
+    float few = -1.0;  // the integral by elements, if they serve
+    vec3 few_diffuse = vec3(0.0);
+    bool diffuse_by_few = false;
+    if (may_be_small(light, p, light_elements_transformed())) {
+        LightElements e = elements_in(light, seen, frame, p);
+        few = ltc_by_elements(e, m);
+        diffuse_by_few = elements_serve(e, light_elements_diffuse_sharpness(), light_elements_along_edges());
+        if (TOGETHER && diffuse_by_few) few_diffuse = light_elements_irradiance_vector(e);
+    }
     PolygonWalk diffuse = polygon_begin();
     LtcWalk walk = ltc_begin();
     int count = outline_length(light);
-    int i = 1;
-    vec3 previous = outline_place(light, frame, p, 0).direction;
-    vec3 previous_under = ltc_direction(m, previous);
-    do {
-        Place place = outline_place(light, frame, p, i);
-        vec3 under = ltc_direction(m, place.direction);
-        vec3 from = place.joined ? previous : place.direction;
-        vec3 from_under = place.joined ? previous_under : under;
+    vec3 previous_under = vec3(0.0);
+    for (int i = outline_first(); i < count; i++) {
+        next_edge(light, frame, p, i);
+        vec3 under = ltc_direction(m, edge_end);
+        vec3 from_under = edge_begin == edge_end ? under : previous_under;
+        previous_under = under;
+        if (i < 1) continue;
         if (UNCUT) {
-            if (TOGETHER) diffuse.edges += polygon_edge(from, place.direction);
+            if (TOGETHER) diffuse.edges += polygon_edge(edge_begin, edge_end);
             walk.lobe = polygon_add_edge(walk.lobe, from_under, under);
         } else {
-            if (TOGETHER) diffuse = polygon_add_edge(diffuse, from, place.direction);
-            walk = ltc_add_edge(walk, m, from, place.direction, from_under, under);
+            if (TOGETHER) diffuse = polygon_add_edge(diffuse, edge_begin, edge_end);
+            walk = ltc_add_edge(walk, m, edge_begin, edge_end, from_under, under);
         }
-        previous = place.direction;
-        previous_under = under;
-        ++i;
-    } while (i < count);
-    LtcAnswer answer;
-    answer.irradiance = polygon_irradiance_vector(diffuse, seen.reversed);
-    answer.specular = ltc_integral(walk, seen.reversed);
-    if (may_be_small(light, p, light_elements_transformed())) {
-        LightElements e = elements_in(light, seen, frame, p);
-        answer.specular = ltc_small_or(answer.specular, e, m);
-        if (elements_serve(e, light_elements_diffuse_sharpness(), light_elements_along_edges())) answer.irradiance = light_elements_irradiance_vector(e);
     }
+    LtcAnswer answer;
+    answer.irradiance = diffuse_by_few ? few_diffuse : polygon_irradiance_vector(diffuse, seen.reversed);
+    answer.specular = few >= 0.0 ? few : ltc_integral(walk, seen.reversed);
     if (!seen.lit) answer.irradiance = vec3(0.0);
     if (!seen.lit) answer.specular = 0.0;
     return answer;
 }
 
+// The table's lobe, then, if it has one, its separate lobe for the Fresnel term.
 Answer ltc_answer(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha, float loss) {
     float roughness = sqrt(alpha);
-    LtcLobe lobe = ltc_lobe_at(0, roughness, view);
-    LtcAnswer walked = ltc_walked(light, seen, frame, p, lobe.matrix);
     Answer answer;
-    answer.irradiance = TOGETHER ? irradiance_below(walked.irradiance, view, loss) : 0.0;
-    answer.specular = vec2(lobe.n_a, lobe.f_a) * walked.specular;
-    if (FRESNEL_TABLE) {
-        LtcLobe fresnel = ltc_lobe_at(FRESNEL_FIRST, roughness, view);
-        answer.specular.y = fresnel.n_a * ltc_walked(light, seen, frame, p, fresnel.matrix).specular;
+    answer.irradiance = 0.0;
+    answer.specular = vec2(0.0);
+    for (int k = 0; k <= FRESNEL_LOBE; k++) {
+        LtcLobe lobe = ltc_lobe_at(k * FRESNEL_FIRST, roughness, view);
+        LtcAnswer walked = ltc_walked(light, seen, frame, p, lobe.matrix);
+        if (k == 0) {
+            if (TOGETHER) answer.irradiance = irradiance_below(walked.irradiance, view, loss);
+            answer.specular = vec2(lobe.n_a, lobe.f_a) * walked.specular;
+        } else {
+            answer.specular.y = lobe.n_a * walked.specular;
+        }
     }
     if (view.z <= 0.0) answer.specular = vec2(0.0);
     return answer;
 }
 #endif
 #else
-// Uses the light's elements instead of the outline where they are better.
-vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView view, float deviation,
-              LightElementsLimits limits) {
-    LightElements e = elements_in(light, seen, frame, p);
-    if (!elements_serve(e, light_elements_half_vector_sharpness(deviation, view.v.z), limits)) return outline;
+vec2 by_elements(LightElements e, GgxView view) {
     vec2 sum = vec2(0.0);
     for (int i = 0; i < 4; i++) {
         LightElement element = light_element_at(e, i);
@@ -158,16 +159,6 @@ vec2 small_or(vec2 outline, Light light, Seen seen, mat3 frame, vec3 p, GgxView 
 }
 
 #if LOBE != LOBE_REPRESENTATIVE_POINT
-// The expensive part of the arcs that two walks need: to compute the rest of an arc again costs less than to store it.
-vec4 poles[ARC_SPACE];
-void keep_poles(int i, QuarticPoles of) { poles[i] = vec4(of.z1, of.z2); }
-QuarticPoles kept_poles(int i) {
-    QuarticPoles kept;
-    kept.z1 = poles[i].xy;
-    kept.z2 = poles[i].zw;
-    return kept;
-}
-
 // Contribution of an edge to E.
 #if LOBE == LOBE_CLOSED_FORM
 const bool DRAFT = QUALITY == 0;
@@ -200,102 +191,71 @@ vec3 vector_of(GgxView view, ConicArc edge) {
 }
 #endif
 
-// A light that nothing cuts: its edges are the outline's own.
-vec2 by_arcs_uncut(Light light, mat3 frame, vec3 p, GgxView view) {
-    int count = outline_length(light) - 1;
-    vec3 previous = outline_place(light, frame, p, 0).direction;
-    vec3 e = vec3(0.0);
-    int i = 0;
-    do {
-        Place place = outline_place(light, frame, p, i + 1);
-        ConicArc arc = ggx_edge_scaled(view, place.joined ? previous : place.direction, place.direction);
-        QuarticPoles found = conic_poles(arc);
-        e += vector_of(view, conic_with_poles(arc, found));
-        if (!DRAFT && !EXACT) keep_poles(i, found);
-        previous = place.direction;
-        ++i;
-    } while (i < count);
-    if (EXACT) return vec2(ggx_unshadowed(view, e), 0.0);
-    if (DRAFT) return ggx_draft(view, e, SMITH, 1.0);
-    GgxCubature c = ggx_cubature_begin(view, e, SMITH, 1.0);
-    previous = outline_place(light, frame, p, 0).direction;
-    i = 0;
-    do {
-        Place place = outline_place(light, frame, p, i + 1);
-        ConicArc arc = ggx_edge_scaled(view, place.joined ? previous : place.direction, place.direction);
-        c = ggx_cubature_edge(c, conic_with_poles(arc, kept_poles(i)), EXTRA_NODES);
-        previous = place.direction;
-        ++i;
-    } while (i < count);
-    return ggx_cubature_finish(c);
+// The sums of a cubature. The rest of its state follows from E, and costs less to compute for each edge than registers.
+struct CubatureSums {
+    float weight;
+    float centre_weight;
+    vec2 weighted;
+    vec2 lowest;
+    vec2 highest;
+};
+CubatureSums sums_of(GgxCubature c) { return CubatureSums(c.weight, c.centre_weight, c.weighted, c.lowest, c.highest); }
+
+GgxCubature cubature_with(CubatureSums sums, GgxView view, vec3 e, float facing) {
+    GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
+    c.weight = sums.weight;
+    c.centre_weight = sums.centre_weight;
+    c.weighted = sums.weighted;
+    c.lowest = sums.lowest;
+    c.highest = sums.highest;
+    return c;
 }
 
-ConicArc edge_scaled(GgxView view, int i) {
-    bool there = i < edge_count;
-    vec3 begin = there ? edge_begins[i] : vec3(0.0, 0.0, 1.0);
-    return ggx_edge_scaled(view, begin, there ? edge_ends[i] : begin);
-}
-
-// Two walks over the edges: one sums their vectors, the other is the cubature about that sum. If the edges exceed their space, the second
-// walk clips them again.
-vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, GgxView view) {
+// Two walks over the edges: one sums their vectors, the other is the cubature about that sum. Each edge prepares the view again: to hold it
+// takes registers.
+vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, vec3 v, float ax, float ay) {
     float facing = seen.reversed ? -1.0 : 1.0;
-    if (UNCUT && !CHUNKED) return by_arcs_uncut(light, frame, p, view);
     vec3 e = vec3(0.0);
-    ClippedWalk walk = clipped_walk_begin(light, frame, p);
-    if (CHUNKED) {
-        GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
-        for (int turn = 0; turn < 2; turn++) {
-            walk = clipped_walk_begin(light, frame, p);
-            while (walk.more) {
-                walk = fill_edges(walk, light, seen, frame, p);
-                for (int i = 0; i < edge_count; i++) {
-                    ConicArc arc = ggx_edge(view, edge_begins[i], edge_ends[i]);
+    CubatureSums sums = CubatureSums(0.0, 0.0, vec2(0.0), vec2(0.0), vec2(0.0));
+    int count = clipped_length(light);
+    for (int turn = 0; turn < (DRAFT || EXACT ? 1 : 2); turn++) {
+        begin_clip(facing);
+        for (int i = outline_first(); i < count; i++) {
+            if (!clipped_place(light, frame, p, i)) continue;
+            do {
+                if (has_clipped_edge()) {
+                    GgxView view = ggx_view(v, ax, ay);
+                    ConicArc arc = ggx_edge(view, clip_begin, clip_end);
                     if (turn == 0)
                         e += vector_of(view, arc);
                     else
-                        c = ggx_cubature_edge(c, arc, EXTRA_NODES);
+                        sums = sums_of(ggx_cubature_edge(cubature_with(sums, view, e, facing), arc, EXTRA_NODES));
                 }
-            }
-            if (turn == 0) c = ggx_cubature_begin(view, e, SMITH, facing);
-            if (EXACT) return vec2(ggx_unshadowed(view, e * facing), 0.0);
-            if (DRAFT) return ggx_draft(view, e, SMITH, facing);
+            } while (!UNCUT && next_arc());
         }
-        return ggx_cubature_finish(c);
+        if (turn == 0) sums = sums_of(ggx_cubature_begin(ggx_view(v, ax, ay), e, SMITH, facing));
     }
-    walk = fill_edges(walk, light, seen, frame, p);
-    // Missing edges are degenerate (begin == end), so the loop needs no test.
-    int i = 0;
-    do {
-        ConicArc arc = edge_scaled(view, i);
-        QuarticPoles found = conic_poles(arc);
-        e += vector_of(view, conic_with_poles(arc, found));
-        if (!DRAFT && !EXACT) keep_poles(i, found);
-        ++i;
-    } while (i < edge_count);
+    GgxView view = ggx_view(v, ax, ay);
     if (EXACT) return vec2(ggx_unshadowed(view, e * facing), 0.0);
     if (DRAFT) return ggx_draft(view, e, SMITH, facing);
-    GgxCubature c = ggx_cubature_begin(view, e, SMITH, facing);
-    i = 0;
-    do {
-        c = ggx_cubature_edge(c, conic_with_poles(edge_scaled(view, i), kept_poles(i)), EXTRA_NODES);
-        ++i;
-    } while (i < edge_count);
-    return ggx_cubature_finish(c);
+    return ggx_cubature_finish(cubature_with(sums, view, e, facing));
 }
 #else
 vec2 representative_point(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha) {
     vec3 mirror = phong_mirror(view);
     RepresentativeWalk nearest = representative_begin();
     SolidAngleWalk solid_angle = solid_angle_begin(vec3(0.0, 0.0, 1.0));
-    ClippedWalk walk = clipped_walk_begin(light, frame, p);
-    do {
-        walk = fill_edges(walk, light, seen, frame, p);
-        for (int i = 0; i < edge_count; i++) {
-            nearest = representative_add_edge(nearest, mirror, edge_begins[i], edge_ends[i]);
-            solid_angle = solid_angle_add_edge(solid_angle, edge_begins[i], edge_ends[i]);
-        }
-    } while (walk.more);
+    begin_clip(seen.reversed ? -1.0 : 1.0);
+    int count = clipped_length(light);
+    for (int i = outline_first(); i < count; i++) {
+        if (!clipped_place(light, frame, p, i)) continue;
+        do {
+            if (has_clipped_edge()) {
+                nearest = representative_add_edge(nearest, mirror, clip_begin, clip_end);
+                solid_angle = solid_angle_add_edge(solid_angle, clip_begin, clip_end);
+            }
+        } while (!UNCUT && next_arc());
+    }
     float lobe =
         representative_radiance(nearest, view, mirror, solid_angle_finish(solid_angle, seen.reversed), alpha, seen.reversed);
     return vec2(lobe, lobe * fresnel_schlick(0.0, 1.0, representative_v_dot_h(nearest, view, mirror, seen.reversed)));
@@ -327,7 +287,7 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
 #if LOBE == LOBE_LTC || LOBE == LOBE_LTC_CLIPLESS
     mat3 frame = frame_from_normal_and_view(n, v);
     vec3 view = vec3(dot(frame[0], v), 0.0, dot(n, v));
-    if (has_corners()) fill_corners(light, frame, p, vec3(-view.x, 0.0, view.z), 2.0 * lobe.ax);
+    if (has_corners()) prepare_corners(light, frame, p, vec3(-view.x, 0.0, view.z), 2.0 * lobe.ax);
 #if LOBE == LOBE_LTC
     return ltc_answer(light, seen, frame, p, view, lobe.ax, loss);
 #else
@@ -338,18 +298,22 @@ Answer specular_answer(Light light, vec3 p, vec3 n, vec3 v, SpecularLobe lobe, f
     if (!seen.lit || !(dot(n, v) > 0.0)) return answer;
     mat3 frame = frame_from_normal_and_view(n, lobe.tangent);
     vec3 view = transform_transposed(frame, v);
-    GgxView prepared = ggx_view(view, lobe.ax, lobe.ay);
-    if (has_corners()) fill_corners(light, frame, p, phong_mirror(view), 2.0 * max(lobe.ax, lobe.ay));
+    LightElementsLimits limits = light_elements_transformed();
+    if (LOBE == LOBE_CLOSED_FORM) limits = light_elements_along_arcs();
+    if (LOBE == LOBE_HALF_VECTOR) limits = light_elements_along_half_vectors(0.0);
+    if (may_be_small(light, p, limits)) {
+        LightElements e = elements_in(light, seen, frame, p);
+        if (elements_serve(e, light_elements_half_vector_sharpness(0.5 * min(lobe.ax, lobe.ay), view.z), limits)) {
+            answer.specular = by_elements(e, ggx_view(view, lobe.ax, lobe.ay));
+            return answer;
+        }
+    }
+    if (has_corners()) prepare_corners(light, frame, p, phong_mirror(view), 2.0 * max(lobe.ax, lobe.ay));
 #if LOBE == LOBE_REPRESENTATIVE_POINT
     answer.specular = representative_point(light, seen, frame, p, view, lobe.ax);
-    LightElementsLimits limits = light_elements_transformed();
 #else
-    answer.specular = by_arcs(light, seen, frame, p, prepared);
-    LightElementsLimits limits = light_elements_along_arcs();
-    if (LOBE == LOBE_HALF_VECTOR) limits = light_elements_along_half_vectors(0.0);
+    answer.specular = by_arcs(light, seen, frame, p, view, lobe.ax, lobe.ay);
 #endif
-    if (may_be_small(light, p, limits))
-        answer.specular = small_or(answer.specular, light, seen, frame, p, prepared, 0.5 * min(lobe.ax, lobe.ay), limits);
     return answer;
 #endif
 }

@@ -49,10 +49,9 @@ vec4 sample_texture(int use, Footprint of_mesh) {
     float coarser = level - floor(level);
     int fine = first + int(level);
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < int(taps.count); i++) {
-        vec2 at = middle + taps.axis * ((float(i) + 0.5) / taps.count - 0.5);
-        sum += bilinear(fine, at, flags) * (1.0 - coarser);
-        if (coarser > 0.0) sum += bilinear(fine + 1, at, flags) * coarser;
+    for (int i = 0; i < 2 * int(taps.count); i++) {  // one loop over taps and levels, so that the code of a tap is there once
+        float weight = (i & 1) == 0 ? 1.0 - coarser : coarser;
+        if (weight > 0.0) sum += bilinear(fine + (i & 1), middle + taps.axis * ((float(i / 2) + 0.5) / taps.count - 0.5), flags) * weight;
     }
     return sum / taps.count;
 }

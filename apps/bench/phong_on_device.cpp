@@ -53,7 +53,7 @@ std::vector<float> corners_of(const moment::NamedLight& light) {
 struct PhongOnDevice::Parts {
   Parts(const moment::PhongPlane& plane, const moment::NamedLight& light, int exponent, const PhongOptions& options,
         const std::string& name)
-      : device({name, false}), program(device, {kShader}, 3), count(plane.count) {
+      : device({name, false}), program(device, {{"phong.comp", {{{}, kShader}}}}, 3), count(plane.count) {
     const std::vector<float> p = points_of(plane), c = corners_of(light);
     points = std::make_unique<Buffer>(device, p.size() * sizeof(float), BufferUse::host_writes);
     points->write(p.data(), p.size() * sizeof(float));
@@ -63,7 +63,7 @@ struct PhongOnDevice::Parts {
     // The best variant of each fit: docs/theory/moments.md.
     const bool x = options.method == Method::lorentzian || options.method == Method::pearson;
     const auto edges = static_cast<std::int32_t>(light.corners.size());
-    dispatch.pipeline = program.pipeline(0, {vulkan::phong_method(options), exponent, x ? 1 : 0, edges, 2 * edges + 2});
+    dispatch.pipeline = program.pipeline(0, {vulkan::phong_method(options), exponent, x ? 1 : 0, edges});
     const auto groups = static_cast<std::uint32_t>((count + kGroup - 1) / kGroup);
     dispatch.groups_x = std::min(groups, kAcross);
     dispatch.groups_y = (groups + kAcross - 1) / kAcross;

@@ -9,8 +9,10 @@
 #include "core/budget.h"
 #include "core/simd.h"
 #include "device/vulkan/device.h"
+#include "info_pipelines.h"
 #include "info_plane.h"
 #include "info_scene.h"
+#include "picture_options.h"
 #include "render_plane.h"
 #include "steradian/version.h"
 #include "verbs.h"
@@ -41,6 +43,7 @@ Json facts() {
                                       {"driver", d.driver},
                                       {"vulkan", d.vulkan},
                                       {"software", d.software},
+                                      {"runs", d.runs},
                                       {"memory", readable_bytes(d.memory)},
                                       {"storage_buffer", readable_bytes(d.storage_buffer)},
                                       {"storage_buffers_of_a_shader", d.storage_buffers},
@@ -75,14 +78,45 @@ void add_info(CommandLine& line) {
   verb.group("This machine");
   struct Options {
     std::string scene;
-    bool json = false;
+    std::string size = "1280x720";
+    bool json = false, pipelines = false;
     Limits limits;
+    RenderOptions render;
   };
   auto options = std::make_shared<Options>();
+  RenderOptions& r = options->render;
+  r.shadows = Shadows::on;
   verb.add("SCENE", options->scene, "scene file; without one: version, instruction sets, devices");
   verb.add_flag("--json", options->json, "print JSON");
+  const char* pipelines = "Pipelines of a Vulkan device";
+  verb.add_flag("--pipelines", options->pipelines, "list those of a picture of SCENE, with the compiler's statistics").more(pipelines);
+  verb.add("--device", r.device, "number or part of the name; its hardware may be absent").more(pipelines);
+  verb.add("--size", options->size, "WIDTHxHEIGHT in pixels").more(pipelines);
+  verb.add("--method", r.method, "method of the specular lobe")
+      .check([](const std::string& name) { return unknown_method(name, false); })
+      .suggests(method_names())
+      .more(pipelines);
+  verb.add_word("--quality", r.quality, "accuracy of the method").more(pipelines);
+  verb.add_word("--shadows", r.shadows, "direct shadows").more(pipelines);
+  verb.add_word("--indirect", r.indirect.mode, "one bounce").more(pipelines);
   verb.add_limits(options->limits);
-  verb.callback([options] {
+  verb.callback([options, verb] {
+    const bool listed = options->pipelines, in_space = listed && !is_plane_scene(options->scene);
+    const char *needs = "SCENE --pipelines", *third = "--pipelines of a scene in three dimensions (.gltf, .glb)";
+    verb.refuse_without_effect({{"--pipelines", !options->scene.empty(), "SCENE"},
+                                {"--device", listed, needs},
+                                {"--size", listed, needs},
+                                {"--method", in_space, third},
+                                {"--quality", in_space, third},
+                                {"--shadows", in_space, third},
+                                {"--indirect", in_space, third}});
+    if (listed) {
+      const PictureSize size = picture_size(options->size);
+      options->render.width = size.width;
+      options->render.height = size.height;
+      const Json found = pipeline_facts(options->scene, options->limits, options->render);
+      return options->json ? fmt::print("{}\n", found.dump(1)) : fmt::print("{}", pipeline_text(found));
+    }
     const Json info = options->scene.empty()           ? facts()
                       : is_plane_scene(options->scene) ? plane_facts(options->scene, options->limits)
                                                        : scene_facts(options->scene, options->limits);

@@ -7,8 +7,16 @@ namespace steradian::vulkan {
 
 std::vector<DeviceInfo> list_devices() { return {}; }
 
-Picture render_on_device(const Scene&, const RenderOptions&, RenderCache*, RenderStats*, RenderState*) {
-  throw Error("--backend vulkan", "this program was built without Vulkan", "build it with -DSTERADIAN_VULKAN=ON, as ./dev build does");
+namespace {
+
+[[noreturn]] void refuse(const char* option) {
+  throw Error(option, "this program was built without Vulkan", "build it with -DSTERADIAN_VULKAN=ON, as ./dev build does");
 }
+
+}  // namespace
+
+Picture render_on_device(const Scene&, const RenderOptions&, RenderCache*, RenderStats*, RenderState*) { refuse("--backend vulkan"); }
+
+std::vector<PipelineReport> compile_picture(const Scene&, const RenderOptions&) { refuse("--pipelines"); }
 
 }  // namespace steradian::vulkan

@@ -36,7 +36,7 @@ void run(const char* spirv, std::size_t inputs, std::size_t outputs) {
   const Device device;
   Buffer in(device, given.size() * sizeof(float)), out(device, found.size() * sizeof(float));
   in.write(given.data(), in.bytes());
-  ComputeProgram program(device, {words}, 2);
+  ComputeProgram program(device, {{spirv, {{{}, words}}}}, 2);
   program.run({&in, &out}, {{program.pipeline(), static_cast<std::uint32_t>((count + 63) / 64)}});
   out.read(found.data(), out.bytes());
   std::fprintf(stderr, "%s\n", device.info().name.c_str());

@@ -38,7 +38,7 @@ Target gpu_target(std::shared_ptr<vulkan::Device> device, const std::string& nam
     vulkan::Buffer in(*device, inputs.size() * sizeof(float)), out(*device, results.size() * sizeof(float));
     in.write(inputs.data(), in.bytes());
     const std::vector<std::uint32_t> spirv = read_words(folder + "/" + cases()[index].name + ".spv");
-    vulkan::ComputeProgram program(*device, {spirv}, 2);
+    vulkan::ComputeProgram program(*device, {{cases()[index].name, {{{}, spirv}}}}, 2);
     program.run({&in, &out}, {{program.pipeline(), static_cast<std::uint32_t>((count + 63) / 64)}});
     out.read(results.data(), out.bytes());
     return results;

@@ -18,8 +18,6 @@ constexpr std::size_t kTexels = 6, kBuffers = 5;                // as bound in r
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr std::size_t kSlotsOfSquare = static_cast<std::size_t>(kGroupsOfSquare * kGroup);
-constexpr int kCornersNearRim = 32;
-constexpr int kMostEdges = 48;  // that a thread stores; longer outlines are walked in pieces
 constexpr float kPushed =
     3.25f;  // a round light's corners may be this much farther from its centre than itself (ellipse_pushed_corner: 2.25)
 
@@ -36,8 +34,8 @@ using methods::Procedure;
 constexpr std::size_t kTextureMeans = 0, kShares = methods::kProcedures + 1;
 constexpr std::size_t shader_of(Procedure procedure) { return 1 + static_cast<std::size_t>(procedure); }
 
-std::vector<std::span<const std::uint32_t>> shaders() {
-  std::vector<std::span<const std::uint32_t>> all = {shader("texture_means.comp")};
+std::vector<ShaderCode> shaders() {
+  std::vector<ShaderCode> all = {shader("texture_means.comp")};
 #define STERADIAN_SHADER(name) all.push_back(shader(#name ".comp"));
   STERADIAN_PROCEDURES(STERADIAN_SHADER)
 #undef STERADIAN_SHADER
@@ -151,8 +149,6 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
   for (const PackLight& light : lights) records_.add(light, light_details_.first_of(light));
   scene_lights_ = records_.lights.size();
   scene_vertices_ = records_.vertices.size();
-  for (const LightRecord& light : records_.lights)
-    if (light.edges <= kMostEdges) most_edges_ = std::max(most_edges_, light.edges);
 
   const LtcPackTables tables = tables_of(method);
   std::vector<float> nodes;
@@ -241,18 +237,10 @@ bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& wher
   return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
-std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
-                                               const Tile::Shadowed* shadowed) const {
-  // An uncut polygon has only its own edges, half of `edges`, and no arcs (light_records.cpp).
-  const auto own = [&](int edges) { return whole ? edges / 2 : edges; };
-  const int most = std::max(own(most_edges_), 1);
-  const bool chunked = shadowed != nullptr || own(light.edges) > most;  // a part has any number of edges
+std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, bool shadowed) const {
   const bool by_arcs = pass.procedure == Procedure::closed_form || pass.procedure == Procedure::half_vector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
   const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
-  const int corners = fine ? 16 : 12, space = careful ? kCornersNearRim : corners;
-  const int edges = chunked ? kMostEdges : light.kind == kPolygon ? most : space + 2;
-  const int arcs = by_arcs && !chunked ? edges : 1;
   const bool specular = pass.over_lobe();
   return {light.kind,
           pass.with_diffuse ? 1 : 0,
@@ -262,16 +250,12 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
           : pass.coat         ? 1
                               : 0,
           careful ? 1 : 0,
-          specular && chunked ? 1 : 0,
           specular && fresnel_table_ ? 1 : 0,
           light.ball ? 1 : 0,
-          corners,
-          specular ? space : 1,
-          specular ? edges : 1,
-          specular ? arcs : 1,
+          fine ? 16 : 12,
           matrix_size_,
           magnitude_size_,
-          shadowed != nullptr ? 1 : 0,
+          shadowed ? 1 : 0,
           whole ? 1 : 0,
           pass.asks_for_mean(light) ? 1 : 0,
           0,
@@ -284,10 +268,10 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
 // Lists the mean of a textured light for a lobe. It is an entry of its own, since software devices limit a thread's loop
 // turns.
 void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
-  std::vector<std::int32_t> constants = choices({}, {}, false, false, nullptr);
+  std::vector<std::int32_t> constants = choices({}, {}, false, false, false);
   constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
-  constants[13] = compact_size_;
-  constants[18] = compact_first_;
+  constants[9] = compact_size_;
+  constants[14] = compact_first_;
   Work::Group& group = work.groups[{kTextureMeans, constants}];
   group.name = "textures";
   group.entries.push_back({place, 1, pass.own != nullptr ? pass.own->first : 0, {light, work.means}});
@@ -357,7 +341,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   // The irradiance of tubes and balls has the same formula in both cases.
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
-  const Work::Key key = {shader_of(own.procedure), choices(record, own, careful, whole, shadowed)};
+  const Work::Key key = {shader_of(own.procedure), choices(record, own, careful, whole, shadowed != nullptr)};
   std::vector<std::uint32_t> numbers = {number};
   if (shadowed != nullptr) numbers.push_back(shadowed->states);
   if (own.asks_for_mean(record)) {
@@ -406,6 +390,7 @@ void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, st
                           .push = static_cast<std::uint32_t>(entries.size() / kEntry),
                           .groups_at = gates.size() * sizeof gates[0]});
     gates.insert(gates.end(), {static_cast<std::uint32_t>(kGroupsOfSquare), static_cast<std::uint32_t>(group.entries.size()), 1});
+    for (const Work::Entry& entry : group.entries) dispatches.back().units += kSlotsOfSquare * entry.count;
     for (const Work::Entry& entry : group.entries) {
       entries.insert(entries.end(), {entry.square, static_cast<std::uint32_t>(after_entries + numbers.size()), entry.count, entry.own});
       numbers.insert(numbers.end(), entry.lights.begin(), entry.lights.end());

@@ -106,8 +106,7 @@ class DirectLight {
   void list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square);
   bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
   void list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const;
-  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole,
-                                    const Tile::Shadowed* shadowed) const;
+  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, bool shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
 
   Kept& kept_;
@@ -117,7 +116,6 @@ class DirectLight {
   const OwnLobes own_lobes_;
   LightRecords records_;
   std::size_t scene_lights_ = 0, scene_vertices_ = 0;
-  int most_edges_ = 0;  // most edges of the scene's polygons, as far as there is space for them
   int matrix_size_ = 2, magnitude_size_ = 2, compact_first_ = 0, compact_size_ = 2;  // compact: for means of textured lights
   bool compact_table_ = false, fresnel_table_ = false;
   std::map<std::string, double> times_;

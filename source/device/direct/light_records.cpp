@@ -29,7 +29,6 @@ struct Writer {
       for (std::size_t i = p.contours[c]; i < p.contours[c + 1]; ++i) vertices.push_back(with(p.vertices[i], 1));
     }
     // An arc in two parts closes each pair of crossings, and there is one more at the end.
-    light.edges = 2 * static_cast<int>(p.vertices.size()) + 2;
     light.middle = p.middle;
     light.deviation2 = p.deviation2;
     r[0][3] = static_cast<float>(first);

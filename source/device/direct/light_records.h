@@ -20,7 +20,6 @@ struct LightRecord {
   bool ball = false;         // an ellipsoid of three equal axes
   bool textured = false;     // its lobes need its mean
   bool profiled = false;     // by direction alone
-  int edges = 0;             // most edges of a polygon after the horizon's cut; 0 for other lights
   float deviation2 = 0;      // as in the shaders
   Vec3f middle{};            // reference point of their distances to a light
   float near_distance2 = 0;  // beyond it, a point is not near the rim; 0: a light without one

@@ -3,6 +3,7 @@
 #include "device/frame/frame.h"
 #include "device/frame/kept_on_device.h"
 #include "render/frame/render.h"
+#include "render/surface/local_scene.h"
 #include "render/surface/ray_scene.h"
 
 namespace steradian::vulkan {
@@ -29,6 +30,14 @@ Picture render_on_device(const Scene& scene, const RenderOptions& options, Rende
   }
   if (state != nullptr) state->complete = options.stop == nullptr || !options.stop->load(std::memory_order_relaxed);
   return picture;
+}
+
+std::vector<PipelineReport> compile_picture(const Scene& original, const RenderOptions& options) {
+  const LocalScene local(original);
+  const auto device = std::make_shared<const Device>(DeviceOptions{options.device, false, true});
+  Frame frame(local.scene(), options, device);
+  frame.render();
+  return device->pipelines();
 }
 
 }  // namespace steradian::vulkan

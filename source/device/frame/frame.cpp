@@ -174,7 +174,7 @@ struct Frame::Parts {
       device_clock.run([&] { raster->find(jobs.front().tile, static_cast<int>(jobs.size()), direct.surfaces(), direct.radiance()); });
     each(jobs.size(), [&](std::size_t i) {
       Job& job = jobs[i];
-      const bool found = drawn && !RasterSurfaces::is_for_host(direct.radiance(), i);
+      const bool found = drawn && !device->only_compiles() && !RasterSurfaces::is_for_host(direct.radiance(), i);
       if (found && !host_needs_surfaces()) {
         shadowed[i].clear();
         return lists_clock.run([&] { list_found(i, tiles[i]); });

@@ -302,16 +302,22 @@ void PlaneDevice::render_into(Picture& picture, const PlaneWorld& world, const P
 namespace steradian::plane {
 namespace {
 
-std::span<const std::uint32_t> shader(std::string_view name) {
+vulkan::ShaderCode shader(std::string_view name) {
 #include "steradian_plane_vulkan_shaders.inc"
   throw Error("Vulkan", "this build has no shader " + std::string(name));
 }
 
 }  // namespace
 
-std::vector<std::span<const std::uint32_t>> plane_shaders() {
+std::vector<vulkan::ShaderCode> plane_shaders() {
   return {shader("plane_disks.comp"), shader("plane_cuts.comp"), shader("plane_arcs.comp"), shader("plane_listed.comp"),
           shader("plane_lists.comp")};
+}
+
+std::vector<vulkan::PipelineReport> compile_picture(const PlaneWorld& world, const PlaneFrameOptions& options, const std::string& device) {
+  const auto compiler = std::make_shared<const vulkan::Device>(vulkan::DeviceOptions{device, false, true});
+  PlaneDevice(compiler).render(world, options);
+  return compiler->pipelines();
 }
 
 }  // namespace steradian::plane

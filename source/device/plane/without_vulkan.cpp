@@ -1,4 +1,5 @@
 // Compiled if STERADIAN_VULKAN is OFF: the plane has no device.
+#include "device/plane/plane_device.h"
 #include "steradian/error.h"
 #include "steradian/plane_device.h"
 
@@ -22,5 +23,10 @@ const std::string& PlaneDevice::name() const { return impl_->name; }
 const PlaneDeviceStats& PlaneDevice::stats() const { return impl_->stats; }
 Picture PlaneDevice::render(const PlaneWorld&, const PlaneFrameOptions&, PlaneFrameStats*) { return {}; }
 void PlaneDevice::render_into(Picture&, const PlaneWorld&, const PlaneFrameOptions&, PlaneFrameStats*) {}
+
+std::vector<vulkan::PipelineReport> plane::compile_picture(const PlaneWorld&, const PlaneFrameOptions&, const std::string& device) {
+  const PlaneDevice none(device);  // throws
+  return {};
+}
 
 }  // namespace steradian

@@ -40,6 +40,11 @@ Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferFor
     const Device::Handles& d = device.handles();
     Handles& h = *handles_;
     h.device = &d;
+    if (device.only_compiles()) {
+      h.only_host.resize(bytes);
+      h.mapped = h.only_host.data();
+      return;
+    }
     using Usage = vk::BufferUsageFlagBits;
     vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferDst | Usage::eIndirectBuffer;
     if (form != BufferForm::storage) usage |= Usage::eUniformTexelBuffer;

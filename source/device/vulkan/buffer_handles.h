@@ -10,6 +10,7 @@ struct Buffer::Handles {
   vk::raii::Buffer buffer = nullptr;
   vk::raii::DeviceMemory memory = nullptr;
   vk::raii::BufferView texels = nullptr;
+  std::vector<char> only_host;  // the contents on a device that only compiles: there is no buffer
   void* mapped = nullptr;
   const Device::Handles* device = nullptr;
 };

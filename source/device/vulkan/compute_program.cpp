@@ -1,17 +1,21 @@
 #include "device/vulkan/compute_program.h"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
+#include "core/fingerprint.h"
 #include "device/vulkan/buffer_handles.h"
 
 namespace steradian::vulkan {
 
 struct ComputeProgram::Handles {
-  std::uint32_t texels = 0;
+  std::uint32_t buffers = 0, texels = 0;
   vk::DescriptorType type(std::uint32_t binding) const {
     return binding < texels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
   }
 
+  std::vector<ShaderCode> shaders;
   Pipelines* pipelines = nullptr;  // the device's
   vk::raii::DescriptorPool pool = nullptr;
   vk::raii::DescriptorSet set = nullptr;
@@ -26,17 +30,14 @@ namespace {
 
 // The device's pipelines for these shaders, created if it has none yet. type(i): type of binding i.
 template <class Type>
-Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::uint32_t buffers,
-                        std::uint32_t texels, Type type) {
+Pipelines& pipelines_of(const Device& device, const std::vector<ShaderCode>& shaders, std::uint32_t buffers, std::uint32_t texels,
+                        Type type) {
   const Device::Handles& d = device.handles();
-  std::vector<std::uint32_t> key = {buffers, texels};
-  for (const auto& spirv : shaders) {
-    key.push_back(static_cast<std::uint32_t>(spirv.size()));
-    key.insert(key.end(), spirv.begin(), spirv.end());
-  }
+  std::vector<Fingerprint> key = {buffers, texels};
+  for (const ShaderCode& shader : shaders)
+    for (const ShaderModuleCode& module : shader.modules) key.push_back(fingerprint(module.words));
   if (const auto found = d.pipelines.find(key); found != d.pipelines.end()) return found->second;
   Pipelines p;
-  for (const auto& spirv : shaders) p.shaders.push_back(module_of(d.device, spirv));
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (std::uint32_t i = 0; i < buffers + texels; ++i) bindings.emplace_back(i, type(i), 1, vk::ShaderStageFlagBits::eCompute);
   p.set_layout = d.device.createDescriptorSetLayout({{}, bindings});
@@ -47,21 +48,28 @@ Pipelines& pipelines_of(const Device& device, const std::vector<std::span<const 
 
 }  // namespace
 
-ComputeProgram::ComputeProgram(const Device& device, const std::vector<std::span<const std::uint32_t>>& shaders, std::size_t buffers,
-                               std::size_t texels)
+ComputeProgram::ComputeProgram(const Device& device, const std::vector<ShaderCode>& shaders, std::size_t buffers, std::size_t texels)
     : device_(device), handles_(std::make_unique<Handles>()) {
   checked(device, "make a compute program", [&] {
-    const vk::raii::Device& d = device.handles().device;
     Handles& h = *handles_;
+    h.buffers = static_cast<std::uint32_t>(buffers);
     h.texels = static_cast<std::uint32_t>(texels);
-    h.pipelines = &pipelines_of(device, shaders, static_cast<std::uint32_t>(buffers), h.texels, [&](std::uint32_t i) { return h.type(i); });
-    std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, static_cast<std::uint32_t>(buffers)}};
-    if (texels > 0) sizes.emplace_back(vk::DescriptorType::eUniformTexelBuffer, h.texels);
-    h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
-    h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.pipelines->set_layout}).front());
-    h.commands = std::move(d.allocateCommandBuffers({*device.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
-    h.done = d.createFence({});
+    h.shaders = shaders;
+    h.pipelines = &pipelines_of(device, shaders, h.buffers, h.texels, [&](std::uint32_t i) { return h.type(i); });
   });
+}
+
+// Creates what a run needs besides pipelines. Drivers that only compile do not have it.
+void ComputeProgram::prepare_to_run() {
+  const vk::raii::Device& d = device_.handles().device;
+  Handles& h = *handles_;
+  if (*h.done) return;
+  std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, h.buffers}};
+  if (h.texels > 0) sizes.emplace_back(vk::DescriptorType::eUniformTexelBuffer, h.texels);
+  h.pool = d.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes});
+  h.set = std::move(d.allocateDescriptorSets({*h.pool, *h.pipelines->set_layout}).front());
+  h.commands = std::move(d.allocateCommandBuffers({*device_.handles().commands, vk::CommandBufferLevel::ePrimary, 1}).front());
+  h.done = d.createFence({});
 }
 
 ComputeProgram::~ComputeProgram() { device_.handles().leave(handles_); }
@@ -74,8 +82,16 @@ std::size_t ComputeProgram::pipeline(std::size_t shader, const std::vector<std::
     for (std::uint32_t i = 0; i < constants.size(); ++i) entries.emplace_back(i, i * 4u, sizeof(std::int32_t));
     const vk::SpecializationInfo specialization(static_cast<std::uint32_t>(entries.size()), entries.data(),
                                                 constants.size() * sizeof(std::int32_t), constants.data());
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *p.shaders.at(shader), "main", &specialization);
-    p.made.push_back(device_.handles().device.createComputePipeline(device_.handles().pipeline_cache, {{}, stage, *p.layout}));
+    const ShaderCode& code = handles_->shaders.at(shader);
+    const auto module = std::find_if(code.modules.begin(), code.modules.end(), [&](const auto& m) { return m.serves(constants); });
+    if (module == code.modules.end()) throw Error("Vulkan", "the shader " + code.name + " has no module for these constants");
+    const Device::Handles& d = device_.handles();
+    const vk::raii::ShaderModule made = module_of(d.device, module->words);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *made, "main", &specialization);
+    const auto start = std::chrono::steady_clock::now();
+    p.made.push_back(d.device.createComputePipeline(d.pipeline_cache, {d.pipeline_flags(), stage, *p.layout}));
+    p.reports.push_back(d.reports.size());
+    report(d, p.made.back(), {{code.name, constants, module->words.size_bytes(), ms_since(start)}});
   });
   return p.numbers.emplace(std::pair(shader, constants), p.made.size() - 1).first->second;
 }
@@ -84,6 +100,14 @@ void ComputeProgram::record(const std::vector<const Buffer*>& buffers, const std
   checked(device_, "record a compute shader", [&] {
     const Device::Handles& d = device_.handles();
     Handles& h = *handles_;
+    for (const Dispatch& one : dispatches) {
+      PipelineReport& of = d.reports[h.pipelines->reports.at(one.pipeline)];
+      ++of.dispatches;
+      of.groups += one.groups != nullptr ? 0 : std::uint64_t{one.groups_x} * one.groups_y;
+      of.units += one.units;
+    }
+    if (device_.only_compiles()) return;
+    prepare_to_run();
     for (std::uint32_t i = 0; i < buffers.size(); ++i) {
       const Buffer::Handles& buffer = buffers[i]->handles();
       const vk::DescriptorBufferInfo info(*buffer.buffer, 0, VK_WHOLE_SIZE);
@@ -134,6 +158,7 @@ void ComputeProgram::read_times() {
 }
 
 void ComputeProgram::run(ComputeProgram* before) {
+  if (device_.only_compiles()) return;
   checked(device_, "run a compute shader", [&] {
     std::vector<vk::CommandBuffer> commands;
     if (before != nullptr) commands.push_back(*before->handles_->commands);

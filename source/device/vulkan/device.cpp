@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <tuple>
 
-#include "core/files.h"
+#include "core/cache_file.h"
 #include "device/vulkan/handles.h"
 
 namespace steradian::vulkan {
@@ -52,6 +49,12 @@ std::optional<std::uint32_t> compute_queue_family(const vk::raii::PhysicalDevice
   return {};
 }
 
+bool has_extension(const vk::raii::PhysicalDevice& device, const char* name) {
+  for (const auto& extension : device.enumerateDeviceExtensionProperties())
+    if (std::string(extension.extensionName.data()) == name) return true;
+  return false;
+}
+
 std::string version_text(std::uint32_t version) {
   return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
          std::to_string(VK_API_VERSION_PATCH(version));
@@ -77,6 +80,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t queue_
   info.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
   info.vulkan = version_text(properties.apiVersion);
   info.memory = own_memory(device);
+  info.runs = info.memory > 0;  // Vulkan promises memory. A driver without its hardware, such as RADV's null device, has none
   info.storage_buffer = properties.limits.maxStorageBufferRange;
   info.graphics = static_cast<bool>(device.getQueueFamilyProperties()[queue_family].queueFlags & vk::QueueFlagBits::eGraphics);
   info.picture =
@@ -111,44 +115,27 @@ std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
     if (device.getProperties().apiVersion < VK_API_VERSION_1_2) continue;
     if (const auto family = compute_queue_family(device)) found.push_back({device, *family, describe(device, *family)});
   }
-  std::stable_partition(found.begin(), found.end(), [](const Candidate& c) { return !c.info.software; });
+  const auto rank = [](const Candidate& c) { return !c.info.runs ? 2 : c.info.software ? 1 : 0; };
+  std::stable_sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
   return found;
 }
 
-const char* pipeline_cache_file() {
-  const char* path = std::getenv("STERADIAN_PIPELINE_CACHE");
-  return path != nullptr && *path != '\0' ? path : nullptr;
-}
-
-// The file's bytes if this driver wrote them for this device, else none: drivers may not survive the bytes of others.
-std::vector<char> read_pipeline_cache(const vk::raii::PhysicalDevice& device) {
-  if (pipeline_cache_file() == nullptr) return {};
-  std::ifstream file(pipeline_cache_file(), std::ios::binary);
-  std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
+// The device and its driver, for the file of its pipelines.
+std::string key_of(const vk::raii::PhysicalDevice& device) {
   const vk::PhysicalDeviceProperties properties = device.getProperties();
-  VkPipelineCacheHeaderVersionOne header{};
-  if (bytes.size() < sizeof header) return {};
-  std::memcpy(&header, bytes.data(), sizeof header);
-  const bool ours =
-      header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
-      header.deviceID == properties.deviceID &&
-      std::equal(std::begin(header.pipelineCacheUUID), std::end(header.pipelineCacheUUID), properties.pipelineCacheUUID.begin());
-  return ours ? bytes : std::vector<char>{};
-}
-
-// A cache that cannot be written costs time in the next run, and nothing else.
-void write_pipeline_cache(const vk::raii::PipelineCache& cache) noexcept {
-  if (pipeline_cache_file() == nullptr || !*cache) return;
-  try {
-    const auto bytes = cache.getData();
-    write_file(pipeline_cache_file(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  } catch (const std::exception&) {
-  }
+  std::string key;
+  const auto add = [&](std::uint32_t value, int digits) {
+    for (int i = digits - 1; i >= 0; --i) key += "0123456789abcdef"[value >> (4 * i) & 15u];
+  };
+  add(properties.vendorID, 8);
+  add(properties.deviceID, 8);
+  for (const std::uint8_t byte : properties.pipelineCacheUUID) add(byte, 2);
+  return key;
 }
 
 std::mutex shared_mutex;
 int shared_users = 0;
-std::map<std::pair<std::string, bool>, std::shared_ptr<const Device>> shared_devices;
+std::map<std::tuple<std::string, bool, bool>, std::shared_ptr<const Device>> shared_devices;
 
 }  // namespace
 
@@ -186,6 +173,10 @@ Device::Device(const DeviceOptions& options) {
       const bool is_place = options.name == std::to_string(place++);
       if (!is_place && (is_number(options.name) || c.info.name.find(options.name) == std::string::npos)) continue;
       info_ = c.info;
+      only_compiles_ = options.only_compiles;
+      if (!info_.runs && !only_compiles_)
+        throw Error("Vulkan device '" + info_.name + "'", "runs nothing: its driver compiles for hardware that is not here",
+                    "choose another --device, or --backend cpu; `steradian info SCENE --pipelines` reads its compiler's statistics");
       h.physical = c.device;
       h.queue_family = c.queue_family;
       h.timestamp_period = h.physical.getProperties().limits.timestampPeriod;
@@ -193,10 +184,17 @@ Device::Device(const DeviceOptions& options) {
       const vk::DeviceQueueCreateInfo queue({}, h.queue_family, 1, &priority);
       vk::PhysicalDeviceFeatures features;
       features.shaderInt64 = info_.int64;
-      h.device = h.physical.createDevice({{}, queue, {}, {}, &features});
+      h.has_statistics = only_compiles_ && has_extension(h.physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+      const std::vector<const char*> extensions(h.has_statistics ? 1 : 0, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+      const vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics(VK_TRUE);
+      vk::DeviceCreateInfo device({}, queue, {}, extensions, &features);
+      if (h.has_statistics) device.pNext = &statistics;
+      h.device = h.physical.createDevice(device);
       h.queue = h.device.getQueue(h.queue_family, 0);
-      const std::vector<char> cached = read_pipeline_cache(h.physical);
-      h.pipeline_cache = h.device.createPipelineCache({{}, cached.size(), cached.data()});
+      h.cache_key = key_of(h.physical);
+      h.cache_file = cache_file("STERADIAN_PIPELINE_CACHE", "pipelines-" + h.cache_key);
+      if (!h.cache_file.empty()) h.cached = read_cache_file(h.cache_file, h.cache_key);
+      h.pipeline_cache = h.device.createPipelineCache({{}, h.cached.size(), h.cached.data()});
       h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, h.queue_family});
       return;
     }
@@ -207,11 +205,18 @@ Device::Device(const DeviceOptions& options) {
 
 Device::~Device() {
   const Handles& h = *handles_;
-  if (!h.hangs) write_pipeline_cache(h.pipeline_cache);
+  if (!h.hangs && !h.cache_file.empty() && *h.pipeline_cache) try {
+      const auto bytes = h.pipeline_cache.getData();
+      const std::span<const char> now(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      if (!std::ranges::equal(now, h.cached)) write_cache_file(h.cache_file, h.cache_key, now);
+    } catch (const std::exception&) {  // the device is lost: its pipelines are made again
+    }
   h.leave(handles_);
 }
 
 const std::vector<std::string>& Device::validation_messages() const { return handles_->messages; }
+
+const std::vector<PipelineReport>& Device::pipelines() const { return handles_->reports; }
 
 std::size_t Device::allocations() const { return handles_->allocations; }
 std::size_t Device::submissions() const { return handles_->submissions; }
@@ -219,7 +224,7 @@ std::size_t Device::submissions() const { return handles_->submissions; }
 std::shared_ptr<const Device> open_device(const DeviceOptions& options) {
   const std::lock_guard lock(shared_mutex);
   if (shared_users == 0) return std::make_shared<const Device>(options);
-  std::shared_ptr<const Device>& device = shared_devices[{options.name, options.validation}];
+  std::shared_ptr<const Device>& device = shared_devices[{options.name, options.validation, options.only_compiles}];
   if (device == nullptr) device = std::make_shared<const Device>(options);
   return device;
 }

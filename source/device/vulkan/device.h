@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "device/vulkan/pipeline_report.h"
+
 namespace steradian::vulkan {
 
 struct DeviceInfo {
@@ -25,24 +27,31 @@ struct DeviceInfo {
   bool adds = false;               // ... and sum their values
   bool int64 = false;              // shaders have whole numbers of 64 bits
   std::size_t shared_memory = 0;   // bytes of a work group
+  bool runs = true;                // false: a driver without its hardware, which compiles shaders and runs nothing
 };
 
-// All devices of Vulkan 1.2 or later with a compute queue, hardware before software. Empty if there is no loader.
+// All devices of Vulkan 1.2 or later with a compute queue: hardware, then software, then what runs nothing. Empty if there is no loader.
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
   std::string name;         // part of the device's name, or its place in list_devices(), from 0; empty: the first
   bool validation = false;  // require the validation layer, and record its messages
+  // Pipelines are made with the compiler's statistics, and nothing runs: buffers keep what the host writes. For reports.
+  bool only_compiles = false;
 };
 
-// A Vulkan device. If the environment variable STERADIAN_PIPELINE_CACHE names a file, compiled pipelines are read from and written to it.
+// A Vulkan device. Compiled pipelines stay from run to run in the user's cache folder, or in the folder that the
+// environment variable STERADIAN_PIPELINE_CACHE names; if it is empty, they do not stay (core/cache_file.h).
 class Device {
  public:
-  // Throws Error if there is no such device.
+  // Throws Error if there is no such device, or if it runs nothing but should.
   explicit Device(const DeviceOptions& options = {});
   ~Device();
 
   const DeviceInfo& info() const { return info_; }
+  bool only_compiles() const { return only_compiles_; }
+  // The pipelines made so far, in their order.
+  const std::vector<PipelineReport>& pipelines() const;
   // Warnings and errors of the validation layer so far.
   const std::vector<std::string>& validation_messages() const;
   // Numbers of memory allocations, and of submissions of work, so far.
@@ -55,6 +64,7 @@ class Device {
  private:
   std::unique_ptr<Handles> handles_;
   DeviceInfo info_;
+  bool only_compiles_ = false;
 };
 
 // Opens a device, or returns the one that a living SharedDevices has already opened with the same options.

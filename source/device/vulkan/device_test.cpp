@@ -30,6 +30,7 @@ TEST(VulkanDevice, UnknownNameIsRefusedWithTheNamesThereAre) {
 TEST(VulkanDevice, SoftwareDevicesComeLast) {
   bool software = false;
   for (const DeviceInfo& d : list_devices()) {
+    if (!d.runs) continue;
     EXPECT_FALSE(software && !d.software) << d.name;
     software = d.software;
   }
@@ -74,15 +75,50 @@ TEST(VulkanDevice, OneThatLacksSomethingIsRefusedWithItsName) {
   EXPECT_NO_THROW(check_device(info));
 }
 
+TEST(VulkanDevice, ThatOnlyCompilesCountsTheWorkAndRunsNothing) {
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const Device device({"", false, true});
+  const Buffer buffer(device, 64);
+  ComputeProgram program(device, {shader("bounce_lobes.comp")}, 3);
+  ComputeProgram::Dispatch dispatch{program.pipeline(0, {64, 64}), 3, 5};
+  dispatch.units = 7;
+  EXPECT_TRUE(program.run({&buffer, &buffer, &buffer}, {dispatch, dispatch}).empty());
+  ASSERT_EQ(device.pipelines().size(), 1u);
+  const PipelineReport& made = device.pipelines().front();
+  EXPECT_EQ(made.shader, "bounce_lobes.comp");
+  EXPECT_EQ(made.constants, (std::vector<std::int32_t>{64, 64}));
+  EXPECT_EQ(made.module_bytes, shader("bounce_lobes.comp").modules.front().words.size_bytes());
+  EXPECT_EQ(made.dispatches, 2u);
+  EXPECT_EQ(made.groups, 30u);
+  EXPECT_EQ(made.units, 14u);
+  const auto* bytes = static_cast<const char*>(buffer.mapped());
+  EXPECT_TRUE(std::all_of(bytes, bytes + buffer.bytes(), [](char byte) { return byte == 0; }));
+}
+
+// Each kind of light has its own module of a lobe's shader.
+TEST(VulkanDevice, TakesTheModuleThatServesTheConstants) {
+  const ShaderCode code = shader("closed_form.comp");
+  ASSERT_EQ(code.modules.size(), 5u);
+  for (std::int32_t kind = 0; kind < 5; ++kind)
+    for (std::size_t m = 0; m < code.modules.size(); ++m)
+      EXPECT_EQ(code.modules[m].serves({kind}), m == static_cast<std::size_t>(kind)) << kind << " " << m;
+  EXPECT_FALSE(code.modules.front().serves({}));
+  if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
+  const Device device({"", false, true});
+  ComputeProgram program(device, {code}, 5, 6);
+  EXPECT_THROW(program.pipeline(0, {5}), Error);
+}
+
 // Programs are cached: a later one may occupy the memory of an earlier one's words.
 TEST(VulkanDevice, TellsProgramsApartByTheirWords) {
   if (list_devices().empty()) GTEST_SKIP() << "no Vulkan device here: install mesa-vulkan-drivers for a software one";
   const Device device;
   const auto one = shader("diffuse.comp"), other = shader("sheen.comp");
-  std::vector<std::uint32_t> words(std::max(one.size(), other.size()));
-  for (const auto& spirv : {one, other, one}) {
-    std::copy(spirv.begin(), spirv.end(), words.begin());
-    const ComputeProgram program(device, {std::span(words).first(spirv.size())}, 5, 6);
+  const auto words_of = [](const ShaderCode& code) { return code.modules.front().words; };
+  std::vector<std::uint32_t> words(std::max(words_of(one).size(), words_of(other).size()));
+  for (const ShaderCode& code : {one, other, one}) {
+    std::copy(words_of(code).begin(), words_of(code).end(), words.begin());
+    const ComputeProgram program(device, {{code.name, {{{}, std::span(words).first(words_of(code).size())}}}}, 5, 6);
   }
   EXPECT_EQ(device.handles().pipelines.size(), 2u);
 }

@@ -4,6 +4,7 @@
 #define VK_NO_PROTOTYPES  // every function comes from the loader at run time
 #include <vulkan/vulkan_raii.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,18 +13,19 @@
 #include <utility>
 #include <vector>
 
+#include "core/fingerprint.h"
 #include "device/vulkan/device.h"
 #include "steradian/error.h"
 
 namespace steradian::vulkan {
 
-// Shaders over the same buffers, and the pipelines created from them so far.
+// The pipelines created so far from shaders over the same buffers.
 struct Pipelines {
-  std::vector<vk::raii::ShaderModule> shaders;
   vk::raii::DescriptorSetLayout set_layout = nullptr;
   vk::raii::PipelineLayout layout = nullptr;
   std::map<std::pair<std::size_t, std::vector<std::int32_t>>, std::size_t> numbers;  // by shader and constants
   std::vector<vk::raii::Pipeline> made;
+  std::vector<std::size_t> reports;  // of the pipelines made, among the device's
 };
 
 struct Device::Handles {
@@ -36,13 +38,21 @@ struct Device::Handles {
   vk::raii::Queue queue = nullptr;
   vk::raii::CommandPool commands = nullptr;
   vk::raii::PipelineCache pipeline_cache = nullptr;
-  float timestamp_period = 0;  // nanoseconds per tick
-  // The key distinguishes programs: the numbers of their buffers and the words of their shaders. Entries live as long as the device, since
-  // pipelines take longer to create than pictures.
-  mutable std::map<std::vector<std::uint32_t>, Pipelines> pipelines;
+  std::string cache_key, cache_file;  // the file is empty: none
+  std::vector<char> cached;           // its contents when the device was opened
+  float timestamp_period = 0;         // nanoseconds per tick
+  // The key distinguishes programs: the numbers of their buffers and the fingerprints of their shaders' words. Entries live as long as the
+  // device, since pipelines take longer to create than pictures.
+  mutable std::map<std::vector<Fingerprint>, Pipelines> pipelines;
+  bool has_statistics = false;  // the driver reports statistics of pipelines, and somebody asked for them
+  mutable std::vector<PipelineReport> reports;
   std::vector<std::string> messages;
   mutable std::size_t allocations = 0, submissions = 0;
   mutable bool hangs = false;  // submitted work has not ended, and still uses its objects
+
+  vk::PipelineCreateFlags pipeline_flags() const {
+    return has_statistics ? vk::PipelineCreateFlagBits::eCaptureStatisticsKHR : vk::PipelineCreateFlags();
+  }
 
   vk::raii::DeviceMemory allocate(const vk::MemoryAllocateInfo& info) const {
     ++allocations;
@@ -55,6 +65,13 @@ struct Device::Handles {
     if (hangs) static_cast<void>(made.release());
   }
 };
+
+// Adds the reports of a pipeline's shaders, in the order of its stages, and their statistics if the device has them.
+void report(const Device::Handles& d, const vk::raii::Pipeline& pipeline, std::vector<PipelineReport> shaders);
+
+inline double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
 
 // Runs f; a failure of Vulkan becomes an Error at `place` that says what was being done.
 template <class F>

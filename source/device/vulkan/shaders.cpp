@@ -6,7 +6,7 @@
 
 namespace steradian::vulkan {
 
-std::span<const std::uint32_t> shader(std::string_view name) {
+ShaderCode shader(std::string_view name) {
 #include "steradian_render_shaders.inc"
   throw Error("Vulkan", "this build has no shader " + std::string(name));
 }

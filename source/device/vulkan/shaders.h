@@ -1,13 +1,13 @@
 // The shaders of shaders/, compiled at build time and part of the program.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <string_view>
+
+#include "device/vulkan/shader_code.h"
 
 namespace steradian::vulkan {
 
-// The words of a shader of the renderer by the name of its file: "ltc.comp". Throws Error if there is none.
-std::span<const std::uint32_t> shader(std::string_view name);
+// A shader of the renderer by the name of its file: "ltc.comp". Throws Error if there is none.
+ShaderCode shader(std::string_view name);
 
 }  // namespace steradian::vulkan

@@ -9,6 +9,7 @@
 
 #include "fit/table_files.h"
 #include "integrals/tables/ggx_tables.h"
+#include "steradian/compare.h"
 #include "steradian/error.h"
 #include "steradian/render.h"
 #include "support/meshes.h"
