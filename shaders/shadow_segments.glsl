@@ -47,7 +47,7 @@ int gather_segments(int before) {
 
 // After gathering: each lane keeps or discards its own segment.
 void keep_gathered(int before, int own, bool keep) {
-    meet();
+    subgroupBarrier();
     found = own >= 0 && keep;
     if (found) found_mark = marks[own];
     gather_segments(before);
@@ -127,7 +127,7 @@ int facing_of(Eye eye, uint plane) {
 }
 
 void see_edge(Eye eye, uvec4 begins, uint incidences, uint e) {
-    if (is_mine(e, begins.w)) {
+    if (e < begins.w) {
         uvec4 edge = groups[begins.z + e];
         int flags = int(edge.w);
         int weight = 0;
@@ -184,7 +184,7 @@ End cut_of(Eye eye, uvec4 from, uvec4 to) {
 
 // The section of a triangle by the light's plane. It starts where the triangle's walk leaves the space below, and ends where it returns.
 void see_section(Eye eye, uint vertices, uint planes, uint triangles, uint count, uint t) {
-    if (is_mine(t, count)) {
+    if (t < count) {
         uvec4 triangle = groups[triangles + uint(kShadowTriangle) * t];
         uvec4 edges = groups[triangles + uint(kShadowTriangle) * t + 1u];
         uvec4 corners[3];
@@ -212,7 +212,7 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
         int before = segment_count;
         see_section(eye, vertices, planes, triangles, count, t + LANE);
         int own = gather_segments(before);
-        meet();
+        subgroupBarrier();
         bool coincides = false;
         int looks = 0;
         for (int i = first; i < own && !coincides; i++) {
@@ -223,7 +223,7 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
             if (coincides) atomicAdd(marks[i], kMarks * (same ? weight : -weight));
         }
         keep_gathered(before, own, !coincides);
-        turns -= most_of_lanes(looks);
+        turns -= subgroupMax(looks);
         too_much = too_much || segment_count - first > kMostSections || turns < 0;
     }
 }
@@ -240,7 +240,7 @@ vec4 corner_cells(Corners c, uint i) { return vec4(ivec4(groups[c.own > 0u ? c.o
 void see_surroundings(Corners c, uint at, int flags) {
     for (uint first = 0u; first < c.count; first += LANES) {
         uint i = first + LANE;
-        if (is_mine(i, c.count)) {
+        if (i < c.count) {
             uvec4 named = groups[c.first + uint(kShadowCorner) * i + 1u];
             add_segment(corner_cells(c, i), kCornerName | named.xy, -kHidden);
         }
@@ -248,7 +248,7 @@ void see_surroundings(Corners c, uint at, int flags) {
     }
     for (uint first = 0u; first < 2u; first += LANES) {
         uint h = first + LANE;
-        if (is_mine(h, 2u) && (flags & (kHorizon << h)) != 0) {
+        if (h < 2u && (flags & (kHorizon << h)) != 0) {
             int left = flags >> (2u * h);
             uvec2 named = uvec2(kHorizonName | (2u * h)) + uvec2(0u, 1u);
             named |= uvec2((left & kHorizonLeft) != 0 ? kLeftName : 0u, (left & (2 * kHorizonLeft)) != 0 ? kLeftName : 0u);
@@ -256,5 +256,5 @@ void see_surroundings(Corners c, uint at, int flags) {
         }
         gather_segments(segment_count);
     }
-    meet();
+    subgroupBarrier();
 }
