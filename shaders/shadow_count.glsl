@@ -3,7 +3,6 @@
 
 // Pieces of segments at the lowest count so far: fractions of the way at which each begins and ends.
 shared vec2 pieces[PIECE_SPACE];
-shared int piece_segments[PIECE_SPACE];
 int piece_count;
 int level;
 bool too_many_pieces;

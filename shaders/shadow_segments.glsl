@@ -7,6 +7,10 @@ shared int marks[SEGMENT_SPACE];  // the weight times kMarks, kLeftStart, kLeftE
 int segment_count;
 bool too_much;  // the capacity is exceeded
 
+shared int piece_segments[PIECE_SPACE];  // of the pieces; before there are any: weights and numbers of edges that wait
+const int kWaitingBits = 16;
+const int kWaiting = 1 << kWaitingBits;
+
 const int kMarks = 4;
 const int kLeftStart = 1;  // the box's left side cuts the segment at its start
 const int kLeftEnd = 2;
@@ -126,52 +130,67 @@ int facing_of(Eye eye, uint plane) {
     return int(shadow_facing(p.xyz, p.w, eye.at));
 }
 
-void see_edge(Eye eye, uvec4 begins, uint incidences, uint e) {
-    if (e < begins.w) {
-        uvec4 edge = groups[begins.z + e];
-        int flags = int(edge.w);
-        int weight = 0;
-        if ((flags & kManyWalks) != 0) {
-            uint first = edge.y & 0xffffu;
-            uint count = edge.y >> 16;
-            for (uint i = first; i < first + count; i++) {
-                uint one = groups[incidences + i / 4u][i % 4u];
-                int facing = facing_of(eye, begins.y + (one & 0xffffu));
-                weight -= (one & uint(kAgainst)) != 0u ? -facing : facing;
-            }
-        } else {
-            if ((flags & kWalks0) != 0) weight -= facing_of(eye, begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
-            if ((flags & kWalks1) != 0) weight -= facing_of(eye, begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
+// The change of the count from the right of an edge to its left: 0 if it is no silhouette.
+int weight_of_edge(Eye eye, uvec4 begins, uint incidences, uvec4 edge) {
+    int flags = int(edge.w);
+    int weight = 0;
+    if ((flags & kManyWalks) != 0) {
+        uint first = edge.y & 0xffffu;
+        uint count = edge.y >> 16;
+        for (uint i = first; i < first + count; i++) {
+            uint one = groups[incidences + i / 4u][i % 4u];
+            int facing = facing_of(eye, begins.y + (one & 0xffffu));
+            weight -= (one & uint(kAgainst)) != 0u ? -facing : facing;
         }
-        // A loop of at most one turn, here and below: software devices skip such loops, but no branches.
-        for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
-            uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
-            uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
-            vec3 v0 = place_of(eye, uintBitsToFloat(bits0.xyz));
-            vec3 v1 = place_of(eye, uintBitsToFloat(bits1.xyz));
-            End a = look_at(eye, v0);
-            End b = look_at(eye, v1);
-            bool above_a = (a.outside & kAboveOut) != 0;
-            bool above_b = (b.outside & kAboveOut) != 0;
-            if (above_a && above_b) break;
-            uvec2 named = uvec2(bits0.w, bits1.w);
-            if (above_a || above_b) {
-                End cut = look_at(eye, shadow_cut(v0, v1, eye.height));
-                if (above_a) a = cut;
-                if (above_b) b = cut;
-                if (above_a) named.x = kCutName | edge.z;
-                if (above_b) named.y = kCutName | edge.z;
-            }
-            add_clipped(eye, a, b, named, kClipName | (2u * edge.z), weight);
+    } else {
+        if ((flags & kWalks0) != 0) weight -= facing_of(eye, begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
+        if ((flags & kWalks1) != 0) weight -= facing_of(eye, begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
+    }
+    return weight;
+}
+
+void see_edge(Eye eye, uvec4 begins, uvec4 edge, int weight) {
+    // A loop of at most one turn, here and below: software devices skip such loops, but no branches.
+    for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
+        uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
+        uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
+        vec3 v0 = place_of(eye, uintBitsToFloat(bits0.xyz));
+        vec3 v1 = place_of(eye, uintBitsToFloat(bits1.xyz));
+        End a = look_at(eye, v0);
+        End b = look_at(eye, v1);
+        bool above_a = (a.outside & kAboveOut) != 0;
+        bool above_b = (b.outside & kAboveOut) != 0;
+        if (above_a && above_b) break;
+        uvec2 named = uvec2(bits0.w, bits1.w);
+        if (above_a || above_b) {
+            End cut = look_at(eye, shadow_cut(v0, v1, eye.height));
+            if (above_a) a = cut;
+            if (above_b) b = cut;
+            if (above_a) named.x = kCutName | edge.z;
+            if (above_b) named.y = kCutName | edge.z;
         }
+        add_clipped(eye, a, b, named, kClipName | (2u * edge.z), weight);
     }
 }
 
-// The segments of the group's edges.
+// The segments of the group's edges. Few edges are silhouettes for a point. They wait in shared memory until all lanes project one.
 void see_edges(Eye eye, uvec4 begins, uint incidences) {
+    int waiting = 0;
     for (uint first = 0u; first < begins.w && !too_much; first += LANES) {
-        see_edge(eye, begins, incidences, first + LANE);
-        gather_segments(segment_count);
+        uint e = first + LANE;
+        int weight = e < begins.w ? weight_of_edge(eye, begins, incidences, groups[begins.z + e]) : 0;
+        int all;
+        int to = waiting + begin_of(weight != 0, all);
+        if (weight != 0) piece_segments[to] = kWaiting * weight + int(e);
+        waiting += all;
+        if (waiting + int(LANES) <= PIECE_SPACE && first + LANES < begins.w) continue;
+        subgroupBarrier();
+        for (int i = 0; i < waiting && !too_much; i += int(LANES)) {
+            int one = i + int(LANE) < waiting ? piece_segments[i + int(LANE)] : 0;
+            see_edge(eye, begins, groups[begins.z + uint(one & (kWaiting - 1))], one >> kWaitingBits);
+            gather_segments(segment_count);
+        }
+        waiting = 0;
     }
 }
 

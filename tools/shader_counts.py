@@ -49,7 +49,7 @@ PIPELINES = [
     ("phong_lobe", "a polygon, series", {0: 0, 4: 2, 5: 0, 11: 4, 21: 4}, "a pixel and a light", 0),
     ("phong_lobe", "a polygon, series, high", {0: 0, 4: 2, 5: 0, 11: 4, 21: 5}, "a pixel and a light", 0),
     ("shadow_parts", "", {0: 640, 1: 640, 2: 32}, "a point and a light", None),
-    ("shadow_parts", "", {0: 640, 1: 640, 2: 32}, "four pairs of segments", 10),
+    ("shadow_parts", "", {0: 640, 1: 640, 2: 32}, "four pairs of segments", 11),
     ("shadow_rays", "", {}, "a box, and a triangle in it", 1),
     ("shadow_rays", "", {}, "a triangle", 2),
     ("shadow_shares", "", {}, "a pixel and a light", 0),
