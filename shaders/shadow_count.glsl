@@ -3,7 +3,6 @@
 
 // Pieces of segments at the lowest count so far: fractions of the way at which each begins and ends.
 shared vec2 pieces[PIECE_SPACE];
-shared int piece_segments[PIECE_SPACE];
 int piece_count;
 int level;
 bool too_many_pieces;
@@ -163,7 +162,7 @@ void settle_segment(inout Walk e, int i, bool asked) {
     too_much = too_much || crossing_count > PIECE_SPACE;
     int steps = 0;
     if (crosses && !too_much) steps = add_crossing(e, place, at < 0.0 ? 0.5 : at, change);
-    turns -= 4 + most_of_lanes(steps);
+    turns -= 4 + subgroupMax(steps);
 }
 
 void look_at_all(inout Walk e) {
@@ -178,7 +177,7 @@ void look_at_all(inout Walk e) {
             open |= four << (i - first);
         }
         if (!e.mine) open = 0u;
-        while (any_of_lanes(open != 0u) && !too_much) {
+        while (subgroupAny(open != 0u) && !too_much) {
             settle_segment(e, first + max(findLSB(open), 0), open != 0u);
             open &= open - 1u;
             too_much = too_much || turns < 0;
@@ -231,7 +230,7 @@ void take_pieces(Walk e) {
             ++steps;
         }
         if (pass == 1) break;
-        int least = least_of_lanes(lowest);
+        int least = subgroupMin(lowest);
         if (least < level) {
             level = least;
             piece_count = 0;
@@ -243,7 +242,7 @@ void take_pieces(Walk e) {
         if (!too_many_pieces) piece_count += all;
         has_pieces = has_pieces && lowest == level;
     }
-    turns -= most_of_lanes(steps);
+    turns -= subgroupMax(steps);
 }
 
 void cut_segments(int base) {
@@ -261,5 +260,5 @@ void cut_segments(int base) {
         too_much = too_much || turns < 0;
     }
     too_much = too_much || too_many_pieces;
-    meet();
+    subgroupBarrier();
 }

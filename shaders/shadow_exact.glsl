@@ -16,7 +16,6 @@ int64_t long_cross(ivec2 a, ivec2 b) { return int64_t(a.x) * int64_t(b.y) - int6
 
 // The name of a segment's end: ends with equal names are the same vertex.
 const uint kNameNumber = 0x0fffffffu;
-const uint kVertexName = 0u;
 const uint kCutName = 0x10000000u;     // cut of an edge by the light's plane
 const uint kCornerName = 0x20000000u;  // corner of the outline
 const uint kClipName = 0x30000000u;    // cut of an edge by the box: twice its number, plus 1 at its end

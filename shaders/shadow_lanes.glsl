@@ -12,29 +12,17 @@ layout(local_size_x_id = 2) in;
 #define LANE gl_SubgroupInvocationID
 #define LANES gl_WorkGroupSize.x
 
-// Makes what lanes have written visible to all of them. Every lane must call this and all functions below, without divergent branches.
-void meet() { subgroupBarrier(); }
-// Place at which this lane's results begin among all lanes' results, in lane order. all: number of all results.
+// Place at which this lane's results begin among all lanes' results, in lane order. all: number of all results. Every lane must call this and
+// the operations of the subgroup, without divergent branches. A barrier makes what lanes have written visible to all of them.
 int begin_of(int count, out int all) {
-    meet();
+    subgroupBarrier();
     all = subgroupAdd(count);
     return subgroupExclusiveAdd(count);
 }
 // The same for at most one result a lane.
 int begin_of(bool one, out int all) {
-    meet();
+    subgroupBarrier();
     uvec4 lanes = subgroupBallot(one);
     all = int(subgroupBallotBitCount(lanes));
     return int(subgroupBallotExclusiveBitCount(lanes));
 }
-vec4 sum_of_lanes(vec4 x) { return subgroupAdd(x); }
-int sum_of_lanes(int x) { return subgroupAdd(x); }
-int least_of_lanes(int x) { return subgroupMin(x); }
-int most_of_lanes(int x) { return subgroupMax(x); }
-float least_of_lanes(float x) { return subgroupMin(x); }
-float most_of_lanes(float x) { return subgroupMax(x); }
-bool any_of_lanes(bool x) { return subgroupAny(x); }
-uint of_first_lane(uint x) { return subgroupBroadcastFirst(x); }
-
-// Returns true if this lane's element exists. Lane by lane, i is first, first + 1 and so on.
-bool is_mine(uint i, uint count) { return i < count; }

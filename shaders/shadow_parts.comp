@@ -54,8 +54,6 @@ struct Moments {
     vec3 second;  // xx, xy, yy
 };
 
-Moments moments_begin() { return Moments(0.0, vec2(0.0), vec3(0.0)); }
-
 Moments moments_add(Moments m, vec2 a, vec2 b) {
     float twice = a.x * b.y - a.y * b.x;
     m.area += twice / 2.0;
@@ -65,10 +63,7 @@ Moments moments_add(Moments m, vec2 a, vec2 b) {
     return m;
 }
 
-Moments moments_of_lanes(Moments m) {
-    vec4 low = sum_of_lanes(vec4(m.area, m.second));
-    return Moments(low.x, sum_of_lanes(vec4(m.first, 0.0, 0.0)).xy, low.yzw);
-}
+Moments moments_of_lanes(Moments m) { return Moments(subgroupAdd(m.area), subgroupAdd(m.first), subgroupAdd(m.second)); }
 
 // Writes a part's record without its places. It includes the four elements that replace the part if it is small: quarters_of of
 // source/shapes/area_moments.h.
@@ -93,7 +88,7 @@ void write_record(View view, Moments m, vec2 about, uint at, uint places, uint a
 }
 
 void write_part(View view, vec2 inside, uint at, uint ahead) {
-    Moments m = moments_begin();
+    Moments m = Moments(0.0, vec2(0.0), vec3(0.0));
     for (int i = int(LANE); i < piece_count; i += int(LANES)) {
         vec4 p = piece_ends(i);
         m = moments_add(m, (p.xy - inside) * view.scale, (p.zw - inside) * view.scale);
@@ -107,7 +102,7 @@ void write_part(View view, vec2 inside, uint at, uint ahead) {
 void write_polygon(View view, Corners corners, uint at) {
     for (int i = int(LANE); i < kPartSums; i += int(LANES)) parts[at + uint(i)] = vec4(0.0);
     at += uint(kPartSums);
-    Moments m = moments_begin();
+    Moments m = Moments(0.0, vec2(0.0), vec3(0.0));
     for (uint i = LANE; i < corners.count; i += LANES) {
         vec4 edge = corner_cells(corners, i) * view.scale.xyxy;
         m = moments_add(m, edge.xy, edge.zw);
@@ -183,7 +178,7 @@ void main() {
             uint room = uint(kPartHeader + 2 * piece_count);
             uint room_of_polygon = shares ? uint(kPartSums + kPartHeader) + corners.count + 1u : 0u;
             uint begin = LANE > 0u ? 0u : atomicAdd(parts_used, room + room_of_polygon);
-            begin = of_first_lane(begin);
+            begin = subgroupBroadcastFirst(begin);
             if (begin + room + room_of_polygon <= parts_room) {
                 write_part(view, place.xy, parts_begin + begin, shares ? room + uint(kPartSums) : 0u);
                 if (shares) write_polygon(view, corners, parts_begin + begin + room);

@@ -14,7 +14,7 @@ bool region_is_wide() {
         twice += p.x * d.y - p.y * d.x;
         perimeter += length(d);
     }
-    vec4 sums = sum_of_lanes(vec4(twice, perimeter, 0.0, 0.0));
+    vec2 sums = subgroupAdd(vec2(twice, perimeter));
     return sums.x > 2.0 * kThin * sums.y;
 }
 
@@ -31,7 +31,7 @@ float distance_to_next(vec2 from, vec2 n, int but) {
         float t = (p.x * n.y - p.y * n.x) * inverse;
         if (i != but && det != 0.0 && distance > 0.0 && t >= 0.0 && t <= 1.0) nearest = min(nearest, distance);
     }
-    return least_of_lanes(nearest);
+    return subgroupMin(nearest);
 }
 
 // Distance of a place from all segments, or 0 if its count is above the level or uncertain.
@@ -57,9 +57,9 @@ float room_at(vec2 q, int base) {
         }
         count += left_events(marks[i], s.y < q.y, s.w < q.y);
     }
-    certain = !any_of_lanes(!certain);
-    count = base + sum_of_lanes(count);
-    least2 = least_of_lanes(least2);
+    certain = !subgroupAny(!certain);
+    count = base + subgroupAdd(count);
+    least2 = subgroupMin(least2);
     return certain && count <= level ? sqrt(least2) : 0.0;
 }
 
@@ -80,8 +80,8 @@ vec3 place_inside(int base) {
                 number = i;
             }
         }
-        last = most_of_lanes(longest);
-        number = least_of_lanes(longest == last ? number : kNoPiece);
+        last = subgroupMax(longest);
+        number = subgroupMin(longest == last ? number : kNoPiece);
         if (number == kNoPiece) break;
         last_number = number;
         vec4 p = piece_ends(number);

@@ -7,6 +7,10 @@ shared int marks[SEGMENT_SPACE];  // the weight times kMarks, kLeftStart, kLeftE
 int segment_count;
 bool too_much;  // the capacity is exceeded
 
+shared int piece_segments[PIECE_SPACE];  // of the pieces; before there are any: weights and numbers of edges that wait
+const int kWaitingBits = 16;
+const int kWaiting = 1 << kWaitingBits;
+
 const int kMarks = 4;
 const int kLeftStart = 1;  // the box's left side cuts the segment at its start
 const int kLeftEnd = 2;
@@ -47,7 +51,7 @@ int gather_segments(int before) {
 
 // After gathering: each lane keeps or discards its own segment.
 void keep_gathered(int before, int own, bool keep) {
-    meet();
+    subgroupBarrier();
     found = own >= 0 && keep;
     if (found) found_mark = marks[own];
     gather_segments(before);
@@ -126,52 +130,67 @@ int facing_of(Eye eye, uint plane) {
     return int(shadow_facing(p.xyz, p.w, eye.at));
 }
 
-void see_edge(Eye eye, uvec4 begins, uint incidences, uint e) {
-    if (is_mine(e, begins.w)) {
-        uvec4 edge = groups[begins.z + e];
-        int flags = int(edge.w);
-        int weight = 0;
-        if ((flags & kManyWalks) != 0) {
-            uint first = edge.y & 0xffffu;
-            uint count = edge.y >> 16;
-            for (uint i = first; i < first + count; i++) {
-                uint one = groups[incidences + i / 4u][i % 4u];
-                int facing = facing_of(eye, begins.y + (one & 0xffffu));
-                weight -= (one & uint(kAgainst)) != 0u ? -facing : facing;
-            }
-        } else {
-            if ((flags & kWalks0) != 0) weight -= facing_of(eye, begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
-            if ((flags & kWalks1) != 0) weight -= facing_of(eye, begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
+// The change of the count from the right of an edge to its left: 0 if it is no silhouette.
+int weight_of_edge(Eye eye, uvec4 begins, uint incidences, uvec4 edge) {
+    int flags = int(edge.w);
+    int weight = 0;
+    if ((flags & kManyWalks) != 0) {
+        uint first = edge.y & 0xffffu;
+        uint count = edge.y >> 16;
+        for (uint i = first; i < first + count; i++) {
+            uint one = groups[incidences + i / 4u][i % 4u];
+            int facing = facing_of(eye, begins.y + (one & 0xffffu));
+            weight -= (one & uint(kAgainst)) != 0u ? -facing : facing;
         }
-        // A loop of at most one turn, here and below: software devices skip such loops, but no branches.
-        for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
-            uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
-            uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
-            vec3 v0 = place_of(eye, uintBitsToFloat(bits0.xyz));
-            vec3 v1 = place_of(eye, uintBitsToFloat(bits1.xyz));
-            End a = look_at(eye, v0);
-            End b = look_at(eye, v1);
-            bool above_a = (a.outside & kAboveOut) != 0;
-            bool above_b = (b.outside & kAboveOut) != 0;
-            if (above_a && above_b) break;
-            uvec2 named = uvec2(bits0.w, bits1.w);
-            if (above_a || above_b) {
-                End cut = look_at(eye, shadow_cut(v0, v1, eye.height));
-                if (above_a) a = cut;
-                if (above_b) b = cut;
-                if (above_a) named.x = kCutName | edge.z;
-                if (above_b) named.y = kCutName | edge.z;
-            }
-            add_clipped(eye, a, b, named, kClipName | (2u * edge.z), weight);
+    } else {
+        if ((flags & kWalks0) != 0) weight -= facing_of(eye, begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
+        if ((flags & kWalks1) != 0) weight -= facing_of(eye, begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
+    }
+    return weight;
+}
+
+void see_edge(Eye eye, uvec4 begins, uvec4 edge, int weight) {
+    // A loop of at most one turn, here and below: software devices skip such loops, but no branches.
+    for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
+        uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
+        uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
+        vec3 v0 = place_of(eye, uintBitsToFloat(bits0.xyz));
+        vec3 v1 = place_of(eye, uintBitsToFloat(bits1.xyz));
+        End a = look_at(eye, v0);
+        End b = look_at(eye, v1);
+        bool above_a = (a.outside & kAboveOut) != 0;
+        bool above_b = (b.outside & kAboveOut) != 0;
+        if (above_a && above_b) break;
+        uvec2 named = uvec2(bits0.w, bits1.w);
+        if (above_a || above_b) {
+            End cut = look_at(eye, shadow_cut(v0, v1, eye.height));
+            if (above_a) a = cut;
+            if (above_b) b = cut;
+            if (above_a) named.x = kCutName | edge.z;
+            if (above_b) named.y = kCutName | edge.z;
         }
+        add_clipped(eye, a, b, named, kClipName | (2u * edge.z), weight);
     }
 }
 
-// The segments of the group's edges.
+// The segments of the group's edges. Few edges are silhouettes for a point. They wait in shared memory until all lanes project one.
 void see_edges(Eye eye, uvec4 begins, uint incidences) {
+    int waiting = 0;
     for (uint first = 0u; first < begins.w && !too_much; first += LANES) {
-        see_edge(eye, begins, incidences, first + LANE);
-        gather_segments(segment_count);
+        uint e = first + LANE;
+        int weight = e < begins.w ? weight_of_edge(eye, begins, incidences, groups[begins.z + e]) : 0;
+        int all;
+        int to = waiting + begin_of(weight != 0, all);
+        if (weight != 0) piece_segments[to] = kWaiting * weight + int(e);
+        waiting += all;
+        if (waiting + int(LANES) <= PIECE_SPACE && first + LANES < begins.w) continue;
+        subgroupBarrier();
+        for (int i = 0; i < waiting && !too_much; i += int(LANES)) {
+            int one = i + int(LANE) < waiting ? piece_segments[i + int(LANE)] : 0;
+            see_edge(eye, begins, groups[begins.z + uint(one & (kWaiting - 1))], one >> kWaitingBits);
+            gather_segments(segment_count);
+        }
+        waiting = 0;
     }
 }
 
@@ -184,7 +203,7 @@ End cut_of(Eye eye, uvec4 from, uvec4 to) {
 
 // The section of a triangle by the light's plane. It starts where the triangle's walk leaves the space below, and ends where it returns.
 void see_section(Eye eye, uint vertices, uint planes, uint triangles, uint count, uint t) {
-    if (is_mine(t, count)) {
+    if (t < count) {
         uvec4 triangle = groups[triangles + uint(kShadowTriangle) * t];
         uvec4 edges = groups[triangles + uint(kShadowTriangle) * t + 1u];
         uvec4 corners[3];
@@ -212,7 +231,7 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
         int before = segment_count;
         see_section(eye, vertices, planes, triangles, count, t + LANE);
         int own = gather_segments(before);
-        meet();
+        subgroupBarrier();
         bool coincides = false;
         int looks = 0;
         for (int i = first; i < own && !coincides; i++) {
@@ -223,7 +242,7 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
             if (coincides) atomicAdd(marks[i], kMarks * (same ? weight : -weight));
         }
         keep_gathered(before, own, !coincides);
-        turns -= most_of_lanes(looks);
+        turns -= subgroupMax(looks);
         too_much = too_much || segment_count - first > kMostSections || turns < 0;
     }
 }
@@ -240,7 +259,7 @@ vec4 corner_cells(Corners c, uint i) { return vec4(ivec4(groups[c.own > 0u ? c.o
 void see_surroundings(Corners c, uint at, int flags) {
     for (uint first = 0u; first < c.count; first += LANES) {
         uint i = first + LANE;
-        if (is_mine(i, c.count)) {
+        if (i < c.count) {
             uvec4 named = groups[c.first + uint(kShadowCorner) * i + 1u];
             add_segment(corner_cells(c, i), kCornerName | named.xy, -kHidden);
         }
@@ -248,7 +267,7 @@ void see_surroundings(Corners c, uint at, int flags) {
     }
     for (uint first = 0u; first < 2u; first += LANES) {
         uint h = first + LANE;
-        if (is_mine(h, 2u) && (flags & (kHorizon << h)) != 0) {
+        if (h < 2u && (flags & (kHorizon << h)) != 0) {
             int left = flags >> (2u * h);
             uvec2 named = uvec2(kHorizonName | (2u * h)) + uvec2(0u, 1u);
             named |= uvec2((left & kHorizonLeft) != 0 ? kLeftName : 0u, (left & (2 * kHorizonLeft)) != 0 ? kLeftName : 0u);
@@ -256,5 +275,5 @@ void see_surroundings(Corners c, uint at, int flags) {
         }
         gather_segments(segment_count);
     }
-    meet();
+    subgroupBarrier();
 }

@@ -10,10 +10,10 @@ const int kMostTurns = 62000;
 const int kMostIncidences = 1024;  // tile_shadows.cpp
 int turns;  // remaining budget
 
-// A triangle takes half more turns than an edge. A segment takes a look at all others, kSetOfPairs at a time, and six loops and their ends.
+// An edge takes as many turns as a triangle. A segment takes a look at all others, kSetOfPairs at a time, and six loops and their ends.
 // Region and record go through segments and pieces fourteen times.
 int turns_left(uint edges, uint triangles) {
-    int gathered = int(4u * (edges / LANES + 1u) + 6u * (triangles / LANES + 1u)) + kMostIncidences;
+    int gathered = int(6u * (edges / LANES + triangles / LANES + 2u)) + kMostIncidences;
     int own = SEGMENT_SPACE / int(LANES) + 1;
     int cut = own * (SEGMENT_SPACE / kAtOnce + 3 * (SEGMENT_SPACE / kSetOfPairs + 1) + 6 + 14);
     return kMostTurns - gathered - cut;

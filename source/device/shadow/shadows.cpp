@@ -57,7 +57,8 @@ Shadows::Kept::Kept(const Device& d)
       states(d) {}
 
 bool Shadows::has(const DeviceInfo& device) {
-  return device.adds && device.int64 && device.subgroup > 0 && device.shared_memory >= kLeastSegments * kSegmentBytes;
+  return device.adds && device.int64 && device.subgroup > 0 && device.subgroup <= kSegments.front() &&
+         device.shared_memory >= kLeastSegments * kSegmentBytes;
 }
 
 void Shadows::upload_groups() {

@@ -26,12 +26,16 @@ std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 
 Vec4Floats with(Vec3f v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
+using FourBits = std::array<std::uint32_t, 4>;
+FourBits with_bits(Vec3d v, double w) { return {bits(v.x), bits(v.y), bits(v.z), bits(w)}; }
+
 // Adds vectors of four, one after another.
 class Rows {
  public:
   explicit Rows(std::vector<std::uint32_t>& values) : values_(values) {}
   std::uint32_t size() const { return whole(values_.size() / 4); }
   void add(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t w) { values_.insert(values_.end(), {x, y, z, w}); }
+  void add(const FourBits& row) { values_.insert(values_.end(), row.begin(), row.end()); }
   void add(const shadow::Segment& s) {
     add(static_cast<std::uint32_t>(s.a.x), static_cast<std::uint32_t>(s.a.y), static_cast<std::uint32_t>(s.b.x),
         static_cast<std::uint32_t>(s.b.y));
@@ -99,23 +103,19 @@ void add_point(const LightSide& side, const Viewpoint& at, bool shares, std::vec
   flags += flag(kBase) * static_cast<std::uint32_t>(base / shadow::kHidden);
   Rows rows(values);
   rows.add(bits(eye.x), bits(eye.y), bits(eye.z), flags);
-  rows.add(bits(at.normal.x), bits(at.normal.y), bits(at.normal.z), 0);
+  rows.add(with_bits(at.normal, 0));
   for (const shadow::Segment& h : horizons) rows.add(h);
 }
-
-using FourBits = std::array<std::uint32_t, 4>;
-FourBits with_bits(Vec3d v, double w) { return {bits(v.x), bits(v.y), bits(v.z), bits(w)}; }
 
 // Vectors 3, 4 and 5 of a header.
 std::array<FourBits, 3> plane_of(const shadow::LightFrame& f) {
   return {with_bits(f.axes.x, f.half_x), with_bits(f.axes.y, f.half_y), with_bits(f.axes.z, -f.eta)};
 }
 
-void add_plane(const LightSide& side, const shadow::LightFrame& base, const Viewpoint& at, std::vector<std::uint32_t>& values) {
-  const shadow::LightFrame& f = side.frame;
-  for (const FourBits& row : plane_of(f)) values.insert(values.end(), row.begin(), row.end());
-  for (const FourBits& row : {with_bits(base.to_local(f.origin), f.box_x), with_bits(base.to_local(at.position), f.box_y)})
-    values.insert(values.end(), row.begin(), row.end());
+void add_plane(const shadow::LightFrame& f, const shadow::LightFrame& base, const Viewpoint& at, Rows rows) {
+  for (const FourBits& row : plane_of(f)) rows.add(row);
+  rows.add(with_bits(base.to_local(f.origin), f.box_x));
+  rows.add(with_bits(base.to_local(at.position), f.box_y));
 }
 
 bool is_one_contour(const std::vector<shadow::Segment>& outline) {
@@ -202,7 +202,7 @@ bool TileShadows::find(const Group& asked) {
   }
   for (const Point& point : found) {
     add_point(*point.side, point.at, asked.shares, values);
-    if (turned) add_plane(*point.side, *asked.base, point.at, values);
+    if (turned) add_plane(point.side->frame, *asked.base, point.at, rows);
     if (own_corners)
       for (const shadow::Segment& s : *point.side->outline) rows.add(s);
   }
