@@ -5,6 +5,7 @@
 
 #include "scene/emitters/emitters.h"
 #include "scene/emitters/keep_strongest.h"
+#include "scene/emitters/solid_meshes.h"
 #include "scene/framing.h"
 #include "scene/gltf/gltf_document.h"
 #include "scene/gltf/gltf_environment.h"
@@ -54,13 +55,14 @@ std::string percent(double share) {
   return text;
 }
 
-void say_what_was_dropped(const KeptLights& kept, std::size_t without_area, Warnings& warnings) {
+void say_what_was_dropped(const Scene& scene, const KeptLights& kept, std::size_t without_area, Warnings& warnings) {
   const std::string most = std::to_string(kept.most) + " are kept (max-lights)";
   if (without_area > 0) warnings.say(counted(without_area, "emissive triangle") + " without area dropped");
   if (kept.without_power > 0) warnings.say(counted(kept.without_power, "area light") + " without area or radiance dropped");
   if (kept.merged > 0)
     warnings.say(counted(kept.merged, "weak area light") + " of emissive meshes merged into the nearest that are kept of the same mesh, " +
-                 percent(kept.merged_share) + " of all power; " + most);
+                 percent(kept.merged_share) + " of all power; " + most +
+                 (solid_meshes(scene).empty() ? "" : "; render --shadows on takes closed meshes of one radiance whole"));
   if (kept.dropped > 0)
     warnings.say("the " + counted(kept.dropped, "weakest area light") + " dropped, " + percent(kept.dropped_share) + " of all power; " +
                  most);
@@ -127,7 +129,8 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
   const std::size_t without_area = add_emitters(scene, document.budget(), document.path);
   std::optional<std::size_t> most;
   if (options.max_lights) most = static_cast<std::size_t>(*options.max_lights);
-  say_what_was_dropped(keep_strongest(scene, most, document.budget(), document.path), without_area, warnings);
+  const KeptLights kept = keep_strongest(scene, most, document.budget(), document.path);
+  say_what_was_dropped(scene, kept, without_area, warnings);
 
   measure_bounds(scene);
   check_extent(scene, document.path);

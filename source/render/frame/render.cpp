@@ -152,8 +152,8 @@ class Renderer {
   // Rays that estimate shadows take the faces of closed meshes one by one.
   std::vector<PackLight> own_lights() const {
     std::vector<PackLight> lights = prepare_lights(scene_, surfaces_.environment_spots());
-    const bool by_outline =
-        options_.shadows == Shadows::on && !method_.estimates() && !(options_.time_limit > 0) && !(options_.shadow_error > 0);
+    const bool by_outline = options_.shadows == Shadows::on && !method_.estimates() && !(options_.time_limit > 0) &&
+                            !(options_.shadow_error > 0) && options_.bounces == 0;
     return by_outline ? with_solids(std::move(lights), scene_) : lights;
   }
 

@@ -1,7 +1,6 @@
 #include "render/lights/solid_lights.h"
 
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 
 #include "scene/emitters/solid_meshes.h"
@@ -36,28 +35,22 @@ std::vector<PackLight> with_solids(std::vector<PackLight> lights, const Scene& s
   std::vector<bool> replaced(lights.size(), false);
   std::vector<PackLight> solids;
   for (const scene::SolidMesh& mesh : meshes) {
-    std::map<std::uint32_t, std::uint32_t> faces;  // light to face
-    for (const std::uint32_t light : mesh.light_of) faces.emplace(light, 0);
-    std::uint32_t count = 0;
-    for (auto& [light, face] : faces) face = count++;
-    std::vector<std::uint32_t> face_of;
-    for (const std::uint32_t light : mesh.light_of) face_of.push_back(faces.at(light));
-    auto form = shadow::solid_light(mesh.triangles, face_of, axes_of(mesh.triangles));
-    const auto is_here = [&](const auto& face) { return place.contains(&scene.area_lights[face.first]); };
-    if (!form || !std::all_of(faces.begin(), faces.end(), is_here)) continue;
+    auto form = shadow::solid_light(mesh.triangles, mesh.face_of, axes_of(mesh.triangles));
+    std::vector<std::size_t> places;
+    for (const std::int32_t i : mesh.lights)
+      if (const auto found = place.find(&scene.area_lights[static_cast<std::size_t>(i)]); found != place.end())
+        places.push_back(found->second);
+    if (!form || places.empty()) continue;
     auto solid = std::make_shared<SolidPackLight>();
     solid->form = std::move(*form);
-    for (const auto& [light, face] : faces) {
-      const std::size_t at = place.at(&scene.area_lights[light]);
-      replaced[at] = true;
-      solid->faces.push_back(lights[at]);
-    }
+    for (const scene::MergedPolygon& face : mesh.faces) solid->faces.push_back(prepare_polygon({face.outline, face.holes}));
     PackLight light;
     light.shape = packed::Pieces();
-    light.radiance = solid->faces.front().radiance;
-    light.area = solid->faces.front().area;
+    light.radiance = static_cast<Vec3f>(mesh.radiance);
+    light.area = lights[places.front()].area;
     light.solid = std::move(solid);
     solids.push_back(std::move(light));
+    for (const std::size_t i : places) replaced[i] = true;
   }
   std::vector<PackLight> result;
   for (PackLight& light : lights)

@@ -8,13 +8,13 @@
 
 namespace steradian {
 
-// A closed mesh that shines evenly: its form, and its faces as lights of their own, for points in its midst.
+// A closed mesh that shines evenly: its form, and its faces for points in its midst.
 struct SolidPackLight {
   shadow::SolidLight form;
-  std::vector<PackLight> faces;
+  std::vector<PreparedPolygon> faces;
 };
 
-// Replaces the faces of closed meshes that shine evenly by one light each. The result is numbered anew. Only passes that see such a light
+// Replaces the lights of closed meshes that shine evenly by one light each. The result is numbered anew. Only passes that see such a light
 // by its edges can take it (ShadowPass).
 std::vector<PackLight> with_solids(std::vector<PackLight> lights, const Scene& scene);
 

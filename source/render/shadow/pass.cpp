@@ -55,7 +55,7 @@ ShadowPass::ShadowPass(const Scene& scene, const std::vector<PackLight>& lights,
     if (light.solid != nullptr) {
       solid.light = &light.solid->form;
       solid.own = shadow::triangles_of(*solid.light, mesh_);
-      for (const PackLight& face : light.solid->faces) solid.faces.push_back(flat_of(face.polygon));
+      for (const PreparedPolygon& face : light.solid->faces) solid.faces.push_back(flat_of(face));
     }
     if (light.is_round() && !is_disk(light)) {
       flat.body = Body::of(light.area->shape);

@@ -125,4 +125,41 @@ std::vector<MeshPart> mesh_parts(const std::vector<Triangle>& triangles) {
   return parts;
 }
 
+// For each mesh, the bounds of all other meshes, computed in one pass from either end.
+std::vector<Box3d> bounds_of_the_others(const Scene& scene) {
+  std::vector<Box3d> result(scene.meshes.size());
+  const auto pass = [&](auto begin, auto end, auto out) {
+    Box3d before;
+    for (auto mesh = begin; mesh != end; ++mesh, ++out) {
+      out->add(before);
+      for (const Vec3f& p : mesh->positions) before.add(static_cast<Vec3d>(p));
+    }
+  };
+  pass(scene.meshes.begin(), scene.meshes.end(), result.begin());
+  pass(scene.meshes.rbegin(), scene.meshes.rend(), result.rbegin());
+  return result;
+}
+
+namespace {
+
+// True if the part is a dome around all other meshes, which it lights.
+bool encloses(const MeshPart& part, const Box3d& others) {
+  const Vec3d a = others.low - part.box.low, b = part.box.high - others.high;
+  return !others.is_empty() && a.x > 0 && a.y > 0 && a.z > 0 && b.x > 0 && b.y > 0 && b.z > 0;
+}
+
+}  // namespace
+
+Shines where_it_shines(const SurfaceMaterial& m, const MeshPart& part, const Box3d& others) {
+  if (!part.closed || part.volume == 0) return Shines::as_the_file_says;
+  if (!m.double_sided) return part.volume > 0 ? Shines::outwards : Shines::as_the_file_says;
+  if (encloses(part, others)) return Shines::as_the_file_says;
+  return part.volume > 0 ? Shines::outwards : Shines::outwards_and_faces_inwards;
+}
+
+void turn_over(MergedPolygon& polygon) {
+  std::reverse(polygon.outline.begin(), polygon.outline.end());
+  for (std::vector<Vec3d>& hole : polygon.holes) std::reverse(hole.begin(), hole.end());
+}
+
 }  // namespace steradian::scene

@@ -6,6 +6,7 @@
 
 #include "core/box.h"
 #include "scene/emitters/merge_polygons.h"
+#include "steradian/scene.h"
 
 namespace steradian::scene {
 
@@ -20,5 +21,18 @@ struct MeshPart {
 
 // The parts of a list of triangles, in the order of their first triangles. Triangles with two equal corners belong to no part.
 std::vector<MeshPart> mesh_parts(const std::vector<Triangle>& triangles);
+
+// For each mesh, the bounds of all other meshes, computed in one pass from either end.
+std::vector<Box3d> bounds_of_the_others(const Scene& scene);
+
+// The side on which a mesh emits. Files set `doubleSided` on nearly everything. On a closed surface the far half would then shine through
+// the near one, so closed surfaces emit outwards. A dome around the scene is an exception: from inside, both sides are right.
+enum class Shines { as_the_file_says, outwards, outwards_and_faces_inwards };
+
+// others: bounds of the other meshes
+Shines where_it_shines(const SurfaceMaterial& m, const MeshPart& part, const Box3d& others);
+
+// Turns a polygon's front to the other side.
+void turn_over(MergedPolygon& polygon);
 
 }  // namespace steradian::scene

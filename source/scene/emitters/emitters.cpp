@@ -165,43 +165,6 @@ AreaLight to_round_light(const Scene& scene, const Mesh& mesh, const Shape& shap
   return light;
 }
 
-// For each mesh, the bounds of all other meshes, computed in one pass from either end.
-std::vector<Box3d> bounds_of_the_others(const Scene& scene) {
-  std::vector<Box3d> result(scene.meshes.size());
-  const auto pass = [&](auto begin, auto end, auto out) {
-    Box3d before;
-    for (auto mesh = begin; mesh != end; ++mesh, ++out) {
-      out->add(before);
-      for (const Vec3f& p : mesh->positions) before.add(static_cast<Vec3d>(p));
-    }
-  };
-  pass(scene.meshes.begin(), scene.meshes.end(), result.begin());
-  pass(scene.meshes.rbegin(), scene.meshes.rend(), result.rbegin());
-  return result;
-}
-
-// True if the part is a dome around all other meshes, which it lights.
-bool encloses(const MeshPart& part, const Box3d& others) {
-  const Vec3d a = others.low - part.box.low, b = part.box.high - others.high;
-  return !others.is_empty() && a.x > 0 && a.y > 0 && a.z > 0 && b.x > 0 && b.y > 0 && b.z > 0;
-}
-
-// The side on which a mesh emits. Files set `doubleSided` on nearly everything. On a closed surface the far half would then shine through
-// the near one, so closed surfaces emit outwards. A dome around the scene is an exception: from inside, both sides are right.
-enum class Shines { as_the_file_says, outwards, outwards_and_faces_inwards };
-
-Shines where_it_shines(const SurfaceMaterial& m, const MeshPart& part, const Box3d& others) {
-  if (!part.closed || part.volume == 0) return Shines::as_the_file_says;
-  if (!m.double_sided) return part.volume > 0 ? Shines::outwards : Shines::as_the_file_says;
-  if (encloses(part, others)) return Shines::as_the_file_says;
-  return part.volume > 0 ? Shines::outwards : Shines::outwards_and_faces_inwards;
-}
-
-void turn_outwards(MergedPolygon& polygon) {
-  std::reverse(polygon.outline.begin(), polygon.outline.end());
-  for (std::vector<Vec3d>& hole : polygon.holes) std::reverse(hole.begin(), hole.end());
-}
-
 double area_of(const std::vector<Triangle>& triangles, const MeshPart& part) {
   double area = 0;
   for (const std::size_t t : part.triangles)
@@ -241,7 +204,7 @@ std::size_t add_polygons(Scene& scene, Mesh& mesh, const std::vector<Triangle>& 
     for (const std::size_t t : parts[i].triangles) of_triangle[t] = shines[i];
   for (MergedPolygon& polygon : merged.polygons) {
     const Shines where = of_triangle[polygon.triangles.front()];
-    if (where == Shines::outwards_and_faces_inwards) turn_outwards(polygon);
+    if (where == Shines::outwards_and_faces_inwards) turn_over(polygon);
     for (const std::size_t t : polygon.triangles) mesh.triangle_lights[t] = static_cast<std::int32_t>(scene.area_lights.size());
     AreaLight light = to_light(scene, mesh, std::move(polygon));
     if (where != Shines::as_the_file_says) light.two_sided = false;

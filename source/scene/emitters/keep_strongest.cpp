@@ -1,7 +1,5 @@
 #include "scene/emitters/keep_strongest.h"
 
-#include "scene/emitters/solid_meshes.h"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -187,9 +185,7 @@ KeptLights keep_strongest(Scene& scene, std::optional<std::size_t> wanted, Budge
   result.without_power = scene.area_lights.size() - with_power.size();
   const std::vector<std::size_t> source = sources(scene);
   result.most = wanted.value_or(std::clamp(count_of(source, with_power), kFewest, kMost));
-  std::size_t places = with_power.size();
-  for (const SolidMesh& solid : solid_meshes(scene)) places -= solid.lights - 1;
-  if (result.most < places) {
+  if (result.most < with_power.size()) {
     keep = choose(scene.area_lights, source, scene.meshes.size() + scene.area_lights.size(), with_power, result.most);
     merge_into_kept(scene, source, with_power, keep, budget, path, result);
   }

@@ -25,8 +25,6 @@ struct KeptLights {
 // polygon of that mesh that faces the same way. If none does, it goes to the nearest. The radiance of that polygon grows. Throws Error if
 // this search would exceed the budget. path: the file's path, for its message.
 //
-// A closed mesh that shines evenly needs one place for all of its polygons, if all lights then fit.
-//
 // most: none: 256, or as many as there are meshes and single lights that emit, but no more than 65,536. A default for files shall not drop
 // lights that one pass may add up together (RenderOptions::lights).
 KeptLights keep_strongest(Scene& scene, std::optional<std::size_t> most, Budget& budget, const std::string& path);
