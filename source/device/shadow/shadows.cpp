@@ -138,14 +138,15 @@ ComputeProgram& Shadows::record(const Buffer& gates) {
   std::vector<ComputeProgram::Dispatch> dispatches;
   if (!names_.empty()) {
     const DeviceInfo& device = kept_.device.info();
+    const std::size_t count = begins_.back().point;
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
       const int space = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i]));
       dispatches.push_back({.pipeline = kept_.program.pipeline(0, {space, space, static_cast<int>(device.subgroup)}),
                             .push = number(i),
                             .groups = &kept_.answers.get(),
-                            .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i)});
+                            .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i),
+                            .units = i == 0 ? std::uint64_t{count} * device.subgroup : 0});  // few points go on to more space
     }
-    const std::size_t count = begins_.back().point;
     dispatches.push_back({kept_.program.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
   }
   kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get(), &gates},

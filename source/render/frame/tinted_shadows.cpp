@@ -78,7 +78,8 @@ void TintedShadows::clear(TileVector& v) {
 void TintedShadows::absorb(const Group& group, const TileVector& past_all, Sums& sums) {
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     const Vec3f blocked = get(sums.light, i) - get(past_all, i);
-    put(sums.arrives, i, get(sums.arrives, i) - Vec3f{std::max(blocked.x, 0.0f), std::max(blocked.y, 0.0f), std::max(blocked.z, 0.0f)} * group.absorbs);
+    put(sums.arrives, i,
+        get(sums.arrives, i) - Vec3f{std::max(blocked.x, 0.0f), std::max(blocked.y, 0.0f), std::max(blocked.z, 0.0f)} * group.absorbs);
   }
 }
 

@@ -98,7 +98,8 @@ TEST(TintedShadows, AgreeWithSampledLight) {
 
 // Light that meets no clear mesh is the same as without one.
 TEST(TintedShadows, LeaveOtherLightAsItIs) {
-  Scene scene = floor_below(quad_mesh({-2, 2, -2.9f}, {-1.9f, 2, -2.9f}, {-1.9f, 2.1f, -2.9f}, {-2, 2.1f, -2.9f}, 0), glass({0.5f, 0.5f, 0.5f, 1}));
+  Scene scene =
+      floor_below(quad_mesh({-2, 2, -2.9f}, {-1.9f, 2, -2.9f}, {-1.9f, 2.1f, -2.9f}, {-2, 2.1f, -2.9f}, 0), glass({0.5f, 0.5f, 0.5f, 1}));
   RenderOptions options;
   options.width = options.height = 16;
   options.shadows = Shadows::on;

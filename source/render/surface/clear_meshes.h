@@ -24,7 +24,7 @@ class ClearMeshes {
 
  private:
   std::vector<std::uint32_t> numbers_;
-  std::vector<Vec3f> at_face_;       // by mesh; 1 where it is not clear
+  std::vector<Vec3f> at_face_;           // by mesh; 1 where it is not clear
   std::vector<std::uint8_t> crossings_;  // by mesh
 };
 
