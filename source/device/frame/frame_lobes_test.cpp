@@ -154,4 +154,19 @@ TEST_F(VulkanFrame, LeavesBentCoatsInShadowToTheCpu) {
   expect_rendered_by_cpu(scene, options, "no shadows for the coat of material 'strip 0'");
 }
 
+TEST_F(VulkanFrame, LeavesTintedShadowsToTheCpu) {
+  Scene scene = strips({phong(20)});
+  SurfaceMaterial pane;
+  pane.name = "pane";
+  pane.transmission = 1;
+  scene.materials.push_back(pane);
+  scene.meshes.push_back(scene.meshes[0]);
+  scene.meshes.back().material = static_cast<int>(scene.materials.size()) - 1;
+  scene.meshes.back().casts_shadow = false;
+  scene.area_lights = {kQuad};
+  RenderOptions options = tiny("auto");
+  options.shadows = Shadows::on;
+  expect_rendered_by_cpu(scene, options, "no shadows of the clear material 'pane'");
+}
+
 }  // namespace steradian::vulkan::frame_lobes_test

@@ -187,15 +187,6 @@ TEST_F(VulkanFrame, AgreesWithTheCpuOnShadows) {
   }
   // The host sees tubes in their flat parts, since walls stand close to them.
   EXPECT_GT(expect_same("tubes, shadows", scene_of("tubes"), options), 0.01);
-  // Coats under bumps see other parts of lights than the layers below them.
-  Scene scene = everything();
-  scene.images.push_back({"", 1, 1, {150, 110, 240, 255}});
-  scene.materials[0].normal_texture.image = 0;
-  scene.meshes[0].texcoords[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (const char* method : {"auto", "ltc-compact"}) {
-    options.method = method;
-    expect_same("everything, shadows", scene, options);
-  }
 }
 
 // Covers every method and lobe.
