@@ -104,10 +104,31 @@ void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVecto
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
     const auto mirrors = std::make_unique<radiosity::Mirrors>();
     if (reflections_ > 0 && radiosity::find_mirrors(surfaces_.rays(), tile, distance, *mirrors)) {
-      const auto first = std::make_unique<radiosity::Mirrors>(*mirrors);
-      TileVector mirrored{};
-      const TilePlane reach = follow_mirrors(*mirrors, tile.seed, sample, reflections_, mirrored, error);
-      mirror_image_.take({tile, *first, reach, mirrored, shares, weight}, area);
+      const auto some = std::make_unique<radiosity::SomeMirrors>();
+      radiosity::StandsFor stands_for;
+      TileVector mirrored{}, error_of_mirrored{};
+      TilePlane reach;
+      reach.fill(std::numeric_limits<float>::infinity());
+      const auto trace = [&] {
+        TileVector of_some{}, error_of_some{};
+        const TilePlane reach_of_some = follow_mirrors(some->mirrors, tile.seed, sample, reflections_, of_some, error_of_some);
+        for (std::size_t i = 0; i < kTilePixels; ++i) {
+          const std::uint32_t slot = some->source[i];
+          if (slot == kNoSlot) continue;
+          reach[slot] = reach_of_some[i];
+          put(mirrored, slot, get(of_some, i));
+          put(error_of_mirrored, slot, get(error_of_some, i));
+        }
+      };
+      radiosity::choose_first(tile, *mirrors, mirror_image_.pixel(), stands_for, *some);
+      trace();
+      if (radiosity::choose_rest(*mirrors, mirror_image_.pixel(), reach, stands_for, *some)) trace();
+      for (int y = 0; y < kTileSide; ++y)
+        for (int x = 0; x < kTileSide; ++x) {
+          const std::size_t slot = tile_slot(x, y), from = stands_for[slot] != 0 ? slot : tile_slot(x & ~1, y & ~1);
+          if (mirrors->ways.bent[slot] != 0) steradian::add(error, slot, get(error_of_mirrored, from));
+        }
+      mirror_image_.take({tile, *mirrors, stands_for, reach, mirrored, shares, weight}, area);
       for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(light, i, get(mirrored, i));
     }
     for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));

@@ -13,8 +13,8 @@ namespace steradian::radiosity {
 namespace {
 
 constexpr float kSharp = 1e-3f;      // alpha below which a lobe is narrower than a pixel of any picture
-constexpr float kWidest = 12;        // half vectors farther out than so many alphas hold 0.7 % of a lobe
-constexpr float kFine = 0.25f;       // size of a block over the distance in which the lobe changes, at the lobe's middle ...
+constexpr float kWidest = 8;         // half vectors farther out than so many alphas hold 1.5 % of a lobe
+constexpr float kFine = 0.33f;       // size of a block over the distance in which the lobe changes, at the lobe's middle ...
 constexpr float kCoarse = 0.5f;      // ... and far out, where little of the lobe is
 constexpr float kContinuous = 0.9f;  // cosine between normals of neighbours on one smooth surface
 
@@ -165,12 +165,14 @@ void MirrorImage::take(const Taken& taken, TileArea area) {
         pixel.alpha_y = mirrors.alpha_y[slot];
         pixel.length = mirrors.ways.length[slot] + reach;
         pixel.material = taken.tile.material[slot];
+        pixel.stands_for = taken.stands_for[slot];
         tile.pixels.push_back(pixel);
         number = static_cast<std::uint16_t>(tile.pixels.size());
       }
       Pixel& pixel = tile.pixels[number - 1u];
       const Vec3f arrives = (taken.shares != nullptr ? get(*taken.shares, slot) : Vec3f{1, 1, 1}) * taken.weight;
       pixel.share += get(mirrors.ways.shares, slot) * arrives;
+      if (taken.stands_for[slot] != 0) pixel.traced_share += get(mirrors.ways.shares, slot) * arrives;
       pixel.light += get(taken.light, slot) * arrives;
     }
 }
@@ -213,8 +215,9 @@ void MirrorImage::blur(Picture& picture) const {
   cells.levels.push_back({width_, height_, std::vector<Cells::Cell>(picture.pixels.size())});
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     const Pixel& pixel = *all[i];
-    const float area = footprint(pixel, at);
-    cells.levels[0].cells[place(pixel)] = {pixel.place, divided(pixel.light, pixel.share), area,
+    if (pixel.stands_for == 0) return;
+    const float area = footprint(pixel, at) * static_cast<float>(pixel.stands_for);
+    cells.levels[0].cells[place(pixel)] = {pixel.place, divided(pixel.light, pixel.traced_share), area,
                                            std::sqrt(area / std::numbers::pi_v<float>), pixel.material};
   });
   cells.add_levels();

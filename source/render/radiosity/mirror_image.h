@@ -1,8 +1,8 @@
 // MirrorImage: what the mirrors of a picture show, blurred by their lobes. docs/bounces.md.
 //
-// Each mirror pixel has traced one ray, and what it met is lit. For the lobe of a pixel, the places that its neighbours have met are
-// samples of what it sees: each stands for the solid angle of its pixel's footprint there. So a pixel's image is the mean of theirs,
-// weighted by its lobe. Blocks of 2^k x 2^k pixels count as one place where the lobe hardly changes over them.
+// Mirror pixels have traced one ray each, or one for 2 x 2 pixels, and what they met is lit. For the lobe of a pixel, the places that its
+// neighbours have met are samples of what it sees: each stands for the solid angle of its pixel's footprint there. So a pixel's image is
+// the mean of theirs, weighted by its lobe. Blocks of 2^k x 2^k pixels count as one place where the lobe hardly changes over them.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,11 @@ class MirrorImage {
   // pixel: size of a pixel at distance 1 before the camera. far: the distance of what mirrored rays do not meet.
   MirrorImage(int width, int height, float pixel, float far);
 
+  float pixel() const { return pixel_; }
+
   // The mirrors of a tile.
   //
+  //   stands_for  number of pixels that the ray of each stands for; 0: it was not traced
   //   reach   way of each mirrored ray to what it met; infinity where it met nothing
   //   light   that the mirrors send to the viewer, before the blur
   //   shares  fraction of it that arrives; null for all
@@ -27,6 +30,7 @@ class MirrorImage {
   struct Taken {
     const SurfaceTile& tile;
     const Mirrors& mirrors;
+    const StandsFor& stands_for;
     const TilePlane& reach;
     const TileVector& light;
     const TileVector* shares;
@@ -44,7 +48,8 @@ class MirrorImage {
     int x = 0, y = 0;
     Vec3f position, normal, tangent, view, direction, place;  // place: that the ray met
     float alpha_x = 0, alpha_y = 0, length = 0;               // length: from the viewer to the place
-    Vec3f share, light;
+    Vec3f share, traced_share, light;                         // traced_share: of the samples that were traced
+    int stands_for = 1;
     const SurfaceMaterial* material = nullptr;
   };
   struct Tile {

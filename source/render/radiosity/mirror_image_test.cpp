@@ -45,6 +45,8 @@ Picture picture_of(float alpha_x, float alpha_y) {
   const auto mirrors = std::make_unique<radiosity::Mirrors>();
   const auto light = std::make_unique<TileVector>();
   TilePlane reach;
+  radiosity::StandsFor stands_for;
+  stands_for.fill(1);
   for (int top = 0; top < kSide; top += kTileSide)
     for (int left = 0; left < kSide; left += kTileSide) {
       for (int y = 0; y < kTileSide; ++y)
@@ -67,7 +69,7 @@ Picture picture_of(float alpha_x, float alpha_y) {
           put(*light, slot, {value, value, value});
           picture.at(left + x, top + y) = {value, value, value};
         }
-      image.take({*tile, *mirrors, reach, *light, nullptr, 1}, {left, top, kTileSide, kTileSide});
+      image.take({*tile, *mirrors, stands_for, reach, *light, nullptr, 1}, {left, top, kTileSide, kTileSide});
     }
   image.blur(picture);
   return picture;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace steradian::radiosity {
@@ -78,6 +79,109 @@ bool find_mirrors(const RayScene& rays, const SurfaceTile& tile, const TilePlane
     any = true;
   }
   return any;
+}
+
+namespace {
+
+constexpr int kSquare = 8;    // pixels along the side of a square in which all pixels are treated alike
+constexpr float kPixels = 8;  // least width of a lobe in pixels
+
+// Width of a lobe in pixels of what it shows at a distance.
+float width_in_pixels(const Mirrors& mirrors, std::size_t slot, float pixel, float reach) {
+  const float near = reach < std::numeric_limits<float>::infinity() ? reach / (mirrors.ways.length[slot] + reach) : 1.0f;
+  return 2 * std::min(mirrors.alpha_x[slot], mirrors.alpha_y[slot]) / pixel * near;
+}
+
+// True if the mirror in `slot` continues the one in `other`.
+bool continues(const SurfaceTile& tile, const Mirrors& mirrors, std::size_t slot, std::size_t other) {
+  constexpr float kSameWay = 0.98f;  // cosine
+  return mirrors.ways.bent[other] != 0 && tile.material[slot] == tile.material[other] &&
+         dot(get(mirrors.normal, slot), get(mirrors.normal, other)) > kSameWay;
+}
+
+// Puts mirrors into slots, one after another.
+class Collector {
+ public:
+  Collector(const Mirrors& from, SomeMirrors& to) : from_(from), to_(to) {
+    PassedRays::Ways& ways = to.mirrors.ways;
+    ways.behind.fill(0);
+    ways.bent.fill(0);
+    for (TilePlane* plane : {&ways.shares.x, &ways.shares.y, &ways.shares.z}) plane->fill(0);
+    to.source.fill(kNoSlot);
+  }
+  void put_next(std::size_t slot) {
+    const std::size_t i = next_++;
+    if (from_.ways.bent[slot] == 0) return;
+    PassedRays::Ways& ways = to_.mirrors.ways;
+    to_.source[i] = static_cast<std::uint32_t>(slot);
+    ways.bent[i] = 1;
+    put(ways.shares, i, get(from_.ways.shares, slot));
+    put(ways.origin, i, get(from_.ways.origin, slot));
+    put(ways.direction, i, get(from_.ways.direction, slot));
+    ways.length[i] = from_.ways.length[slot];
+  }
+  // The next sixteen slots begin a block of their own.
+  void begin_block() { next_ = (next_ + 15) / 16 * 16; }
+  bool empty() const { return next_ == 0; }
+
+ private:
+  const Mirrors& from_;
+  SomeMirrors& to_;
+  std::size_t next_ = 0;
+};
+
+template <class Use>  // use(x, y): the left upper pixel of each square of a tile
+void each_square(Use use) {
+  for (int y = 0; y < kTileSide; y += kSquare)
+    for (int x = 0; x < kTileSide; x += kSquare) use(x, y);
+}
+
+}  // namespace
+
+void choose_first(const SurfaceTile& tile, const Mirrors& mirrors, float pixel, StandsFor& stands_for, SomeMirrors& some) {
+  stands_for.fill(0);
+  Collector collector(mirrors, some);
+  each_square([&](int x, int y) {
+    bool any = false, sparse = true;
+    for (int k = 0; k < kSquare * kSquare; ++k) {
+      const int px = x + k % kSquare, py = y + k / kSquare;
+      const std::size_t slot = tile_slot(px, py);
+      if (mirrors.ways.bent[slot] == 0) continue;
+      any = true;
+      sparse = sparse && width_in_pixels(mirrors, slot, pixel, std::numeric_limits<float>::infinity()) > kPixels &&
+               continues(tile, mirrors, slot, tile_slot(px & ~1, py & ~1));
+    }
+    if (!any) return;
+    const int step = sparse ? 2 : 1;
+    for (int top = y; top < y + kSquare; top += 4 * step)
+      for (int left = x; left < x + kSquare; left += 4 * step)
+        for (int k = 0; k < 16; ++k) collector.put_next(tile_slot(left + k % 4 * step, top + k / 4 * step));
+    for (int k = 0; k < kSquare * kSquare; ++k) {
+      const int px = x + k % kSquare, py = y + k / kSquare;
+      if (mirrors.ways.bent[tile_slot(px, py)] != 0) ++stands_for[sparse ? tile_slot(px & ~1, py & ~1) : tile_slot(px, py)];
+    }
+  });
+}
+
+bool choose_rest(const Mirrors& mirrors, float pixel, const TilePlane& reach, StandsFor& stands_for, SomeMirrors& some) {
+  Collector collector(mirrors, some);
+  each_square([&](int x, int y) {
+    bool sparse = false, near = false;
+    for (int k = 0; k < kSquare * kSquare; ++k) {
+      const std::size_t slot = tile_slot(x + k % kSquare, y + k / kSquare);
+      if (mirrors.ways.bent[slot] == 0) continue;
+      sparse = sparse || stands_for[slot] == 0;
+      near = near || (stands_for[slot] != 0 && width_in_pixels(mirrors, slot, pixel, reach[slot]) < kPixels);
+    }
+    if (!sparse || !near) return;
+    collector.begin_block();
+    for (int k = 0; k < kSquare * kSquare; ++k) {
+      const std::size_t slot = tile_slot(x + k % kSquare, y + k / kSquare);
+      if (mirrors.ways.bent[slot] != 0 && stands_for[slot] == 0) collector.put_next(slot);
+      if (mirrors.ways.bent[slot] != 0) stands_for[slot] = 1;
+    }
+  });
+  return !collector.empty();
 }
 
 }  // namespace steradian::radiosity

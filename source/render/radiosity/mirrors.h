@@ -1,6 +1,9 @@
 // Mirrors: the rays along which narrow lobes show other surfaces to the viewer, one for each surface of a tile.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "render/surface/passed_rays.h"
 
 namespace steradian::radiosity {
@@ -14,6 +17,22 @@ struct Mirrors {
 
 // Finds a tile's mirrors. distance: of the tile's surfaces from the viewer, along the way. Returns false if there is no mirror.
 bool find_mirrors(const RayScene& rays, const SurfaceTile& tile, const TilePlane& distance, Mirrors& mirrors);
+
+// Number of pixels that the ray of each stands for; 0: it has no ray.
+using StandsFor = std::array<std::uint8_t, kTilePixels>;
+
+// Some mirrors of a tile, side by side in the slots of another one.
+struct SomeMirrors {
+  Mirrors mirrors;
+  std::array<std::uint32_t, kTilePixels> source;  // of each slot: the slot in the original tile, or kNoSlot
+};
+// Chooses the mirrors whose rays are traced first: one pixel of 2 x 2 stands for all four where lobes are many pixels wide.
+//
+//   pixel  size of a pixel at distance 1
+void choose_first(const SurfaceTile& tile, const Mirrors& mirrors, float pixel, StandsFor& stands_for, SomeMirrors& some);
+// Chooses the rest where that was not enough: what the first rays met is so near that the lobes spread over few pixels of it. reach: of the
+// first rays. Returns false if there is none.
+bool choose_rest(const Mirrors& mirrors, float pixel, const TilePlane& reach, StandsFor& stands_for, SomeMirrors& some);
 
 // Fraction of a GGX lobe's light from other surfaces that mirrored rays show. The lobe's own directions (Gather) show the rest. Narrow
 // lobes are all mirror, and wide ones none; both join without a step.
