@@ -12,6 +12,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
+from png_files import read_png  # noqa: E402
+
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--virtual-time-budget=30000", "--window-size=1200,900"]
 
@@ -33,31 +36,6 @@ def check_numbers(program, folder, methods):
     return report
 
 
-def png_pixels(path):  # of a PNG of 8-bit RGB rows, as the program writes it
-    import struct
-    import zlib
-    data, at, idat = path.read_bytes(), 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height = struct.unpack(">II", data[at + 8:at + 16])
-        if kind == b"IDAT":
-            idat += data[at + 8:at + 8 + length]
-        at += 12 + length
-    raw, rows, last = zlib.decompress(idat), [], bytearray(3 * width)
-    for y in range(height):
-        line = raw[y * (3 * width + 1):(y + 1) * (3 * width + 1)]
-        row = bytearray(line[1:])
-        for i in range(3 * width):
-            a, b, c = (row[i - 3] if i > 2 else 0), last[i], (last[i - 3] if i > 2 else 0)
-            p = a + b - c
-            paeth = min(((abs(p - v), k, v) for k, v in enumerate((a, b, c))))[2]
-            row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[line[0]]) & 255
-        rows.append(row)
-        last = row
-    return rows
-
-
 def browser_report(browser, page):
     with tempfile.TemporaryDirectory() as profile:
         done = subprocess.run([browser, *FLAGS, f"--user-data-dir={profile}", "--dump-dom", f"file://{page}#test"], capture_output=True,
@@ -75,7 +53,7 @@ def check_page(browser, program, folder, scene, report, size):
     if scene.suffix == ".svg":  # whose reference `render` gives at once
         png = folder / "reference.png"
         run(program, "render", scene, "-o", png, "--exposure", report["exposure"], *size)
-        rows = png_pixels(png)
+        rows = read_png(png)
         for x, y, *rgb in got["pixels"]:
             want = rows[y][3 * x:3 * x + 3]
             assert max(abs(a - b) for a, b in zip(rgb, want)) <= 2, (x, y, rgb, list(want))

@@ -6,37 +6,20 @@ usage: view_test.py PROGRAM SCENES OUT      OUT/*.png are the screenshots; exit 
 import json
 import os
 import shutil
-import struct
 import subprocess
 import sys
-import zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
+from png_files import read_png  # noqa: E402
 
 PROGRAM, SCENES, OUT = (Path(a).resolve() for a in sys.argv[1:4])
 
 
 def pixels(path):
-    """Width, height and the rows of an 8-bit RGB PNG whose rows have no or any filter."""
-    data, at, body = path.read_bytes(), 8, b""
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height = struct.unpack(">II", data[at + 8:at + 16])
-        if kind == b"IDAT":
-            body += data[at + 8:at + 8 + size]
-        at += 12 + size
-    raw, rows, last, stride = zlib.decompress(body), [], bytearray(3 * width), 3 * width
-    for y in range(height):
-        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for x in range(stride):
-            a, b, c = row[x - 3] if x >= 3 else 0, last[x], last[x - 3] if x >= 3 else 0
-            if kind == 4:
-                p = a + b - c
-                near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-            row[x] = (row[x] + [0, a, b, (a + b) // 2, near if kind == 4 else 0][kind]) & 255
-        rows.append(bytes(row))
-        last = row
-    return width, height, rows
+    """Width, height and the rows of a PNG."""
+    rows = read_png(path)
+    return len(rows[0]) // 3, len(rows), rows
 
 
 def play(scene, events, *options, **variables):

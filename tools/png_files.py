@@ -20,12 +20,15 @@ def read_png(path):
     raw, rows, before = zlib.decompress(packed), [], bytearray(width * step)
     for y in range(height):
         code, line = raw[y * (width * step + 1)], bytearray(raw[y * (width * step + 1) + 1 : (y + 1) * (width * step + 1)])
-        for x in range(len(line)):
+        for x in range(len(line) if code != 0 else 0):
             a, b = line[x - step] if x >= step else 0, before[x]
-            c = before[x - step] if x >= step else 0
-            nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]  # Paeth
-            line[x] = (line[x] + (0, a, b, (a + b) // 2, nearest)[code]) & 255
-        rows.append(b"".join(bytes(line[x : x + 3]) for x in range(0, len(line), step)))
+            if code == 4:  # Paeth
+                c = before[x - step] if x >= step else 0
+                near = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+            else:
+                near = (0, a, b, (a + b) // 2)[code]
+            line[x] = (line[x] + near) & 255
+        rows.append(bytes(line) if step == 3 else b"".join(bytes(line[x : x + 3]) for x in range(0, len(line), step)))
         before = line
     return rows
 

@@ -12,12 +12,14 @@ import sys
 import tempfile
 import threading
 import urllib.parse
-import zlib
 from http.server import ThreadingHTTPServer
 from pathlib import Path
 
 import three_test as common
 from three_test import browser, np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools"))
+from png_files import read_png, write_png  # noqa: E402
 
 WIDTH, HEIGHT = 320, 240  # of lightmap.js
 SHARE, STEPS = 0.99, 2  # of the pixels are within so many 255ths of white
@@ -98,47 +100,15 @@ def main():
         threading.Thread(target=server.serve_forever, daemon=True).start()
         words = common.page_words(chromium, f"http://127.0.0.1:{server.server_address[1]}/test/lightmap.html")
         got = np.frombuffer(base64.b64decode(words), np.float32).reshape(HEIGHT, WIDTH, 4)[::-1, :, :3]
-        want = png_of((scratch / "want.png").read_bytes())
+        want = np.array([np.frombuffer(row, np.uint8).reshape(-1, 3) for row in read_png(scratch / "want.png")]).astype(int)
         off = np.abs(np.round(255 * srgb(got)) - want).max(axis=-1)
         within = (off <= STEPS).mean()
         if len(sys.argv) > 3:
-            Path(sys.argv[3]).write_bytes(as_png(np.concatenate([np.round(255 * srgb(got)), want], axis=1).astype(np.uint8)))
+            write_png(sys.argv[3], [row.tobytes() for row in np.concatenate([np.round(255 * srgb(got)), want], axis=1).astype(np.uint8)])
         print(f"{100 * within:.2f} % of the pixels are within {STEPS}/255, the mean is off by {off.mean():.2f}/255, the last hundredth by {np.quantile(off, 0.99):.0f}/255; "
               f"the picture's mean is {want.mean():.0f}/255")
         assert 30 < want.mean() < 225, "the picture is too dark or too bright to judge"
         sys.exit(bool(within < SHARE))
-
-
-def as_png(pixels):
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    height, width = pixels.shape[:2]
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
-
-
-def png_of(data):
-    """The bytes of an 8-bit RGB PNG."""
-    at, parts = 8, b""
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height = struct.unpack(">II", data[at + 8:at + 16])
-        if kind == b"IDAT":
-            parts += data[at + 8:at + 8 + size]
-        at += 12 + size
-    raw, rows, above = zlib.decompress(parts), [], np.zeros(3 * width + 3, int)
-    for y in range(height):
-        line = np.frombuffer(raw, np.uint8, 3 * width, y * (3 * width + 1) + 1).astype(int)
-        kind, row = raw[y * (3 * width + 1)], np.zeros(3 * width + 3, int)
-        for i in range(3 * width):
-            a, b, c = row[i], above[i + 3], above[i]
-            nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
-            row[i + 3] = (line[i] + [0, a, b, (a + b) // 2, nearest][kind]) % 256
-        rows.append(row[3:].reshape(width, 3))
-        above = row
-    return np.array(rows)
 
 
 if __name__ == "__main__":
