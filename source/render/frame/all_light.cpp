@@ -96,41 +96,46 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
   return reach;
 }
 
+// Adds the light that a tile's mirrors show, and keeps it for the blur.
+void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, TileArea area, int sample, Arrives arrives,
+                            TileVector& light, TileVector& error) {
+  const auto mirrors = std::make_unique<radiosity::Mirrors>();
+  if (!radiosity::find_mirrors(surfaces_.rays(), tile, distance, *mirrors)) return;
+  const auto some = std::make_unique<radiosity::SomeMirrors>();
+  radiosity::StandsFor stands_for;
+  TileVector mirrored{}, error_of_mirrored{};
+  TilePlane reach;
+  reach.fill(std::numeric_limits<float>::infinity());
+  const auto trace = [&] {
+    TileVector of_some{}, error_of_some{};
+    const TilePlane reach_of_some = follow_mirrors(some->mirrors, tile.seed, sample, reflections_, of_some, error_of_some);
+    for (std::size_t i = 0; i < kTilePixels; ++i) {
+      const std::uint32_t slot = some->source[i];
+      if (slot == kNoSlot) continue;
+      reach[slot] = reach_of_some[i];
+      put(mirrored, slot, get(of_some, i));
+      put(error_of_mirrored, slot, get(error_of_some, i));
+    }
+  };
+  radiosity::choose_first(tile, *mirrors, mirror_image_.pixel(), stands_for, *some);
+  trace();
+  if (radiosity::choose_rest(*mirrors, mirror_image_.pixel(), reach, stands_for, *some)) trace();
+  for (int y = 0; y < kTileSide; ++y)
+    for (int x = 0; x < kTileSide; ++x) {
+      const std::size_t slot = tile_slot(x, y), from = radiosity::traced_slot(stands_for, x, y);
+      if (mirrors->ways.bent[slot] != 0) steradian::add(error, slot, get(error_of_mirrored, from));
+    }
+  mirror_image_.take({tile, *mirrors, stands_for, reach, mirrored, arrives.shares, arrives.weight}, area);
+  for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(light, i, get(mirrored, i));
+}
+
 void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture) {
   TileVector light{}, error{};
   clock_.run([&] {
     gather(tile, sample, light, error);
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
-    const auto mirrors = std::make_unique<radiosity::Mirrors>();
-    if (reflections_ > 0 && radiosity::find_mirrors(surfaces_.rays(), tile, distance, *mirrors)) {
-      const auto some = std::make_unique<radiosity::SomeMirrors>();
-      radiosity::StandsFor stands_for;
-      TileVector mirrored{}, error_of_mirrored{};
-      TilePlane reach;
-      reach.fill(std::numeric_limits<float>::infinity());
-      const auto trace = [&] {
-        TileVector of_some{}, error_of_some{};
-        const TilePlane reach_of_some = follow_mirrors(some->mirrors, tile.seed, sample, reflections_, of_some, error_of_some);
-        for (std::size_t i = 0; i < kTilePixels; ++i) {
-          const std::uint32_t slot = some->source[i];
-          if (slot == kNoSlot) continue;
-          reach[slot] = reach_of_some[i];
-          put(mirrored, slot, get(of_some, i));
-          put(error_of_mirrored, slot, get(error_of_some, i));
-        }
-      };
-      radiosity::choose_first(tile, *mirrors, mirror_image_.pixel(), stands_for, *some);
-      trace();
-      if (radiosity::choose_rest(*mirrors, mirror_image_.pixel(), reach, stands_for, *some)) trace();
-      for (int y = 0; y < kTileSide; ++y)
-        for (int x = 0; x < kTileSide; ++x) {
-          const std::size_t slot = tile_slot(x, y), from = stands_for[slot] != 0 ? slot : tile_slot(x & ~1, y & ~1);
-          if (mirrors->ways.bent[slot] != 0) steradian::add(error, slot, get(error_of_mirrored, from));
-        }
-      mirror_image_.take({tile, *mirrors, stands_for, reach, mirrored, shares, weight}, area);
-      for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(light, i, get(mirrored, i));
-    }
+    if (reflections_ > 0) add_mirrored(tile, distance, area, sample, {shares, weight}, light, error);
     for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));
   });
   add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);

@@ -34,6 +34,13 @@ class AllLight {
 
  private:
   void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
+  // Fraction of a tile's light that arrives at the camera (null: all), and the weight of its samples.
+  struct Arrives {
+    const TileVector* shares;
+    float weight;
+  };
+  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, TileArea area, int sample, Arrives arrives, TileVector& light,
+                    TileVector& error);
   TilePlane follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t seed, int sample, int depth, TileVector& light,
                            TileVector& error) const;
 

@@ -92,6 +92,9 @@ float width_in_pixels(const Mirrors& mirrors, std::size_t slot, float pixel, flo
   return 2 * std::min(mirrors.alpha_x[slot], mirrors.alpha_y[slot]) / pixel * near;
 }
 
+// Slot of the pixel that stands for those of its 2 x 2.
+std::size_t standing_slot(int x, int y) { return tile_slot(x & ~1, y & ~1); }
+
 // True if the mirror in `slot` continues the one in `other`.
 bool continues(const SurfaceTile& tile, const Mirrors& mirrors, std::size_t slot, std::size_t other) {
   constexpr float kSameWay = 0.98f;  // cosine
@@ -149,7 +152,7 @@ void choose_first(const SurfaceTile& tile, const Mirrors& mirrors, float pixel, 
       if (mirrors.ways.bent[slot] == 0) continue;
       any = true;
       sparse = sparse && width_in_pixels(mirrors, slot, pixel, std::numeric_limits<float>::infinity()) > kPixels &&
-               continues(tile, mirrors, slot, tile_slot(px & ~1, py & ~1));
+               continues(tile, mirrors, slot, standing_slot(px, py));
     }
     if (!any) return;
     const int step = sparse ? 2 : 1;
@@ -158,9 +161,14 @@ void choose_first(const SurfaceTile& tile, const Mirrors& mirrors, float pixel, 
         for (int k = 0; k < 16; ++k) collector.put_next(tile_slot(left + k % 4 * step, top + k / 4 * step));
     for (int k = 0; k < kSquare * kSquare; ++k) {
       const int px = x + k % kSquare, py = y + k / kSquare;
-      if (mirrors.ways.bent[tile_slot(px, py)] != 0) ++stands_for[sparse ? tile_slot(px & ~1, py & ~1) : tile_slot(px, py)];
+      if (mirrors.ways.bent[tile_slot(px, py)] != 0) ++stands_for[sparse ? standing_slot(px, py) : tile_slot(px, py)];
     }
   });
+}
+
+std::size_t traced_slot(const StandsFor& stands_for, int x, int y) {
+  const std::size_t slot = tile_slot(x, y);
+  return stands_for[slot] != 0 ? slot : standing_slot(x, y);
 }
 
 bool choose_rest(const Mirrors& mirrors, float pixel, const TilePlane& reach, StandsFor& stands_for, SomeMirrors& some) {

@@ -34,6 +34,9 @@ void choose_first(const SurfaceTile& tile, const Mirrors& mirrors, float pixel, 
 // first rays. Returns false if there is none.
 bool choose_rest(const Mirrors& mirrors, float pixel, const TilePlane& reach, StandsFor& stands_for, SomeMirrors& some);
 
+// Slot of the pixel whose ray shows what the mirror of pixel (x, y) of a tile shows.
+std::size_t traced_slot(const StandsFor& stands_for, int x, int y);
+
 // Fraction of a GGX lobe's light from other surfaces that mirrored rays show. The lobe's own directions (Gather) show the rest. Narrow
 // lobes are all mirror, and wide ones none; both join without a step.
 float mirrored_fraction(float alpha_x, float alpha_y);

@@ -11,7 +11,6 @@ namespace steradian {
 
 class ClearMeshes {
  public:
-  // The scene must outlive this object.
   explicit ClearMeshes(const Scene& scene);
 
   bool empty() const { return numbers_.empty(); }
