@@ -73,6 +73,7 @@ class Pictures:
         scene.view_settings.view_transform = "Raw"
         scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.max_bounces, scene.cycles.seed = samples, False, 0, 1
         scene.world.cycles.max_bounces = 0
+        scene.steradian.indirect = "off"
         self.lambertian = []  # materials whose diffuse lobe is Lambert's for Cycles, too, which is glTF's; Principled's is Disney's
 
     def render(self, engine, width, height):

@@ -63,13 +63,20 @@ def test_settings(steradian, scene):
         for shadows in ("on", "off"):
             for terminator in ("smooth", "strict"):
                 for environment in ("world", "sky", "white", "none"):
-                    settings = types.SimpleNamespace(method="auto", shadows=shadows, terminator=terminator, environment=environment, indirect="off")
+                    settings = types.SimpleNamespace(method="auto", shadows=shadows, terminator=terminator, environment=environment, indirect="all")
                     command = program.render_command(scene, folder + "/x.exr", 16, 9, settings, 1, None)
                     assert ("--terminator" in command) == (shadows == "on"), command
+                    assert command[command.index("--bounces") + 1] == "all" and "--indirect" not in command, command
                     assert ("--environment" in command) == (environment in ("sky", "white")), command
                     run, _ = ended(command)
                     assert run.process.returncode == 0, (command, run.lines())
                     commands.append(command)
+        for indirect in ("off", "ltc", "path"):
+            settings.indirect = indirect
+            command = program.render_command(scene, folder + "/x.exr", 16, 9, settings, 1, None)
+            assert command[command.index("--indirect") + 1] == indirect and "--bounces" not in command, command
+        settings.indirect = "all"
+        assert "--bounces" not in program.render_command(scene, folder + "/x.exr", 16, 9, settings, 1, None, direct_only=True)
         settings.environment = "world"
         assert "map.exr" in program.render_command(scene, folder + "/x.exr", 16, 9, settings, 1, "map.exr")
     print(f"{len(commands)} commands")

@@ -124,6 +124,6 @@ add_test(NAME Build.TimesAreRead COMMAND Python3::Interpreter ${PROJECT_SOURCE_D
 # The rules of the house that hold everywhere; `tools/house.py` alone prints the figures of all.
 set(house Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/house.py)
 add_test(NAME House.BrokenRulesAreFound COMMAND ${house} --test)
-foreach(rule comments folders pages)
+foreach(rule comments constants folders mirrors pages types)
   add_test(NAME House.Holds_${rule} COMMAND ${house} --check ${rule})
 endforeach()

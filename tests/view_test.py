@@ -49,10 +49,10 @@ def space():
     assert pixels(OUT / "space-rest.png") == pixels(OUT / "space.png"), "the window shows what the picture's file holds"
     assert pixels(OUT / "space-light.png") != pixels(OUT / "space-rest.png"), "handles are drawn"
     assert pixels(OUT / "space-undone.png") == pixels(OUT / "space-first.png"), "undone, it is as it was"
-    render("space.glb", "again.exr", "--size", "400x225")
+    render("space.glb", "again.exr", "--size", "400x225", "--bounces", "all")
     said = subprocess.run([PROGRAM, "diff", "space.exr", "again.exr"], cwd=OUT, capture_output=True, text=True)
     print("saved scene, rendered:", said.stdout.strip())
-    render("space.glb", "again.png", "--size", "400x225", "--exposure", "0")
+    render("space.glb", "again.png", "--size", "400x225", "--exposure", "0", "--bounces", "all")
     assert pixels(OUT / "again.png") == pixels(OUT / "space.png"), "the saved scene renders to what was seen"
 
 
@@ -92,7 +92,7 @@ def polygon():
     print("corner", (x, y), "dragged to", out, "is seen at", min(moved, key=lambda c: abs(c[0] - out[0]) + abs(c[1] - out[1])))
     assert any(abs(c[0] - out[0]) <= 2 and abs(c[1] - out[1]) <= 2 for c in moved), (out, moved)
     assert pixels(OUT / "corner-lobe.png") == pixels(OUT / "corner.png"), "the tone curve of the window is the file's"
-    render("corner.glb", "corner-again.png", "--size", "400x225", "--exposure", "0", "--tone", "filmic")
+    render("corner.glb", "corner-again.png", "--size", "400x225", "--exposure", "0", "--tone", "filmic", "--bounces", "all")
     assert pixels(OUT / "corner-again.png") == pixels(OUT / "corner.png")
     assert sum(map(sum, pixels(OUT / "corner.png")[2])) > 20 * 3 * 400 * 225, "and there is something to be seen"
 

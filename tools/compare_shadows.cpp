@@ -22,8 +22,9 @@ double geometric_mean(const std::vector<ShadowScene>& scenes, std::size_t row, d
 }
 
 // A method's points of the plot, over all scenes: one for each of its rows.
-moment::Curve curve_of(const std::vector<ShadowScene>& scenes, const std::string& name, const std::vector<std::size_t>& rows, int colour) {
-  moment::Curve curve;
+moment::PlotCurve curve_of(const std::vector<ShadowScene>& scenes, const std::string& name, const std::vector<std::size_t>& rows,
+                           int colour) {
+  moment::PlotCurve curve;
   curve.name = name;
   curve.colour = colour;
   for (const std::size_t row : rows)

@@ -5,7 +5,8 @@
     tools/house.py --check RULE    exit 1 and print each place that breaks RULE:
                                    comments   a comment begins with Of, What, Whether, Where, Those or Who
                                    mirrors    a shader says that its text repeats a file of source/
-                                   types      two types have one name
+                                   constants  a shader holds a number of four digits, zeros not counted, that a kernel holds
+                                   types      two types have one name (a type within another one is named with its owner)
                                    folders    a folder of source/ holds more than 25 files
                                    pages      a page of docs/ (not of theory/ or measured/) has more than 900 words, README.md more than
                                               120 lines, or an entry of CHANGELOG.md more than 160 characters
@@ -66,15 +67,42 @@ def mirrors(texts):
                     yield path, number, line.strip()[:80]
 
 
+def numbers(text):
+    """(line, number) of each number that a text writes with at least four digits, zeros not counted."""
+    for number, line in enumerate(text.split("\n"), 1):
+        for m in re.finditer(r"(?<![\w.])\d+\.?\d*(?:[eE][-+]?\d+)?", line.split("//")[0]):
+            if len(re.sub(r"[eE].*|[.0]", "", m[0])) >= 4:
+                yield number, float(m[0])
+
+
+def constants(texts):
+    held = {value: path for path, text in texts.items() if path.parts[0] == "kernels" for _, value in numbers(text)}
+    for path, text in texts.items():
+        if path.parts[0] == "shaders":
+            for number, value in numbers(text):
+                if value in held:
+                    yield path, number, f"{value} is a number of {held[value]}, too: call its function"
+
+
 def type_names(texts):
-    """{name: [path]} of classes, structs and enumerations that a file of the library or a program defines."""
+    """{name: [path]} of classes, structs and enumerations that a file of the library or a program defines outside another type.
+
+    A type within another one is named with its owner, Owner::Name, so it does not count.
+    """
+    token = re.compile(r"namespace\b[^;{]*\{|\b(?:enum(?:\s+class)?|class|struct)\s+(\w+)(?:\s+final)?\s*(?::(?!:)[^;{}()]*)?\{|[{}]")
     where = collections.defaultdict(list)
     for path, text in texts.items():
         if path.parts[0] in ("source", "include", "apps") and path.suffix in (".h", ".cpp") and not is_test(path):
-            code = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
-            code = re.sub(r"template\s*<[^{};]*?>\s*(?=class|struct)", "\n", code)
-            for m in re.finditer(r"^[ \t]*(?:enum\s+)?(?:class|struct)\s+(\w+)(?:\s+final)?\s*(?::(?!:)[^;{]*)?\{", code, re.MULTILINE):
-                where[m[1]].append(path)
+            code = re.sub(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'", "", text, flags=re.DOTALL)
+            inside = []  # of each open brace: is it a namespace's?
+            for m in token.finditer(code):
+                if m[0] == "}":
+                    if inside:
+                        inside.pop()
+                    continue
+                if m[1] and all(inside):
+                    where[m[1]].append(path)
+                inside.append(m[0].startswith("namespace"))
     return where
 
 
@@ -103,7 +131,7 @@ def pages(texts):
                     yield path, number, f"{len(line)} characters, more than {ENTRY_LIMIT}"
 
 
-RULES = {"comments": comments, "mirrors": mirrors, "types": types, "folders": folders, "pages": pages}
+RULES = {"comments": comments, "mirrors": mirrors, "constants": constants, "types": types, "folders": folders, "pages": pages}
 
 
 def room_of(path):
@@ -136,14 +164,17 @@ def self_test():
     bad = {
         Path("source/a/a.h"): "// Of a light.\nstruct Twice {\n};\n",
         Path("source/a/b.h"): "int x;  // fine\n// Fine: a sentence\n// Of course a second line may begin so.\ntemplate <class T>\nclass Twice final : Base {\n",
-        Path("shaders/a.comp"): "// The same text as source/a/a.h\n",
+        Path("shaders/a.comp"): "// The same text as source/a/a.h\nfloat a = 0.10471976;\nfloat b = 1000001.0;\n",
+        Path("kernels/a.glsl"): "real part() { return 0.10471976; }\nreal b() { return 1000001.0; }\n",
     }
+    bad[Path("source/a/c.h")] = "class Owner {\n  struct Twice {\n  };\n};\n"  # Owner::Twice: another name
     bad.update({Path(f"source/full/{i}.h"): "" for i in range(FOLDER_LIMIT + 1)})
     bad[Path("docs/long.md")] = "word " * (PAGE_LIMIT + 1)
     bad[Path("docs/theory/long.md")] = "word " * (PAGE_LIMIT + 1)
     bad[Path("README.md")] = "\n" * (README_LIMIT + 1)
     bad[Path("CHANGELOG.md")] = "# Changelog\n" + "-" * (ENTRY_LIMIT + 1) + "\n"
-    expected = {"comments": [(Path("source/a/a.h"), 1)], "mirrors": [(Path("shaders/a.comp"), 1)], "types": [(Path("source/a/a.h"), 1)],
+    expected = {"comments": [(Path("source/a/a.h"), 1)], "mirrors": [(Path("shaders/a.comp"), 1)], "constants": [(Path("shaders/a.comp"), 2)],
+                "types": [(Path("source/a/a.h"), 1)],
                 "folders": [(Path("source/full"), 1)], "pages": [(Path("docs/long.md"), 1), (Path("README.md"), 1), (Path("CHANGELOG.md"), 2)]}
     wrong = 0
     for rule, check in RULES.items():

@@ -15,7 +15,7 @@
 namespace steradian::bench {
 
 // A scene, its render options, and the passes of every call so far.
-struct Frame {
+struct BenchFrame {
   Scene scene;
   RenderOptions options;
   std::vector<std::string> order;
@@ -48,15 +48,15 @@ struct Frame {
 };
 
 // A frame without a scene.
-inline std::shared_ptr<Frame> frame_on(const Where& where, int threads) {
-  auto frame = std::make_shared<Frame>();
+inline std::shared_ptr<BenchFrame> frame_on(const Where& where, int threads) {
+  auto frame = std::make_shared<BenchFrame>();
   frame->options.backend = where.backend;
   frame->options.device = where.device;
   frame->options.threads = threads;
   return frame;
 }
 
-inline Bench bench_of(const std::string& name, std::shared_ptr<Frame> frame) {
+inline Bench bench_of(const std::string& name, std::shared_ptr<BenchFrame> frame) {
   const auto pixels = static_cast<std::size_t>(frame->options.width) * static_cast<std::size_t>(frame->options.height);
   // Not pinned, because it uses all cores.
   return {name, pixels, name_of(active_simd()), [frame] { frame->call(); }, false, [frame] { return frame->medians(); }};

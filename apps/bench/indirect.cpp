@@ -26,7 +26,7 @@ struct Pairs {
   std::vector<PairLight> lights;
   std::vector<GgxPairLight> ggx_lights;
   LtcPackTables tables = ltc_pack_tables(Method::ltc_compact);
-  Light light;
+  IncomingLight light;
 
   Pairs() {
     reference::Random random(11);
@@ -92,7 +92,7 @@ std::string ring() { return std::string(STERADIAN_SCENES) + "/ring.glb"; }
 
 void add_frame_of(BenchList& list, const Where& where, const std::string& name, IndirectMode mode, int lights) {
   list.add(name, [=](const BenchOptions&) -> Bench {
-    auto frame = std::make_shared<Frame>();
+    auto frame = std::make_shared<BenchFrame>();
     frame->scene = load_scene(ring()).scene;
     RenderOptions& o = frame->options;
     o.backend = where.backend;

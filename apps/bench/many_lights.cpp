@@ -146,8 +146,8 @@ void add_many_lights(BenchList& list, const Where& where) {
       });
     }
   };
-  const auto as_it_is = [](Frame&) {};
-  const auto small = [](Frame& frame) {
+  const auto as_it_is = [](BenchFrame&) {};
+  const auto small = [](BenchFrame& frame) {
     frame.options.width = 320;
     frame.options.height = 180;
   };
@@ -164,7 +164,7 @@ void add_many_lights(BenchList& list, const Where& where) {
     add(
         std::string("near/") + height + "/", 1000, 1000, [=](int count) { return hall_lit_from(std::stod(height), count); }, as_it_is);
   for (const std::string method : {"ltc", "closed-form"})
-    add(method + "/", 1000, 1000, hall, [=](Frame& frame) {
+    add(method + "/", 1000, 1000, hall, [=](BenchFrame& frame) {
       frame.options.method = method;
       frame.scene.materials[0].metallic = 1;
       frame.scene.materials[0].roughness = 0.4f;
@@ -173,7 +173,7 @@ void add_many_lights(BenchList& list, const Where& where) {
     });
   if (on_cpu)
     for (const int count : {100, 1000})
-      add("shadowed/", count, 0, hall_with_room, [](Frame& frame) {
+      add("shadowed/", count, 0, hall_with_room, [](BenchFrame& frame) {
         frame.options.shadows = Shadows::on;
         frame.options.width = 480;
         frame.options.height = 270;

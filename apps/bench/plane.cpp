@@ -209,9 +209,9 @@ Bench extras_move(const std::string& what, const BenchOptions& options) {
           }};
 }
 
-std::string suffix(const plane::Drawing& drawing) { return drawing.shape + "-" + drawing.emission; }
+std::string suffix(const plane::LightPairDrawing& drawing) { return drawing.shape + "-" + drawing.emission; }
 
-Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
+Bench drawn(const plane::LightPairDrawing& drawing, const BenchOptions& options) {
   auto scene = std::make_shared<PlaneScene>(plane::make_drawing(drawing));
   auto picture = std::make_shared<Picture>();
   return {"plane/drawing/" + suffix(drawing), std::size_t{1920} * 1080, name_of(options.simd), [scene, picture] {
@@ -226,7 +226,7 @@ Bench drawn(const plane::Drawing& drawing, const BenchOptions& options) {
 }  // namespace
 
 void add_plane(BenchList& list) {
-  for (const plane::Drawing& drawing : plane::all_drawings())
+  for (const plane::LightPairDrawing& drawing : plane::all_drawings())
     list.add("plane/drawing/" + suffix(drawing), [drawing](const BenchOptions& o) { return drawn(drawing, o); });
   for (const std::string what : kExtras) {
     list.add("plane/extras/" + what, [what](const BenchOptions& o) { return extras(what, o); });

@@ -10,8 +10,8 @@
 namespace steradian::bench {
 namespace {
 
-std::shared_ptr<Frame> floor_frame(int width, int height) {
-  auto frame = std::make_shared<Frame>();
+std::shared_ptr<BenchFrame> floor_frame(int width, int height) {
+  auto frame = std::make_shared<BenchFrame>();
   frame->scene = floor_scene();
   frame->scene.materials[0] = glossy();
   frame->scene.area_lights = {ceiling_quad(0, 0, 0.5)};

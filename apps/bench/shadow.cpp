@@ -108,7 +108,7 @@ std::vector<Mesh> statue() {
 }
 
 Bench frame(const std::string& name, const std::vector<Mesh>& meshes, double height, double half) {
-  auto work = std::make_shared<Frame>();
+  auto work = std::make_shared<BenchFrame>();
   work->scene.meshes = meshes;
   work->scene.materials.resize(1);
   work->scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};

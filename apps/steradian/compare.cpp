@@ -85,13 +85,13 @@ Pictures pictures_of(const Subject& subject, const std::vector<Settings>& settin
   return pictures;
 }
 
-Report compared(const Subject& subject, const CompareArguments& options) {
+ComparisonReport compared(const Subject& subject, const CompareArguments& options) {
   // The settings of all methods are built first, so that an unknown or unsuitable method is refused before the long work.
   std::vector<Settings> settings;
   for (const std::string& method : options.methods) settings.push_back(subject.settings(method));
   Pictures pictures = pictures_of(subject, settings, options);
 
-  Report report;
+  ComparisonReport report;
   report.scene = options.scene;
   report.command = command_line();
   report.time_limit = options.time_limit;
@@ -124,19 +124,19 @@ Report compared(const Subject& subject, const CompareArguments& options) {
   return report;
 }
 
-void write(const Report& report, const std::filesystem::path& folder) {
+void write(const ComparisonReport& report, const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) throw Error(folder.string(), "cannot make this folder: " + failed.message(), "choose another with -o");
   write_picture(report.reference, (folder / "reference.exr").string());
-  for (const Compared& of : report.methods) write_picture(of.picture, (folder / (of.run.method + ".exr")).string());
+  for (const ComparedPicture& of : report.methods) write_picture(of.picture, (folder / (of.run.method + ".exr")).string());
   write_file((folder / "report.json").string(), report_json(report));
   write_file((folder / "index.html").string(), report_page(report));
 }
 
-void print(const Report& report, const std::string& folder) {
+void print(const ComparisonReport& report, const std::string& folder) {
   fmt::print("{:<22} {:>10} {:>11} {:>11} {:>11} {:>10} {:>8}\n", "method", "ms", "relative L2", "rmse", "max", "mean ratio", "FLIP");
-  for (const Compared& of : report.methods) {
+  for (const ComparedPicture& of : report.methods) {
     const Difference& d = of.run.difference;
     fmt::print("{:<22} {:>10.1f} {:>11.3e} {:>11.3e} {:>11.3e} {:>10.5f} {:>8.4f}\n", of.run.method, of.run.ms, d.relative_l2, d.rmse,
                d.max, d.mean_ratio, of.flip);
@@ -199,7 +199,7 @@ void run(CompareArguments& options) {
     options.render.height = size.height;
     subject = frame_subject(scene_of(options), options);
   }
-  const Report report = compared(subject, options);
+  const ComparisonReport report = compared(subject, options);
   write(report, options.output);
   print(report, options.output);
 }

@@ -15,12 +15,12 @@ namespace {
 constexpr std::size_t kPoints = 256;
 constexpr double kMatters = 0.05;
 
-struct Patch {
+struct SampledPatch {
   Vec3d position, normal;
   double albedo = 0;
 };
 
-struct Facet {
+struct SampledFacet {
   Vec3d corner, e1, e2, normal;
   double area = 0, albedo = 0;
 };
@@ -36,16 +36,16 @@ void for_each_facet(const Scene& scene, Use use) {
       if (mesh.is_emitter() && mesh.triangle_lights[t] >= 0) continue;
       const auto at = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[3 * t + c]]); };
       const Vec3d a = at(0), e1 = at(1) - a, e2 = at(2) - a, n = cross(e1, e2);
-      if (length(n) > 0) use(Facet{a, e1, e2, normalized(n), length(n) / 2, albedo});
+      if (length(n) > 0) use(SampledFacet{a, e1, e2, normalized(n), length(n) / 2, albedo});
     }
   }
 }
 
 // Points at even steps of the area, each at the next place of a sequence that is even over the unit square, folded into its triangle.
-std::vector<Patch> patches_of(const Scene& scene, double total) {
-  std::vector<Patch> patches;
+std::vector<SampledPatch> patches_of(const Scene& scene, double total) {
+  std::vector<SampledPatch> patches;
   double before = 0;
-  for_each_facet(scene, [&](const Facet& f) {
+  for_each_facet(scene, [&](const SampledFacet& f) {
     before += f.area;
     while (patches.size() < kPoints && (static_cast<double>(patches.size()) + 0.5) * total < before * static_cast<double>(kPoints)) {
       const auto i = static_cast<double>(patches.size() + 1);
@@ -61,13 +61,13 @@ std::vector<Patch> patches_of(const Scene& scene, double total) {
 
 double light_between_surfaces(const Scene& scene) {
   double total = 0;
-  for_each_facet(scene, [&](const Facet& f) { total += f.area; });
-  const std::vector<Patch> patches = patches_of(scene, total);
+  for_each_facet(scene, [&](const SampledFacet& f) { total += f.area; });
+  const std::vector<SampledPatch> patches = patches_of(scene, total);
   if (patches.empty()) return 0;
   const double area = total / static_cast<double>(patches.size());
   double sum = 0;
-  for (const Patch& to : patches)
-    for (const Patch& from : patches) {
+  for (const SampledPatch& to : patches)
+    for (const SampledPatch& from : patches) {
       const Vec3d way = from.position - to.position;
       const double d2 = dot(way, way);
       // The form factor of a disk of that area, which stays below 1 where the two are near.

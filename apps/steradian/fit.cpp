@@ -59,8 +59,8 @@ void report(const LtcTable& table, const FitArguments& options) {
   ReportOptions all = whole_grid(), on_nodes = node_grid();
   const auto& fixed = table.family.fixed_roughness;
   if (fixed) all.roughness = on_nodes.roughness = {*fixed};
-  const fit::Report whole = measure(table.family, look_up, all);
-  const fit::Report nodes = measure(table.family, look_up, on_nodes);
+  const fit::FitReport whole = measure(table.family, look_up, all);
+  const fit::FitReport nodes = measure(table.family, look_up, on_nodes);
   fmt::print("{}", describe(whole, nodes, fixed ? std::vector<BetweenNodes>{} : measure_between_nodes(table, look_up)));
   if (!options.picture.empty()) write_picture(draw(whole, all), options.picture);
 }

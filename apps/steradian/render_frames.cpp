@@ -31,9 +31,9 @@ GltfAnimation chosen(const GltfFile& file, const SceneFrames& job) {
 }
 
 // The scene at a moment. The reader's warnings are printed once for all frames.
-class Moments {
+class SceneMoments {
  public:
-  explicit Moments(const SceneFrames& job)
+  explicit SceneMoments(const SceneFrames& job)
       : job_(job), file_(scene::read_gltf_file(job.scene, job.load.limits)), animation_(chosen(file_, job)) {
     load_.pictures = std::make_shared<DecodedPictures>();
     load_.meshes = make_kept_meshes();
@@ -61,7 +61,7 @@ class Moments {
 };
 
 // The exposure of the first frame at a quarter of its size. It is the same for all frames, even if the first frame exists already.
-float exposure_of(const SceneFrames& job, Moments& moments) {
+float exposure_of(const SceneFrames& job, SceneMoments& moments) {
   RenderOptions small = job.render;
   small.width = std::max(1, small.width / 4);
   small.height = std::max(1, small.height / 4);
@@ -75,7 +75,7 @@ void render_scene_frames(SceneFrames job) {
   const std::vector<int> wanted = frames_to_make(job.range, job.output, job.force);
   if (wanted.empty()) return;
 
-  Moments moments(job);
+  SceneMoments moments(job);
   const bool mapped = job.output.ends_with(".png");
   const float exposure = job.exposure ? *job.exposure : mapped ? exposure_of(job, moments) : 0.0f;
   if (!job.exposure && mapped) fmt::print(stderr, "steradian: --exposure {:.2f} (auto, of the first frame)\n", exposure);

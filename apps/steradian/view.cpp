@@ -9,7 +9,7 @@ namespace steradian::app {
 namespace {
 
 struct ViewArguments {
-  std::string size = "1280x720", exposure = "auto";
+  std::string size = "1280x720", exposure = "auto", bounces = "all";
   view::WindowOptions window;
 };
 
@@ -18,7 +18,11 @@ void run(ViewArguments& options) {
   const PictureSize size = picture_size(options.size);
   window.render.width = size.width;
   window.render.height = size.height;
-  if (window.render.backend == Backend::vulkan) window.render.shadows = Shadows::off;  // this backend has no shadows here
+  window.render.bounces = bounces_of(options.bounces);
+  if (window.render.backend == Backend::vulkan) {  // this backend has neither here
+    window.render.shadows = Shadows::off;
+    window.render.bounces = 0;
+  }
   window.exposure = exposure_stops(options.exposure);
   view::run_window(window);
 }
@@ -39,6 +43,7 @@ void add_view(CommandLine& line) {
   });
   verb.add_word("--quality", window.render.quality, "accuracy of the method");
   verb.add_word("--shadows", window.render.shadows, "direct shadows; exact has no fallback to rays");
+  verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces);
   verb.add("--camera", window.render.camera, "name of the camera; default: the file's first");
   verb.add("--exposure", options->exposure, "stops, or auto for middle grey in the first picture");
   verb.add_word("--tone", window.tone, "tone curve");
@@ -49,7 +54,10 @@ void add_view(CommandLine& line) {
   verb.add_word("--panel", window.panel, "open the panel");
   verb.add("--script", window.script, "play this file of drags, keys and pictures");
   verb.add("--record", window.record, "record a script into this file").writes(Writes::file);
-  verb.callback([options] { run(*options); });
+  verb.callback([options, verb] {
+    verb.refuse_without_effect({{"--bounces", options->window.render.backend == Backend::cpu, "--backend cpu"}});
+    run(*options);
+  });
 }
 
 }  // namespace steradian::app

@@ -16,32 +16,32 @@ Pointer first_missing(const Json& json, const Pointer& pointer) {
 
 }  // namespace
 
-const Json* Document::find(const std::string& pointer) const {
+const Json* EditedDocument::find(const std::string& pointer) const {
   const Pointer at(pointer);
   return file_.json.contains(at) ? &file_.json.at(at) : nullptr;
 }
 
-double Document::number(const std::string& pointer, double otherwise) const {
+double EditedDocument::number(const std::string& pointer, double otherwise) const {
   const Json* found = find(pointer);
   return found != nullptr && found->is_number() ? found->get<double>() : otherwise;
 }
 
-int Document::index(const std::string& pointer) const {
+int EditedDocument::index(const std::string& pointer) const {
   const Json* found = find(pointer);
   return found != nullptr && found->is_number_integer() ? found->get<int>() : -1;
 }
 
-std::string Document::text(const std::string& pointer, const std::string& otherwise) const {
+std::string EditedDocument::text(const std::string& pointer, const std::string& otherwise) const {
   const Json* found = find(pointer);
   return found != nullptr && found->is_string() ? found->get<std::string>() : otherwise;
 }
 
-bool Document::flag(const std::string& pointer) const {
+bool EditedDocument::flag(const std::string& pointer) const {
   const Json* found = find(pointer);
   return found != nullptr && found->is_boolean() && found->get<bool>();
 }
 
-std::vector<double> Document::numbers(const std::string& pointer, std::size_t count) const {
+std::vector<double> EditedDocument::numbers(const std::string& pointer, std::size_t count) const {
   const Json* found = find(pointer);
   std::vector<double> result;
   if (found == nullptr || !found->is_array() || found->size() != count) return result;
@@ -52,12 +52,12 @@ std::vector<double> Document::numbers(const std::string& pointer, std::size_t co
   return result;
 }
 
-std::size_t Document::count(const std::string& array) const {
+std::size_t EditedDocument::count(const std::string& array) const {
   const Json* found = find(array);
   return found != nullptr && found->is_array() ? found->size() : 0;
 }
 
-void Document::set(const std::string& pointer, Json value) {
+void EditedDocument::set(const std::string& pointer, Json value) {
   const Pointer target(pointer), top = first_missing(file_.json, target);
   // Missing parents become objects, or arrays if the key is the first element of an array.
   Pointer at = target;
@@ -74,11 +74,11 @@ void Document::set(const std::string& pointer, Json value) {
   record(top.to_string(), std::move(value));
 }
 
-void Document::erase(const std::string& pointer) {
+void EditedDocument::erase(const std::string& pointer) {
   if (find(pointer) != nullptr) record(pointer, std::nullopt);
 }
 
-void Document::record(const std::string& where, std::optional<Json> after) {
+void EditedDocument::record(const std::string& where, std::optional<Json> after) {
   const Json* now = find(where);
   std::optional<Json> before = now != nullptr ? std::optional<Json>(*now) : std::nullopt;
   if (before == after) return;
@@ -96,7 +96,7 @@ void Document::record(const std::string& where, std::optional<Json> after) {
   open_.push_back({where, std::move(before), std::move(after)});
 }
 
-void Document::put(const std::string& where, const std::optional<Json>& value) {
+void EditedDocument::put(const std::string& where, const std::optional<Json>& value) {
   const Pointer at(where);
   Json& parent = at.parent_pointer().empty() ? file_.json : file_.json.at(at.parent_pointer());
   if (parent.is_array()) {
@@ -117,13 +117,13 @@ void Document::put(const std::string& where, const std::optional<Json>& value) {
   ++revision_;
 }
 
-void Document::close_step() {
+void EditedDocument::close_step() {
   if (open_.empty()) return;
   undone_from_.push_back(std::move(open_));
   open_.clear();
 }
 
-void Document::undo() {
+void EditedDocument::undo() {
   close_step();
   if (undone_from_.empty()) return;
   Step step = std::move(undone_from_.back());
@@ -132,7 +132,7 @@ void Document::undo() {
   redone_from_.push_back(std::move(step));
 }
 
-void Document::redo() {
+void EditedDocument::redo() {
   if (redone_from_.empty()) return;
   close_step();
   Step step = std::move(redone_from_.back());

@@ -16,9 +16,9 @@ namespace steradian::view {
 
 using scene::Json;
 
-class Document {
+class EditedDocument {
  public:
-  explicit Document(scene::GltfFile file) : file_(std::move(file)) {}
+  explicit EditedDocument(scene::GltfFile file) : file_(std::move(file)) {}
 
   const scene::GltfFile& file() const { return file_; }
   const Json& json() const { return file_.json; }

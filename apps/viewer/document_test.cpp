@@ -24,12 +24,12 @@ GltfTestFile lit_square() {
   return f;
 }
 
-Document document_of(const GltfTestFile& f, const std::string& name) { return Document(scene::read_gltf_file(f.write(name))); }
+EditedDocument document_of(const GltfTestFile& f, const std::string& name) { return EditedDocument(scene::read_gltf_file(f.write(name))); }
 
-Scene scene_of(const Document& d) { return load_scene_from_memory(glb_bytes(d.file()), d.file().path).scene; }
+Scene scene_of(const EditedDocument& d) { return load_scene_from_memory(glb_bytes(d.file()), d.file().path).scene; }
 
-TEST(ViewDocument, UndoesAndRedoesStepsAsAWhole) {
-  Document d = document_of(lit_square(), "undo.gltf");
+TEST(EditedDocument, UndoesAndRedoesStepsAsAWhole) {
+  EditedDocument d = document_of(lit_square(), "undo.gltf");
   const Json before = d.json();
   d.set("/nodes/1/translation", {0, 0, 3});
   d.set("/nodes/1/translation", {0, 0, 4});
@@ -54,9 +54,9 @@ TEST(ViewDocument, UndoesAndRedoesStepsAsAWhole) {
   EXPECT_THROW(d.set("/nodes/9", 1), Error);
 }
 
-TEST(ViewDocument, KeepsTheRestOfTheFileAndReadsBackTheSameScene) {
+TEST(EditedDocument, KeepsTheRestOfTheFileAndReadsBackTheSameScene) {
   for (const char* name : {"kept.gltf", "kept.glb"}) {
-    Document d = document_of(lit_square(), name);
+    EditedDocument d = document_of(lit_square(), name);
     const Json before = d.json();
     LampValues values = values_of(d, lamps_of(d, NodeTree(d)).at(0));
     values.intensity = 0.1 + 0.2;  // 17 digits
@@ -77,11 +77,11 @@ TEST(ViewDocument, KeepsTheRestOfTheFileAndReadsBackTheSameScene) {
   }
 }
 
-TEST(ViewDocument, FindsFilesBesideItFromAnotherFolder) {
+TEST(EditedDocument, FindsFilesBesideItFromAnotherFolder) {
   GltfTestFile f = lit_square();
   f.json["buffers"] = {{{"byteLength", f.buffer.size()}, {"uri", "a%20b.bin"}}};
   scene::write_test_file("a b.bin", f.buffer);
-  const Document d = document_of(f, "beside.gltf");
+  const EditedDocument d = document_of(f, "beside.gltf");
   std::filesystem::create_directories(scene::test_path("folder/deep"));
   const std::string path = scene::test_path("folder/deep/saved.gltf");
   write_gltf_file(d.file(), path);
@@ -91,7 +91,7 @@ TEST(ViewDocument, FindsFilesBesideItFromAnotherFolder) {
 }
 
 TEST(ViewLamps, AreAddedChangedAndRemoved) {
-  Document d = document_of(lit_square(), "lamps.gltf");
+  EditedDocument d = document_of(lit_square(), "lamps.gltf");
   const int node = add_light(d, "disk", {1, 2, 3}, {0, -1, 0}, 0.5);
   Scene s = scene_of(d);
   ASSERT_EQ(s.area_lights.size(), 2u);
@@ -130,7 +130,7 @@ TEST(ViewLamps, FindAllKindsAndTheirValues) {
   f.material()["emissiveFactor"] = {0.5, 0.5, 0};
   f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"intensity", 9}, {"spot", {{"outerConeAngle", 0.5}}}}};
   f.append("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  Document d = document_of(f, "kinds.gltf");
+  EditedDocument d = document_of(f, "kinds.gltf");
   const auto lamps = lamps_of(d, NodeTree(d));
   ASSERT_EQ(lamps.size(), 3u);
   EXPECT_EQ(lamps[0].kind, LampKind::mesh);
@@ -176,7 +176,7 @@ TEST(ViewNodes, MoveTurnAndScaleInTheWorldUnderAnyParent) {
       f.json["nodes"][0].update(nlohmann::json(child));
       f.append("nodes", nlohmann::json(parent));
       f.json["nodes"][1]["children"] = {0};
-      Document d = document_of(f, "pose.gltf");
+      EditedDocument d = document_of(f, "pose.gltf");
       const Affine before = NodeTree(d).world(0);
       const Affine above = NodeTree(d).parent_world(0);
 

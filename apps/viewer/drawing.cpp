@@ -20,12 +20,12 @@ constexpr double kReach = 6;  // pixels around thin bodies and handles
 
 }  // namespace
 
-Drawing::Drawing(const std::string& path, int width, int height, int threads)
+DrawingStage::DrawingStage(const std::string& path, int width, int height, int threads)
     : path_(path), width_(width), height_(height), worker_(threads) {
   load();
 }
 
-void Drawing::load() {
+void DrawingStage::load() {
   PlaneAnimation animation(path_);
   PlaneScene scene = animation.at(animation.moves() ? time_ : 0).scene;
   duration_ = animation.duration();
@@ -40,7 +40,7 @@ void Drawing::load() {
   show();
 }
 
-void Drawing::show() {
+void DrawingStage::show() {
   if (selection_ && *selection_ >= sheet_.scene.bodies.size()) selection_.reset();
   request_ = worker_.show(sheet_.scene, width_, height_);
   settled_ = false;
@@ -56,21 +56,21 @@ std::vector<int> in_order(std::size_t count) {
 
 }  // namespace
 
-Drawing::Sheet Drawing::fresh_sheet(PlaneScene scene) const {
+DrawingStage::Sheet DrawingStage::fresh_sheet(PlaneScene scene) const {
   std::vector<int> numbers = in_order(scene.bodies.size());
   return {scene, duration_ > 0 ? scene : PlaneScene{}, std::move(numbers)};
 }
 
 // ---- time
 
-void Drawing::set_time(double seconds) {
+void DrawingStage::set_time(double seconds) {
   if (!(duration_ > 0)) return;
   time_ = seconds > duration_ && !endless_ ? std::fmod(seconds, duration_) : std::max(seconds, 0.0);
   time_wanted_ = true;
   if (settled_) show_time();
 }
 
-void Drawing::show_time() {
+void DrawingStage::show_time() {
   time_wanted_ = false;
   PlaneScene next = animation_->at(time_).scene;
   std::vector<PlaneBody>& bodies = sheet_.scene.bodies;
@@ -97,7 +97,7 @@ void Drawing::show_time() {
   settled_ = false;
 }
 
-bool Drawing::update() {
+bool DrawingStage::update() {
   auto drawn = worker_.take();
   if (!drawn) return false;
   settled_ = drawn->request == request_;
@@ -113,38 +113,38 @@ bool Drawing::update() {
   return true;
 }
 
-void Drawing::wait_until_settled() {
+void DrawingStage::wait_until_settled() {
   while (!settled_) {
     worker_.wait();
     update();
   }
 }
 
-void Drawing::resize(int width, int height) {
+void DrawingStage::resize(int width, int height) {
   if (width < 1 || height < 1 || (width == width_ && height == height_)) return;
   width_ = width;
   height_ = height;
   show();
 }
 
-Vec2d Drawing::to_scene(Vec2d pixel) const {
+Vec2d DrawingStage::to_scene(Vec2d pixel) const {
   const plane::PixelGrid grid = plane::grid_of(sheet_.scene, width_, height_);
   return grid.origin + Vec2d{pixel.x * grid.step.x, pixel.y * grid.step.y};
 }
 
-Vec2d Drawing::to_pixel(Vec2d point) const {
+Vec2d DrawingStage::to_pixel(Vec2d point) const {
   const plane::PixelGrid grid = plane::grid_of(sheet_.scene, width_, height_);
   return {(point.x - grid.origin.x) / grid.step.x, (point.y - grid.origin.y) / grid.step.y};
 }
 
-std::optional<Vec2d> Drawing::resize_handle() const {
+std::optional<Vec2d> DrawingStage::resize_handle() const {
   if (!selection_) return {};
   return to_pixel(bounds_of(sheet_.scene.bodies[*selection_]).high);
 }
 
 // ---- the pointer
 
-void Drawing::press(PointerButton button, bool, Vec2d at) {
+void DrawingStage::press(PointerButton button, bool, Vec2d at) {
   if (button != PointerButton::left || hold_ != Hold::nothing) return;
   pressed_ = to_scene(at);
   const auto corner = resize_handle();
@@ -157,7 +157,7 @@ void Drawing::press(PointerButton button, bool, Vec2d at) {
   if (selection_) pressed_body_ = sheet_.scene.bodies[*selection_];
 }
 
-void Drawing::drag(Vec2d to) {
+void DrawingStage::drag(Vec2d to) {
   if (hold_ == Hold::nothing || !selection_) return;
   const Vec2d now = to_scene(to);
   set_moving(true);
@@ -170,27 +170,27 @@ void Drawing::drag(Vec2d to) {
   if (from > 0) change(*selection_, scaled(pressed_body_, middle, std::max(length(now - middle) / from, 0.02)));
 }
 
-void Drawing::release(Vec2d at) {
+void DrawingStage::release(Vec2d at) {
   drag(at);
   hold_ = Hold::nothing;
   set_moving(false);
 }
 
-void Drawing::wheel(double steps, Vec2d) {
+void DrawingStage::wheel(double steps, Vec2d) {
   if (!selection_) return;
   const PlaneBody& body = sheet_.scene.bodies[*selection_];
   change(*selection_, scaled(body, bounds_of(body).center(), std::pow(1.1, steps)));
   close_step();
 }
 
-void Drawing::set_moving(bool moving) {
+void DrawingStage::set_moving(bool moving) {
   if (moving_ && !moving) close_step();
   moving_ = moving;
 }
 
 // ---- edits
 
-void Drawing::change(std::size_t body, PlaneBody with) {
+void DrawingStage::change(std::size_t body, PlaneBody with) {
   if (!open_) open_ = sheet_;
   sheet_.scene.bodies[body] = with;
   request_ = worker_.edit({PlaneEdit::Kind::replace, body, std::move(with)});
@@ -198,14 +198,14 @@ void Drawing::change(std::size_t body, PlaneBody with) {
   if (!moving_) close_step();
 }
 
-void Drawing::close_step() {
+void DrawingStage::close_step() {
   if (!open_) return;
   before_.push_back(std::move(*open_));
   open_.reset();
   after_.clear();
 }
 
-void Drawing::add(bool light, Vec2d at) {
+void DrawingStage::add(bool light, Vec2d at) {
   close_step();
   open_ = sheet_;
   PlaneBody body = plane_circle(to_scene(at), std::min(sheet_.scene.width, sheet_.scene.height) / 20);
@@ -218,7 +218,7 @@ void Drawing::add(bool light, Vec2d at) {
   close_step();
 }
 
-void Drawing::remove_selected() {
+void DrawingStage::remove_selected() {
   if (!selection_) return;
   close_step();
   open_ = sheet_;
@@ -230,13 +230,13 @@ void Drawing::remove_selected() {
   close_step();
 }
 
-void Drawing::select_named(const std::string& name) {
+void DrawingStage::select_named(const std::string& name) {
   selection_.reset();
   for (std::size_t i = 0; i < sheet_.scene.bodies.size(); ++i)
     if (sheet_.scene.bodies[i].name == name) selection_ = i;
 }
 
-void Drawing::undo() {
+void DrawingStage::undo() {
   close_step();
   if (before_.empty()) return;
   after_.push_back(std::move(sheet_));
@@ -246,12 +246,12 @@ void Drawing::undo() {
 }
 
 // A step may belong to another moment.
-void Drawing::show_again() {
+void DrawingStage::show_again() {
   show();
   if (duration_ > 0) time_wanted_ = true;
 }
 
-void Drawing::redo() {
+void DrawingStage::redo() {
   if (after_.empty()) return;
   before_.push_back(std::move(sheet_));
   sheet_ = std::move(after_.back());
@@ -261,14 +261,14 @@ void Drawing::redo() {
 
 // ---- files
 
-bool Drawing::file_changed() const {
+bool DrawingStage::file_changed() const {
   const auto now = drawing_time(path_);
   return now != std::filesystem::file_time_type{} && now != file_time_;
 }
 
-void Drawing::reload() { load(); }
+void DrawingStage::reload() { load(); }
 
-void Drawing::save_scene(const std::string& path) {
+void DrawingStage::save_scene(const std::string& path) {
   if (!path.ends_with(".svg")) throw Error(path, "is no .svg", "name the scene scene.svg");
   write_file(path, plane_scene_to_svg(sheet_.scene));
   close_step();
@@ -276,7 +276,7 @@ void Drawing::save_scene(const std::string& path) {
   if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(path_)) file_time_ = drawing_time(path);
 }
 
-void Drawing::save_picture(const std::string& path, float exposure_stops, ToneCurve curve) {
+void DrawingStage::save_picture(const std::string& path, float exposure_stops, ToneCurve curve) {
   wait_until_settled();
   write_picture(picture_, path, exposure_stops, curve);
 }

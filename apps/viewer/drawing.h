@@ -12,10 +12,10 @@
 
 namespace steradian::view {
 
-class Drawing : public Stage {
+class DrawingStage : public Stage {
  public:
   // Throws Error if the file is no scene of the plane.
-  Drawing(const std::string& path, int width, int height, int threads);
+  DrawingStage(const std::string& path, int width, int height, int threads);
 
   bool update() override;
   bool settled() const override { return settled_; }

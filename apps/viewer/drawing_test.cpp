@@ -61,7 +61,7 @@ TEST(ViewPlaneBody, TurnsAndScalesAboutAPoint) {
 }
 
 TEST(ViewDrawing, ADraggedLampIsDrawnAsASceneFromScratchWouldBe) {
-  Drawing d(lamps(), 320, 200, 0);
+  DrawingStage d(lamps(), 320, 200, 0);
   d.wait_until_settled();
   EXPECT_EQ(d.picture().pixels, fresh(d.scene(), 320, 200).pixels);
   const Picture before = d.picture();
@@ -87,7 +87,7 @@ TEST(ViewDrawing, ADraggedLampIsDrawnAsASceneFromScratchWouldBe) {
 }
 
 TEST(ViewDrawing, IsSavedAsAnSvgThatReadsBackAsIt) {
-  Drawing d(lamps(), 160, 100, 0);
+  DrawingStage d(lamps(), 160, 100, 0);
   d.add(true, {20, 20});
   PlaneBody red = d.scene().bodies.back();
   red.light->radiance = {2, 0.5, 0.25};
@@ -100,7 +100,7 @@ TEST(ViewDrawing, IsSavedAsAnSvgThatReadsBackAsIt) {
   d.wait_until_settled();
   const std::string path = scene::test_path("saved.svg");
   d.save_scene(path);
-  Drawing again(path, 160, 100, 0);
+  DrawingStage again(path, 160, 100, 0);
   again.wait_until_settled();
   EXPECT_EQ(again.scene().bodies.size(), d.scene().bodies.size());
   double largest = 0;
@@ -120,7 +120,7 @@ TEST(ViewDrawing, PlaysItsOwnMotionAndKeepsWhatAHandHasMoved) {
       "<circle id='lamp' class='light' cx='20' cy='20' r='6' fill='#fff'><animate attributeName='cx' from='20' to='120' dur='2s'/></circle>"
       "<rect id='box' x='60' y='50' width='20' height='20'/></svg>";
   const std::string path = scene::write_test_file("moves.svg", svg);
-  Drawing d(path, 160, 100, 0);
+  DrawingStage d(path, 160, 100, 0);
   d.wait_until_settled();
   EXPECT_EQ(d.duration(), 2);
   EXPECT_EQ(d.scene().bodies.at(0).center, (Vec2d{20, 20}));
@@ -154,7 +154,7 @@ TEST(ViewDrawing, PlaysItsOwnMotionAndKeepsWhatAHandHasMoved) {
 }
 
 TEST(ViewDrawing, WhatCannotBeDrawnIsSaidAndUndone) {
-  Drawing d(lamps(), 160, 100, 0);
+  DrawingStage d(lamps(), 160, 100, 0);
   d.wait_until_settled();
   PlaneBody far = d.scene().bodies[0];
   far.center = {1e300, 0};

@@ -31,7 +31,7 @@ constexpr KeyBinding kBindings[] = {
     {"F5", Action::reload, "read the file again"},
     {"C", Action::split, "split screen with a second method"},
     {"M", Action::error_map, "map of the difference to it"},
-    {"B", Action::bounce, "one bounce between surfaces, on and off"},
+    {"B", Action::bounce, "light between surfaces, on and off"},
     {"Space", Action::play, "play and pause the animation"},
     {"Ctrl+Q", Action::quit, "close the window"},
 };

@@ -35,7 +35,7 @@ std::string values_pointer(const Lamp& lamp) {
   return std::string("/extensions/") + extension_of(lamp.kind) + "/lights/" + std::to_string(lamp.light);
 }
 
-Vec3d color(const Document& document, const std::string& pointer, Vec3d otherwise) {
+Vec3d color(const EditedDocument& document, const std::string& pointer, Vec3d otherwise) {
   for (const std::size_t count : {std::size_t{3}, std::size_t{4}})
     if (const auto c = document.numbers(pointer, count); !c.empty()) return {c[0], c[1], c[2]};
   return otherwise;
@@ -43,20 +43,22 @@ Vec3d color(const Document& document, const std::string& pointer, Vec3d otherwis
 
 // Writes a value if it differs from the present value, or from the default if there is none.
 template <class T>
-void put(Document& document, const std::string& pointer, const T& value, const T& now, const Json& json) {
+void put(EditedDocument& document, const std::string& pointer, const T& value, const T& now, const Json& json) {
   if (value != now) document.set(pointer, json);
 }
-void put(Document& document, const std::string& pointer, double value, double now) { put(document, pointer, value, now, Json(value)); }
-void put(Document& document, const std::string& pointer, Vec3d value, Vec3d now) {
+void put(EditedDocument& document, const std::string& pointer, double value, double now) {
+  put(document, pointer, value, now, Json(value));
+}
+void put(EditedDocument& document, const std::string& pointer, Vec3d value, Vec3d now) {
   if (!(value == now)) document.set(pointer, Json::array({value.x, value.y, value.z}));
 }
 
-bool shines(const Document& document, int material) {
+bool shines(const EditedDocument& document, int material) {
   const Vec3d e = color(document, material_pointer(material) + "/emissiveFactor", {});
   return e.x > 0 || e.y > 0 || e.z > 0;
 }
 
-void add_mesh_lamps(const Document& document, int node, std::vector<Lamp>& lamps) {
+void add_mesh_lamps(const EditedDocument& document, int node, std::vector<Lamp>& lamps) {
   const int mesh = document.index(node_pointer(node) + "/mesh");
   const Json* primitives = mesh < 0 ? nullptr : document.find("/meshes/" + std::to_string(mesh) + "/primitives");
   if (primitives == nullptr) return;
@@ -73,13 +75,13 @@ void add_mesh_lamps(const Document& document, int node, std::vector<Lamp>& lamps
 
 }  // namespace
 
-void use_extension(Document& document, const std::string& name) {
+void use_extension(EditedDocument& document, const std::string& name) {
   const Json* used = document.find("/extensionsUsed");
   if (used != nullptr && std::find(used->begin(), used->end(), Json(name)) != used->end()) return;
   document.set("/extensionsUsed/" + std::to_string(document.count("/extensionsUsed")), name);
 }
 
-std::vector<Lamp> lamps_of(const Document& document, const NodeTree& tree) {
+std::vector<Lamp> lamps_of(const EditedDocument& document, const NodeTree& tree) {
   std::vector<Lamp> lamps;
   for (const scene::GltfNode& visible : tree.visible()) {
     const std::string node = node_pointer(visible.index);
@@ -97,7 +99,7 @@ std::vector<Lamp> lamps_of(const Document& document, const NodeTree& tree) {
   return lamps;
 }
 
-LampValues values_of(const Document& document, const Lamp& lamp) {
+LampValues values_of(const EditedDocument& document, const Lamp& lamp) {
   const std::string at = values_pointer(lamp);
   LampValues v;
   if (lamp.kind == LampKind::mesh) {
@@ -123,7 +125,7 @@ LampValues values_of(const Document& document, const Lamp& lamp) {
   return v;
 }
 
-void set_values(Document& document, const Lamp& lamp, const LampValues& values) {
+void set_values(EditedDocument& document, const Lamp& lamp, const LampValues& values) {
   const std::string at = values_pointer(lamp);
   const LampValues now = values_of(document, lamp);
   if (lamp.kind == LampKind::mesh) {
@@ -147,7 +149,7 @@ void set_values(Document& document, const Lamp& lamp, const LampValues& values) 
   if (values.outer_angle && now.outer_angle) put(document, at + "/spot/outerConeAngle", *values.outer_angle, *now.outer_angle);
 }
 
-int add_light(Document& document, const std::string& type, Vec3d position, Vec3d direction, double size) {
+int add_light(EditedDocument& document, const std::string& type, Vec3d position, Vec3d direction, double size) {
   const bool punctual = type == "point" || type == "spot" || type == "directional";
   const std::string extension = punctual ? kPunctual : kArea;
   const std::size_t light = document.count("/extensions/" + extension + "/lights");
@@ -163,7 +165,7 @@ int add_light(Document& document, const std::string& type, Vec3d position, Vec3d
   return add_node(document, {{"name", name}, {"extensions", {{extension, {{"light", light}}}}}}, position, direction);
 }
 
-int add_node(Document& document, Json json, Vec3d position, Vec3d direction) {
+int add_node(EditedDocument& document, Json json, Vec3d position, Vec3d direction) {
   const std::size_t node = document.count("/nodes");
   const Frame frame = Frame::from_normal(-normalized(direction));
   document.set("/nodes/" + std::to_string(node), std::move(json));
@@ -182,7 +184,7 @@ int add_node(Document& document, Json json, Vec3d position, Vec3d direction) {
   return static_cast<int>(node);
 }
 
-void remove_lamp(Document& document, const Lamp& lamp) {
+void remove_lamp(EditedDocument& document, const Lamp& lamp) {
   const std::string node = node_pointer(lamp.node);
   if (lamp.kind == LampKind::mesh) {
     for (const char* key : {"/mesh", "/skin", "/weights"}) document.erase(node + key);
@@ -210,7 +212,7 @@ Json lobe_named(const std::string& name) {
   return lobe;
 }
 
-MaterialValues material_values(const Document& document, int material) {
+MaterialValues material_values(const EditedDocument& document, int material) {
   const std::string at = material_pointer(material), pbr = at + "/pbrMetallicRoughness";
   return {document.text(at + "/name", "material " + std::to_string(material)), color(document, pbr + "/baseColorFactor", {1, 1, 1}),
           document.number(pbr + "/metallicFactor", 1), document.number(pbr + "/roughnessFactor", 1), [&] {
@@ -219,7 +221,7 @@ MaterialValues material_values(const Document& document, int material) {
           }()};
 }
 
-void set_material_values(Document& document, int material, const MaterialValues& values) {
+void set_material_values(EditedDocument& document, int material, const MaterialValues& values) {
   const std::string pbr = material_pointer(material) + "/pbrMetallicRoughness";
   const MaterialValues now = material_values(document, material);
   if (!(values.base_color == now.base_color)) {

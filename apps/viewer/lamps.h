@@ -19,7 +19,7 @@ struct Lamp {
   int light = 0;           // index into its extension's lights; for a mesh: its material
   std::string name, type;  // "disk", "spot", "mesh"
 };
-std::vector<Lamp> lamps_of(const Document& document, const NodeTree& tree);
+std::vector<Lamp> lamps_of(const EditedDocument& document, const NodeTree& tree);
 
 struct LampValues {
   Vec3d color{1, 1, 1};
@@ -30,17 +30,17 @@ struct LampValues {
   std::optional<bool> two_sided;                   // for flat lights
   std::optional<double> inner_angle, outer_angle;  // for spots [rad]
 };
-LampValues values_of(const Document& document, const Lamp& lamp);
-void set_values(Document& document, const Lamp& lamp, const LampValues& values);  // writes changed values only
+LampValues values_of(const EditedDocument& document, const Lamp& lamp);
+void set_values(EditedDocument& document, const Lamp& lamp, const LampValues& values);  // writes changed values only
 
 // Adds a light with a size of one metre and radiance 5 at a place, which shines along `direction`; returns its node. point, spot and
 // directional have an intensity of 5.
-int add_light(Document& document, const std::string& type, Vec3d position, Vec3d direction, double size = 1);
+int add_light(EditedDocument& document, const std::string& type, Vec3d position, Vec3d direction, double size = 1);
 // Adds a node to the scene whose -z points along `direction`.
-int add_node(Document& document, Json json, Vec3d position, Vec3d direction);
-void use_extension(Document& document, const std::string& name);
+int add_node(EditedDocument& document, Json json, Vec3d position, Vec3d direction);
+void use_extension(EditedDocument& document, const std::string& name);
 // The lamp's node no longer emits; a mesh is no longer shown.
-void remove_lamp(Document& document, const Lamp& lamp);
+void remove_lamp(EditedDocument& document, const Lamp& lamp);
 
 struct MaterialValues {
   std::string name;
@@ -51,7 +51,7 @@ struct MaterialValues {
 // The lobes that a material may have, and the JSON of one of them with the keys that it needs.
 std::vector<std::string> lobe_names();
 Json lobe_named(const std::string& name);
-MaterialValues material_values(const Document& document, int material);
-void set_material_values(Document& document, int material, const MaterialValues& values);
+MaterialValues material_values(const EditedDocument& document, int material);
+void set_material_values(EditedDocument& document, int material, const MaterialValues& values);
 
 }  // namespace steradian::view

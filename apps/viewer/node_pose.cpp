@@ -18,7 +18,7 @@ std::array<double, 4> product(const std::array<double, 4>& a, const std::array<d
 }
 
 // Writes a value if it differs from the file's. A value that is absent and equals glTF's default stays absent.
-void put(Document& document, int node, const char* key, const Json& value, const Json& otherwise) {
+void put(EditedDocument& document, int node, const char* key, const Json& value, const Json& otherwise) {
   const std::string pointer = node_pointer(node, key);
   const Json* now = document.find(pointer);
   if (now != nullptr ? *now == value : value == otherwise) return;
@@ -59,7 +59,7 @@ Affine inverse(const Affine& a) {
   return i;
 }
 
-NodePose pose_of(const Document& document, int node) {
+NodePose pose_of(const EditedDocument& document, int node) {
   NodePose pose;
   if (const auto m = document.numbers(node_pointer(node, "matrix"), 16); !m.empty()) {
     const auto column = [&](std::size_t c) { return Vec3d{m[4 * c], m[4 * c + 1], m[4 * c + 2]}; };
@@ -73,7 +73,7 @@ NodePose pose_of(const Document& document, int node) {
   return pose;
 }
 
-void set_pose(Document& document, int node, const NodePose& pose) {
+void set_pose(EditedDocument& document, int node, const NodePose& pose) {
   if (pose.is_matrix) {
     const Affine& m = pose.matrix;
     document.set(node_pointer(node, "matrix"),

@@ -16,7 +16,7 @@ using scene::Affine;
 class NodeTree {
  public:
   NodeTree() = default;  // without nodes
-  explicit NodeTree(const Document& document) : NodeTree(document.json(), document.file().path) {}
+  explicit NodeTree(const EditedDocument& document) : NodeTree(document.json(), document.file().path) {}
   NodeTree(const Json& json, const std::string& path);  // throws Error as load_scene does
   const Affine& world(int node) const { return nodes_.world[static_cast<std::size_t>(node)]; }
   Affine parent_world(int node) const;  // the identity for a root
@@ -34,8 +34,8 @@ struct NodePose {
   Vec3d translation, scale{1, 1, 1};
   std::array<double, 4> rotation{0, 0, 0, 1};  // x y z w
 };
-NodePose pose_of(const Document& document, int node);
-void set_pose(Document& document, int node, const NodePose& pose);  // writes changed values only
+NodePose pose_of(const EditedDocument& document, int node);
+void set_pose(EditedDocument& document, int node, const NodePose& pose);  // writes changed values only
 
 // `parent`: the world transform of the node's parent. Directions, axes and distances are in world space. A parent with unequal scales turns
 // an axis to the direction of its image in the parent.

@@ -19,23 +19,23 @@ constexpr std::size_t kMostCorners = 1000;                          // every ste
 
 std::string indexed(const char* array, std::size_t i) { return std::string("/") + array + "/" + std::to_string(i); }
 
-struct Place {
+struct PrimitivePlace {
   std::string primitive;  // its JSON pointer
   const Json* json = nullptr;
 };
 
 // The only primitive with the lamp's material.
-std::optional<Place> place_of(const Document& document, const Lamp& lamp) {
+std::optional<PrimitivePlace> place_of(const EditedDocument& document, const Lamp& lamp) {
   if (lamp.kind != LampKind::mesh) return {};
   const int mesh = document.index("/nodes/" + std::to_string(lamp.node) + "/mesh");
   if (mesh < 0 || document.find("/nodes/" + std::to_string(lamp.node) + "/skin") != nullptr) return {};
   const std::string primitives = indexed("meshes", static_cast<std::size_t>(mesh)) + "/primitives";
-  std::optional<Place> found;
+  std::optional<PrimitivePlace> found;
   for (std::size_t i = 0; i < document.count(primitives); ++i) {
     const std::string at = primitives + "/" + std::to_string(i);
     if (document.index(at + "/material") != lamp.light) continue;
     if (found || document.find(at + "/targets") != nullptr) return {};
-    found = Place{at, document.find(at)};
+    found = PrimitivePlace{at, document.find(at)};
   }
   return found;
 }
@@ -58,7 +58,7 @@ Contours flattened(const Outline& outline, const Frame& frame) {
 }
 
 // Bytes in the form of a buffer in the file's text.
-class Packed {
+class PackedBytes {
  public:
   template <class T>
   void add(const std::vector<T>& values) {
@@ -81,7 +81,7 @@ class Packed {
 };
 
 // The first of the three accessors of an outline written here; the next free number if the primitive has none yet.
-std::size_t first_accessor(const Document& document, const Json& primitive) {
+std::size_t first_accessor(const EditedDocument& document, const Json& primitive) {
   const Json::json_pointer at("/attributes/POSITION");
   if (primitive.contains(at) && primitive.at(at).is_number_unsigned()) {
     const auto accessor = primitive.at(at).get<std::size_t>();
@@ -94,7 +94,7 @@ std::size_t first_accessor(const Document& document, const Json& primitive) {
 
 }  // namespace
 
-std::optional<Outline> outline_of(const Document& document, const Lamp& lamp) try {
+std::optional<Outline> outline_of(const EditedDocument& document, const Lamp& lamp) try {
   const auto place = place_of(document, lamp);
   if (!place || has_texture(*document.find("/materials/" + std::to_string(lamp.light)))) return {};
   Budget budget;
@@ -134,7 +134,7 @@ std::optional<Outline> outline_of(const Document& document, const Lamp& lamp) tr
   return {};  // the file is broken; the error appears when it is read
 }
 
-bool set_outline(Document& document, const Lamp& lamp, const Outline& outline) {
+bool set_outline(EditedDocument& document, const Lamp& lamp, const Outline& outline) {
   const auto place = place_of(document, lamp);
   if (!place || outline.contours.empty()) return false;
   const Frame frame = Frame::from_normal(outline.normal);
@@ -161,7 +161,7 @@ bool set_outline(Document& document, const Lamp& lamp, const Outline& outline) {
       is_new ? document.count("/bufferViews") : static_cast<std::size_t>(document.index(indexed("accessors", accessor) + "/bufferView"));
   const std::size_t buffer =
       is_new ? document.count("/buffers") : static_cast<std::size_t>(document.index(indexed("bufferViews", view) + "/buffer"));
-  Packed packed;
+  PackedBytes packed;
   packed.add(positions);
   packed.add(normals);
   packed.add(indices);
@@ -185,7 +185,7 @@ bool set_outline(Document& document, const Lamp& lamp, const Outline& outline) {
   return true;
 }
 
-int add_polygon_light(Document& document, Vec3d position, Vec3d direction, double size) {
+int add_polygon_light(EditedDocument& document, Vec3d position, Vec3d direction, double size) {
   const std::size_t material = document.count("/materials"), mesh = document.count("/meshes");
   use_extension(document, "KHR_materials_emissive_strength");
   const std::string name = "polygon " + std::to_string(mesh + 1);

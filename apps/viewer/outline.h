@@ -14,12 +14,12 @@ struct Outline {
 };
 
 // Empty if the lamp's mesh is not flat, is in several pieces, has a texture, or is moved by a skin or morph targets.
-std::optional<Outline> outline_of(const Document& document, const Lamp& lamp);
+std::optional<Outline> outline_of(const EditedDocument& document, const Lamp& lamp);
 
 // Replaces the lamp's mesh by the outline, for all nodes that show it. Returns false and changes nothing if the outline crosses itself.
-bool set_outline(Document& document, const Lamp& lamp, const Outline& outline);
+bool set_outline(EditedDocument& document, const Lamp& lamp, const Outline& outline);
 
 // Adds a lamp of five corners with radiance 5 that shines along `direction`; returns its node.
-int add_polygon_light(Document& document, Vec3d position, Vec3d direction, double size = 1);
+int add_polygon_light(EditedDocument& document, Vec3d position, Vec3d direction, double size = 1);
 
 }  // namespace steradian::view

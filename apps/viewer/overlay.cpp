@@ -92,7 +92,7 @@ class Overlay {
   ImDrawList* list_;
 };
 
-void draw_plane_handles(const Drawing& drawing, double scale) {
+void draw_plane_handles(const DrawingStage& drawing, double scale) {
   if (!drawing.selection()) return;
   const Box2d box = bounds_of(drawing.scene().bodies[*drawing.selection()]);
   const auto at = [&](Vec2d p) {

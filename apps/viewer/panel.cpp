@@ -3,12 +3,14 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "core/words.h"
 #include "integrals/methods.h"
 #include "keys.h"
+#include "steradian/bounces.h"
 #include "view_state.h"
 
 namespace steradian::view {
@@ -214,17 +216,23 @@ bool choose_method(const char* label, std::string& method) {
   return choose_name(label, names, method);
 }
 
+bool choose_light(RenderOptions& o) {
+  constexpr const char *kDirect = "direct", *kAll = "all bounces", *kVirtual = "one bounce, virtual lights";
+  std::string name = o.bounces != 0 ? kAll : o.indirect.mode == IndirectMode::ltc ? kVirtual : kDirect;
+  if (!choose_name("light", std::array{kDirect, kAll, kVirtual}, name)) return false;
+  o.bounces = name == kAll ? kAllBounces : 0;
+  o.indirect.mode = name == kVirtual ? IndirectMode::ltc : IndirectMode::off;
+  return true;
+}
+
 void render_controls(ViewState& state, Session& s) {
   RenderOptions& o = s.options();
   bool changed = choose_method("method", o.method);
   changed |= choose_word("quality", o.quality);
   changed |= choose_word("shadows", o.shadows);
-  bool bounce = o.indirect.mode == IndirectMode::ltc;
-  if (ImGui::Checkbox("one bounce", &bounce)) {
-    o.indirect.mode = bounce ? IndirectMode::ltc : IndirectMode::off;
-    changed = true;
-  }
-  if (bounce && ImGui::SliderInt("virtual lights", &o.indirect.virtual_lights, 64, 1 << 20, "%d", ImGuiSliderFlags_Logarithmic))
+  changed |= choose_light(o);
+  if (o.indirect.mode == IndirectMode::ltc &&
+      ImGui::SliderInt("virtual lights", &o.indirect.virtual_lights, 64, 1 << 20, "%d", ImGuiSliderFlags_Logarithmic))
     changed = true;
   if (ImGui::SliderInt("samples a pixel", &o.aa, 1, 16)) changed = true;
 
@@ -313,6 +321,13 @@ void list_of_passes(const std::vector<PassTime>& passes) {
 void times(ViewState& state, Session& s) {
   const RenderedFrame& frame = s.frame();
   ImGui::Text("%d x %d%s, %.0f ms", frame.picture.width, frame.picture.height, s.settled() ? "" : " ...", frame.stats.total_ms);
+  if (s.options().bounces != 0) {
+    switch (frame.light) {
+      case ShownLight::direct: ImGui::TextUnformatted("direct light, all light follows"); break;
+      case ShownLight::preview: ImGui::TextUnformatted("preview of all light"); break;
+      case ShownLight::all: ImGui::Text("all light, estimated error %.2f %%", 100 * frame.stats.bounce_error); break;
+    }
+  }
   graph_of_passes(state);
   list_of_passes(frame.stats.passes);
   if (frame.load_ms > 0 && frame.scene)
@@ -332,7 +347,7 @@ const char* name_of(const PlaneBody& body) {
   return "";
 }
 
-void body_list(Drawing& d) {
+void body_list(DrawingStage& d) {
   const auto& bodies = d.scene().bodies;
   if (ImGui::BeginListBox("##bodies", {-1, 8 * ImGui::GetTextLineHeightWithSpacing()})) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -352,7 +367,7 @@ void body_list(Drawing& d) {
   if (ImGui::SmallButton("delete")) d.remove_selected();
 }
 
-void body_controls(Drawing& d) {
+void body_controls(DrawingStage& d) {
   if (!d.selection()) {
     ImGui::TextDisabled("click on a lamp or a blocker");
     return;
@@ -383,7 +398,7 @@ void body_controls(Drawing& d) {
   if (changed) d.change(*d.selection(), std::move(body));
 }
 
-void drawing_times(ViewState& state, const Drawing& d) {
+void drawing_times(ViewState& state, const DrawingStage& d) {
   ImGui::Text("%.1f ms, %zu of %zu tiles drawn", d.stats().ms, d.stats().drawn, d.stats().tiles);
   graph_of_passes(state);
 }

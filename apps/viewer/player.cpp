@@ -118,7 +118,7 @@ bool set_of_session(Session& s, const std::string& what, const nlohmann::json& v
   return true;
 }
 
-bool set_of_drawing(Drawing& d, const std::string& what, const nlohmann::json& value) {
+bool set_of_drawing(DrawingStage& d, const std::string& what, const nlohmann::json& value) {
   if (!d.selection()) return false;
   PlaneBody body = d.scene().bodies[*d.selection()];
   if (what == "color" && body.light)
@@ -144,7 +144,7 @@ std::string beside(const std::string& path, const std::string& ending) {
 
 void open_stage(ViewState& state, const std::string& path, const RenderOptions& options) {
   if (path.ends_with(".svg")) {
-    auto drawing = std::make_unique<Drawing>(path, options.width, options.height, options.threads);
+    auto drawing = std::make_unique<DrawingStage>(path, options.width, options.height, options.threads);
     state.session = nullptr;
     state.drawing = drawing.get();
     state.stage = std::move(drawing);
@@ -233,8 +233,9 @@ void act(ViewState& state, Action action) {
       break;
     case Action::bounce:
       if (s != nullptr) {
-        IndirectMode& mode = s->options().indirect.mode;
-        mode = mode == IndirectMode::off ? IndirectMode::ltc : IndirectMode::off;
+        RenderOptions& options = s->options();
+        options.indirect.mode = IndirectMode::off;
+        options.bounces = options.bounces == 0 ? kAllBounces : 0;
         choose_other(state);
       }
       break;

@@ -27,7 +27,7 @@ constexpr Word kWords[] = {
     {"open", ScriptWord::open, Word::text},         {"quit", ScriptWord::quit, Word::flag},
 };
 
-struct Line {
+struct ScriptLine {
   std::string place;
   json object;
 
@@ -57,7 +57,7 @@ struct Line {
   }
 };
 
-void add_drag(const Line& line, std::vector<ScriptEvent>& events) {
+void add_drag(const ScriptLine& line, std::vector<ScriptEvent>& events) {
   const std::string button = line.button("drag");
   const Vec2d from = line.point("from"), to = line.point("to");
   const int steps = static_cast<int>(std::fmin(std::fmax(line.number("steps", 10), 1), 10000));
@@ -67,7 +67,7 @@ void add_drag(const Line& line, std::vector<ScriptEvent>& events) {
   events.push_back({ScriptWord::release, button, to, 0, false, {}});
 }
 
-ScriptEvent event_of(const Line& line) {
+ScriptEvent event_of(const ScriptLine& line) {
   std::string known = "drag";
   for (const Word& word : kWords) {
     known += std::string(", ") + word.name;
@@ -113,7 +113,7 @@ std::vector<ScriptEvent> read_script(const std::string& text, const std::string&
   std::string content;
   for (int number = 1; std::getline(in, content); ++number) {
     if (content.find_first_not_of(" \t\r") == std::string::npos || content.starts_with("//")) continue;
-    Line line{path + ": line " + std::to_string(number), json::parse(content, nullptr, false)};
+    ScriptLine line{path + ": line " + std::to_string(number), json::parse(content, nullptr, false)};
     if (!line.object.is_object()) line.fail("not a JSON object", R"(as in {"key": "F1"})");
     if (line.object.contains("drag"))
       add_drag(line, events);

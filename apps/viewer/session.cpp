@@ -25,10 +25,10 @@ double distance_of_view(const Scene& scene, const Camera& camera) {
 
 Session::Session(const std::string& path, RenderOptions options, Worker::Render render)
     : options_(std::move(options)), worker_(std::move(render)) {
-  take_document(std::make_unique<Document>(scene::read_gltf_file(path)));
+  take_document(std::make_unique<EditedDocument>(scene::read_gltf_file(path)));
 }
 
-void Session::take_document(std::unique_ptr<Document> document) {
+void Session::take_document(std::unique_ptr<EditedDocument> document) {
   std::vector<scene::GltfAnimation> animations = read_animations(document->file());
   if (document_) base_revision_ += document_->revision() + 1;
   ++source_;
@@ -445,7 +445,7 @@ void Session::redo() {
 // ---- files
 
 void Session::reload() {
-  take_document(std::make_unique<Document>(scene::read_gltf_file(path())));
+  take_document(std::make_unique<EditedDocument>(scene::read_gltf_file(path())));
   if (!tree().contains(selection_.node)) selection_ = {};
 }
 

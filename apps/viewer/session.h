@@ -62,7 +62,7 @@ class Session : public Stage {
   void frame_selected() override;  // orbits about the selected object, or the whole scene
   void reset_camera() override;
 
-  Document& document() { return *document_; }
+  EditedDocument& document() { return *document_; }
   const NodeTree& tree() const;            // nodes of the document in its present state
   const std::vector<Lamp>& lamps() const;  // lamps of the document in its present state
   const Selection& selection() const { return selection_; }
@@ -106,7 +106,7 @@ class Session : public Stage {
  private:
   Ray ray(Vec2d at) const { return ray_through(camera_->camera(), at, size().x, size().y); }
   void submit();
-  void take_document(std::unique_ptr<Document> document);
+  void take_document(std::unique_ptr<EditedDocument> document);
   Json shown_json() const;  // the document at the displayed moment
   void click(Vec2d at);
   void drag_handle(Vec2d to);
@@ -114,7 +114,7 @@ class Session : public Stage {
   void drag_corner(Vec2d to);
   bool put_corners(const Outline& outline, Vec3d taken);
 
-  std::unique_ptr<Document> document_;
+  std::unique_ptr<EditedDocument> document_;
   RenderOptions options_;
   std::optional<RenderOptions> other_;
   std::optional<ViewCamera> camera_;

@@ -14,8 +14,8 @@ namespace steradian::view {
 
 struct ViewState {
   std::unique_ptr<Stage> stage;
-  Session* session = nullptr;  // the stage if it is a scene in space
-  Drawing* drawing = nullptr;  // the stage if it is a drawing of the plane
+  Session* session = nullptr;       // the stage if it is a scene in space
+  DrawingStage* drawing = nullptr;  // the stage if it is a drawing of the plane
 
   float exposure = 0;
   ToneCurve tone = ToneCurve::neutral;

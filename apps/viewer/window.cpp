@@ -216,7 +216,12 @@ void Window::take_picture() {
 void Window::make_display() {
   const Picture& picture = state_.stage->picture();
   if (picture.width == 0) return;
-  if (!state_.exposure_known) {
+  // The exposure is that of all the light, if the picture is to have it.
+  const bool waits = state_.session != nullptr && state_.session->frame().light == ShownLight::direct;
+  if (!state_.exposure_known && waits) {
+    state_.exposure = auto_exposure(picture);
+    state_.display_wanted = true;
+  } else if (!state_.exposure_known) {
     state_.exposure = state_.drawing != nullptr ? 0 : auto_exposure(picture);  // like `render`: light maps keep their scale
     state_.exposure_known = state_.display_wanted = true;
   }

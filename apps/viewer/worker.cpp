@@ -8,17 +8,32 @@
 namespace steradian::view {
 namespace {
 
-constexpr double kFrameMs = 1000.0 / 30;
+constexpr double kFrameMs = 1000.0 / 30;   // of a picture while things move
+constexpr double kPreviewMs = 1000.0 / 6;  // of one with all light
+constexpr double kLongMs = 500;            // of a picture that a smaller one precedes, at rest
 
 double ms_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-RenderOptions reduced(RenderOptions options, int divisor) {
+RenderOptions reduced(RenderOptions options, ShownLight light, int divisor) {
   options.width = std::max(1, options.width / divisor);
   options.height = std::max(1, options.height / divisor);
   if (divisor > 1) options.aa = 1;
+  if (light == ShownLight::direct) options.bounces = 0;
+  options.bounce_preview = light == ShownLight::preview;
   return options;
+}
+
+// Time of the whole picture.
+double whole_ms(const Cost& cost) { return cost.fixed_ms + cost.pixels_ms * cost.divisor * cost.divisor; }
+
+// Time that does not depend on the number of pixels.
+double fixed_ms(const RenderStats& stats) {
+  double sum = 0;
+  for (const PassTime& pass : stats.passes)
+    if (pass.name == "build" || pass.name == "bounces: patches") sum += pass.ms;
+  return sum;
 }
 
 // A reference improves while it is displayed.
@@ -129,23 +144,50 @@ void Worker::answer(const Job& job) {
   frame.scene = scene_;
   frame.camera = scene_->scene.cameras.front();
 
-  const int first = cost_.divisor == 0 ? 4 : divisor_within(kFrameMs, cost_);
-  if (!request.refine || first == 1) {
-    if (!show(job, frame, first, first == 1) || request.moving) return;
+  const Step first = first_step(request);
+  const std::vector<Step> further = further_steps(request, first);
+  frame.last = further.empty();
+  if (!request.refine || further.empty()) {
+    if (!show(job, frame, first) || request.moving) return;
   }
   {
     const std::lock_guard lock(mutex_);
     refining_ = true;
     if (next_) return;
   }
-  if (first > 1) {
-    // At rest, if the whole picture takes long, a picture of half the size comes first.
-    constexpr double kLong = 500;
-    const double whole = cost_.pixels_ms * cost_.divisor * cost_.divisor;
-    if (first > 2 && whole > kLong && !show(job, frame, 2, false)) return;
-    if (!show(job, frame, 1, true)) return;
+  for (const Step& step : further) {
+    frame.last = step == further.back();
+    if (!show(job, frame, step)) return;
   }
   if (frame.pairs > 0) accumulate(job, std::move(frame));
+}
+
+// The light and the size of the picture that is shown while things move.
+Worker::Step Worker::first_step(const RenderRequest& request) const {
+  const bool bounces = request.options.bounces != 0;
+  if (bounces) {
+    const Cost& preview = costs_[static_cast<std::size_t>(ShownLight::preview)];
+    const int divisor = divisor_within(kPreviewMs, preview);
+    if (preview.divisor != 0 && preview.fixed_ms + whole_ms({0, preview.pixels_ms, preview.divisor}) / (divisor * divisor) <= kPreviewMs)
+      return {ShownLight::preview, divisor};
+  }
+  const ShownLight light = bounces ? ShownLight::direct : ShownLight::all;
+  const Cost& cost = costs_[static_cast<std::size_t>(light)];
+  return {light, cost.divisor == 0 ? 4 : divisor_within(kFrameMs, cost)};
+}
+
+// The pictures that follow at rest.
+std::vector<Worker::Step> Worker::further_steps(const RenderRequest& request, Step first) const {
+  if (first.light == ShownLight::all && first.divisor == 1) return {};
+  std::vector<Step> steps;
+  const bool bounces = request.options.bounces != 0;
+  if (bounces && first.light == ShownLight::direct) steps.push_back({ShownLight::preview, 4});
+  // If the whole picture takes long, one of half the size comes before it.
+  const Cost& cost = costs_[static_cast<std::size_t>(ShownLight::all)];
+  const bool takes_long = cost.divisor == 0 ? bounces : whole_ms(cost) > kLongMs;
+  if (takes_long && (bounces || first.divisor > 2)) steps.push_back({ShownLight::all, 2});
+  steps.push_back({ShownLight::all, 1});
+  return steps;
 }
 
 bool Worker::render_one(const RenderOptions& wanted, RenderedFrame& frame, Picture& picture, RenderStats& stats) {
@@ -167,8 +209,8 @@ bool Worker::render_one(const RenderOptions& wanted, RenderedFrame& frame, Pictu
   return state.complete;
 }
 
-bool Worker::add_pass(const Job& job, RenderedFrame& frame, int divisor, int pairs) {
-  RenderOptions options = reduced(*job.request.other, divisor);
+bool Worker::add_pass(const Job& job, RenderedFrame& frame, Step step, int pairs) {
+  RenderOptions options = reduced(*job.request.other, step.light, step.divisor);
   options.target_error = 0;
   options.spp = pairs;
   options.seed += accumulation_.pairs();  // a different seed for every pass
@@ -181,20 +223,21 @@ bool Worker::add_pass(const Job& job, RenderedFrame& frame, int divisor, int pai
   return true;
 }
 
-bool Worker::show(const Job& job, RenderedFrame& frame, int divisor, bool last) {
+bool Worker::show(const Job& job, RenderedFrame& frame, Step step) {
   const RenderRequest& request = job.request;
   const auto start = std::chrono::steady_clock::now();
-  if (!render_one(reduced(request.options, divisor), frame, frame.picture, frame.stats)) return false;
+  const bool last = frame.last;
+  if (!render_one(reduced(request.options, step.light, step.divisor), frame, frame.picture, frame.stats)) return false;
   accumulation_ = {};
   if (is_accumulated(request.other)) {
-    if (!add_pass(job, frame, divisor, kFirstPairs)) return false;
-  } else if (request.other && !render_one(reduced(*request.other, divisor), frame, frame.other, frame.other_stats)) {
+    if (!add_pass(job, frame, step, kFirstPairs)) return false;
+  } else if (request.other && !render_one(reduced(*request.other, step.light, step.divisor), frame, frame.other, frame.other_stats)) {
     return false;
   }
-  const auto build_ms = [](const RenderStats& stats) { return stats.passes.empty() ? 0.0 : stats.passes.front().ms; };
-  const double fixed = build_ms(frame.stats) + build_ms(frame.other_stats);
-  cost_ = {fixed, std::max(ms_since(start) - fixed, 0.0), divisor};
-  frame.divisor = divisor;
+  const double fixed = fixed_ms(frame.stats) + fixed_ms(frame.other_stats);
+  costs_[static_cast<std::size_t>(step.light)] = {fixed, std::max(ms_since(start) - fixed, 0.0), step.divisor};
+  frame.divisor = step.divisor;
+  frame.light = step.light;
   frame.last = last && (frame.pairs == 0 || frame.standard_error <= request.other->target_error);
   publish(frame);
   return true;
@@ -209,7 +252,7 @@ void Worker::accumulate(const Job& job, RenderedFrame frame) {
   frame.same = true;
   while (frame.standard_error > target * kGoodEnough && frame.pairs < kMost) {
     const auto start = std::chrono::steady_clock::now();
-    if (!add_pass(job, frame, 1, pairs)) return;
+    if (!add_pass(job, frame, {ShownLight::all, 1}, pairs)) return;
     if (ms_since(start) < kPassMs) pairs *= 2;
     frame.last = frame.standard_error <= target || frame.pairs >= kMost;
     publish(frame);

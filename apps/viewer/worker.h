@@ -4,8 +4,12 @@
 // allowed to finish, because otherwise every step of a drag would cancel the previous step's picture. At rest pictures of rising size
 // follow. The last of them equals that of `render`. A new request cancels them. A reference beside it (method `reference`) then improves as
 // long as there is no new request. Sorted data of one picture is cached for the next (LoadOptions::meshes, RenderCache).
+//
+// With bounces, the first picture at rest has direct light alone, then comes a preview of all light, then all light. While things move,
+// pictures are previews if those take no more than a sixth of a second, else direct light.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <functional>
@@ -14,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "accumulation.h"
 #include "scene/gltf/gltf_file.h"
@@ -33,13 +38,17 @@ struct RenderRequest {
   bool refine = false;  // the last request again, at rest: its small picture exists
 };
 
+// The light of a picture. preview: all light with few patches and directions.
+enum class ShownLight { direct, preview, all };
+
 struct RenderedFrame {
   std::uint64_t request = 0;                 // number of the submit that it answers, from 1 on
   std::shared_ptr<const LoadedScene> scene;  // its cameras may change: read only `camera`
   Camera camera;
   Picture picture, other;
   RenderStats stats, other_stats;
-  int divisor = 1;            // the full size over this picture's
+  int divisor = 1;  // the full size over this picture's
+  ShownLight light = ShownLight::all;
   bool last = false;          // no frame follows until the next request
   double load_ms = 0;         // 0: the scene was loaded already
   bool same = false;          // equal to the frame before, except for `other`
@@ -77,10 +86,17 @@ class Worker {
   void run();
   void answer(const Job& job);
   bool load(const Job& job, RenderedFrame& frame);
-  bool show(const Job& job, RenderedFrame& frame, int divisor, bool last);  // false: cancelled
+  struct Step {
+    ShownLight light;
+    int divisor;
+    bool operator==(const Step&) const = default;
+  };
+  Step first_step(const RenderRequest& request) const;
+  std::vector<Step> further_steps(const RenderRequest& request, Step first) const;
+  bool show(const Job& job, RenderedFrame& frame, Step step);  // false: cancelled
   bool render_one(const RenderOptions& options, RenderedFrame& frame, Picture& picture, RenderStats& stats);
-  bool add_pass(const Job& job, RenderedFrame& frame, int divisor, int pairs);  // to a reference beside the picture
-  void accumulate(const Job& job, RenderedFrame frame);                         // until a new request, or until it is good enough
+  bool add_pass(const Job& job, RenderedFrame& frame, Step step, int pairs);  // to a reference beside the picture
+  void accumulate(const Job& job, RenderedFrame frame);                       // until a new request, or until it is good enough
   void publish(RenderedFrame frame);
 
   std::mutex mutex_;
@@ -99,7 +115,7 @@ class Worker {
   RenderCache cache_;
   Accumulation accumulation_;
   std::string device_lost_;
-  Cost cost_;
+  std::array<Cost, 3> costs_;  // by light
 
   const Render render_;
   std::thread thread_;

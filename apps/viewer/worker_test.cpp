@@ -136,6 +136,52 @@ TEST(ViewSession, GoesOnWithTheCpuWhereADeviceIsLost) {
   EXPECT_EQ(render(shown, cpu).pixels, s.frame().picture.pixels);
 }
 
+// Steps of a picture with bounces: a render that takes no time of its own, and tells the times of its passes.
+TEST(ViewWorker, ShowsDirectLightThenAPreviewThenAllLight) {
+  double preview_ms = 1e4;
+  Worker worker([&](const Scene&, const RenderOptions& o, RenderCache&, RenderStats* stats, RenderState* state) {
+    stats->passes = {{"build", 0}, {"bounces: patches", o.bounce_preview ? preview_ms : 0}};
+    state->complete = true;
+    Picture picture(o.width, o.height);
+    picture.pixels[0] = {o.bounces != 0 ? 1.0f : 0.0f, o.bounce_preview ? 1.0f : 0.0f, 0};
+    return picture;
+  });
+  RenderRequest request;
+  request.file = scene::read_gltf_file(room());
+  request.options = small();
+  request.options.bounces = kAllBounces;
+  struct Shown {
+    ShownLight light;
+    int divisor;
+    bool last;
+    bool operator==(const Shown&) const = default;
+  };
+  const auto shown = [&](bool moving) {
+    request.moving = moving;
+    std::vector<Shown> all;
+    const std::uint64_t number = worker.submit(request);
+    for (bool ended = false; !ended;) {
+      worker.wait();
+      const auto frame = worker.take();
+      if (!frame) break;
+      EXPECT_EQ(frame->error, "");
+      EXPECT_EQ(frame->request, number);
+      EXPECT_EQ(frame->picture.width, small().width / frame->divisor);
+      EXPECT_EQ(frame->picture.pixels[0].x > 0, frame->light != ShownLight::direct);
+      EXPECT_EQ(frame->picture.pixels[0].y > 0, frame->light == ShownLight::preview);
+      all.push_back({frame->light, frame->divisor, frame->last});
+      ended = frame->last || moving;
+    }
+    return all;
+  };
+  // The window may take only the newest of several pictures, so the last one is what counts.
+  EXPECT_EQ(shown(false).back(), (Shown{ShownLight::all, 1, true}));
+  EXPECT_EQ(shown(true), (std::vector<Shown>{{ShownLight::direct, 1, false}})) << "a preview takes too long";
+  preview_ms = 1;
+  EXPECT_EQ(shown(false).back(), (Shown{ShownLight::all, 1, true}));
+  EXPECT_EQ(shown(true), (std::vector<Shown>{{ShownLight::preview, 1, false}}));
+}
+
 TEST(ViewWorker, ChoosesTheLargestPictureThatTheTimeAllows) {
   EXPECT_EQ(divisor_within(33, {0, 20, 1}), 1);
   EXPECT_EQ(divisor_within(33, {0, 100, 1}), 2);

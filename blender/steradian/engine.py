@@ -52,8 +52,9 @@ class Settings(bpy.types.PropertyGroup):
         items=[("world", "World", "Blender's world"), ("sky", "Sky", "The program's clear sky"), ("white", "White", "Radiance 1 from everywhere"),
                ("none", "None", "Black")])
     indirect: bpy.props.EnumProperty(
-        name="Bounce", default="off",
-        items=[("off", "Off", "Direct light alone"), ("ltc", "Virtual lights", "One bounce"), ("path", "Paths", "One bounce, by sampling")])
+        name="Light", description="Light that surfaces send to each other", default="all",
+        items=[("all", "All light", "Every bounce, without noise"), ("off", "Direct", "Direct light alone"),
+               ("ltc", "Virtual lights", "One bounce"), ("path", "Paths", "One bounce, by sampling")])
     aa: bpy.props.IntProperty(name="Anti-aliasing", description="Primary samples a pixel: they smooth outlines", default=4, min=1, max=4096)
     viewport_pixel: bpy.props.IntProperty(name="Viewport pixel", description="Pixels of the screen a side for one of the viewport's render",
                                           default=2, min=1, max=16)

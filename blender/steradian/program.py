@@ -16,15 +16,17 @@ def path():
     return bpy.path.abspath(given) if given else shutil.which("steradian") or ""
 
 
-def render_command(glb, picture, width, height, settings, aa, world):
+def render_command(glb, picture, width, height, settings, aa, world, direct_only=False):
     """What renders a file of the add-on's export. Its lights are in watts, whatever the exporter's name is in it. world: a map, or None."""
+    indirect = "off" if direct_only else settings.indirect
     background = "off" if bpy.context.scene.render.film_transparent else "on"
     environment = {"world": world, "none": None}.get(settings.environment, settings.environment)
     around = ["--environment", environment, "--background", background] if environment else []
     # The program refuses an option that changes nothing.
     terminator = ["--terminator", settings.terminator] if settings.shadows != "off" else []
+    bounces = ["--bounces", "all"] if indirect == "all" else ["--indirect", indirect]
     return [path(), "render", glb, "-o", picture, "--size", f"{width}x{height}", "--method", settings.method, "--shadows", settings.shadows,
-            *terminator, "--indirect", settings.indirect, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
+            *terminator, *bounces, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
 
 
 def bake_command(glb, output, settings, texels, bounces, target, world):

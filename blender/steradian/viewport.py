@@ -1,6 +1,6 @@
 """The viewport's render: the scene is exported when it changes, the program renders it as the viewport looks at it, and the picture is drawn.
 
-Coarse at first, and once more at the size of the settings while nothing moves. Everything runs in Blender's main thread, by a timer; only the
+Coarse and with direct light at first, and once more at the size and with the light of the settings while nothing moves. Everything runs in Blender's main thread, by a timer; only the
 program runs beside it.
 """
 
@@ -136,7 +136,9 @@ class Viewport:
         glb = os.path.join(self.folder.name, "view.glb")
         with open(glb, "wb") as file:
             file.write(with_camera(self.scene_data, *camera_of(view, window)))
-        command = program.render_command(glb, os.path.join(self.folder.name, "view.exr"), width, height, bpy.context.scene.steradian, 1, self.around)
+        settings = bpy.context.scene.steradian
+        coarse = pixel > settings.viewport_pixel
+        command = program.render_command(glb, os.path.join(self.folder.name, "view.exr"), width, height, settings, 1, self.around, coarse)
         if not command[0]:
             self.shown = (looks, self.scene_number, 0)
             return self.say("the program steradian is not found: name it in the add-on's preferences")

@@ -20,6 +20,8 @@ struct LightTexture {
   Vec3d origin, du, dv;
   double u0 = 0, v0 = 0;
   Vec3d factor{1, 1, 1};  // radiance = factor times the texel
+
+  bool operator==(const LightTexture&) const = default;
 };
 
 // Light that leaves a flat light by a measured profile. Every point has `intensity` times the profile's candela over the area. From afar,
@@ -29,6 +31,8 @@ struct LightEmission {
   ProfileAxes axes;                             // aim: the light's normal
   Vec3d intensity{1, 1, 1};
   double area = 0;  // [m2]
+
+  bool operator==(const LightEmission&) const = default;
 };
 
 struct AreaLight {
@@ -42,6 +46,8 @@ struct AreaLight {
   int node = -1;                            // of the file that places the light; -1: none, as for emissive meshes
 
   bool is_flat() const { return std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ellipse>(shape); }
+
+  bool operator==(const AreaLight&) const = default;
 };
 
 // Makes a light of a scene from a polygon.

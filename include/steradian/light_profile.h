@@ -40,6 +40,8 @@ double luminous_flux(const LightProfile& profile);
 // Orientation of a profile's frame in space.
 struct ProfileAxes {
   Vec3d x{1, 0, 0}, y{0, 1, 0}, aim{0, 0, -1};
+
+  bool operator==(const ProfileAxes&) const = default;
 };
 // aim: need not be unit, must not be zero. towards_x: direction to which x is nearest; any x if it is along aim.
 ProfileAxes profile_axes(Vec3d aim, Vec3d towards_x);

@@ -24,6 +24,8 @@ constexpr double alpha_from_roughness(double roughness) { return std::max(roughn
 struct AxisPower {
   Vec3d axis;  // unit
   double exponent = 1;
+
+  bool operator==(const AxisPower&) const = default;
 };
 
 struct Material {
@@ -44,6 +46,8 @@ struct Material {
   bool multiple_scattering = false;  // ggx: restores the light that is lost between the facets, see albedo.h
   // ggx, isotropic: a fitted table (fit.h) in the place of the lobe, for `reference`, `sampled` and `ltc`. Must outlive the material.
   const ClassicTable* fitted = nullptr;
+
+  bool operator==(const Material&) const = default;
 };
 
 // The name in the command line, in JSON and in messages: "lambert", "blinn-phong", ...

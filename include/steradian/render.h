@@ -59,7 +59,8 @@ struct RenderOptions {
   int bounces = 0;
   double bounce_error = 0;  // with bounces: estimated error of a pixel over the scene's mean light, as far as 16 times the directions reach
   int reflections = 2;      // with bounces: number of mirrors in a row that show what they face
-  IndirectOptions indirect;  // one bounce, at the first primary sample of each pixel; see indirect.h
+  bool bounce_preview = false;  // with bounces: 2,000 patches and 16 directions a pixel, for pictures that are shown for a moment
+  IndirectOptions indirect;     // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   Backend backend = Backend::cpu;
   std::string device;  // for vulkan: part of its name, or its number in `steradian info`; empty: the first

@@ -71,6 +71,8 @@ struct SurfaceMaterial {
   std::vector<Material> specular_override;
 
   bool emits() const { return emissive.x > 0 || emissive.y > 0 || emissive.z > 0; }
+
+  bool operator==(const SurfaceMaterial&) const = default;
 };
 
 // Triangles of one material, in world space, counter-clockwise as seen from their front.
@@ -93,6 +95,8 @@ struct Mesh {
 
   std::size_t triangle_count() const { return indices.size() / 3; }
   bool is_emitter() const { return !triangle_lights.empty(); }
+
+  bool operator==(const Mesh&) const = default;
 };
 
 enum class PunctualKind { point, spot, directional };
@@ -109,6 +113,8 @@ struct PunctualLight {
   std::shared_ptr<const LightProfile> profile{};  // for a point: candela by direction, which `intensity` multiplies; null: 1 everywhere
   ProfileAxes profile_axes{};
   int node = -1;  // of the file that places the light; -1: none
+
+  bool operator==(const PunctualLight&) const = default;
 };
 
 // A perspective camera. x points right, y up, z against the view; they are orthonormal.
@@ -134,6 +140,11 @@ struct Scene {
     std::size_t n = 0;
     for (const Mesh& m : meshes) n += m.triangle_count();
     return n;
+  }
+  // True if all but the cameras is the same, so that surfaces are lit the same.
+  bool is_lit_like(const Scene& other) const {
+    return meshes == other.meshes && materials == other.materials && images == other.images && area_lights == other.area_lights &&
+           punctual_lights == other.punctual_lights && environment == other.environment && multiple_scattering == other.multiple_scattering;
   }
 };
 

@@ -11,9 +11,13 @@ namespace steradian {
 
 struct Vec2f {
   float x = 0, y = 0;
+
+  bool operator==(const Vec2f&) const = default;
 };
 struct Vec4f {
   float x = 0, y = 0, z = 0, w = 0;
+
+  bool operator==(const Vec4f&) const = default;
 };
 
 // RGBA, 8 bits a channel, first row at the top (texture coordinate v = 0). The use says if rgb is sRGB-coded.
@@ -21,6 +25,8 @@ struct Image {
   std::string name;
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  // 4 width height
+
+  bool operator==(const Image&) const = default;
 };
 
 enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
@@ -39,6 +45,8 @@ struct TextureUse {
 
   bool present() const { return image >= 0; }
   Vec2f transformed(Vec2f t) const { return {uv[0] * t.x + uv[1] * t.y + uv[2], uv[3] * t.x + uv[4] * t.y + uv[5]}; }
+
+  bool operator==(const TextureUse&) const = default;
 };
 
 // The texel value at mesh coordinates t (transform, wrap and filter applied), rgb linear. White without a texture.

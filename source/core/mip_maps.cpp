@@ -23,9 +23,9 @@ Vec4f texel_of(const LinearImage& image, int x, int y) {
 }
 
 // Half of a length, and what each of its places averages: the first place of the full length, and the weights of up to four.
-struct Halving {
+struct LengthHalving {
   int length;
-  explicit Halving(int whole) : length(std::max(1, whole / 2)), step_(static_cast<double>(whole) / length) {}
+  explicit LengthHalving(int whole) : length(std::max(1, whole / 2)), step_(static_cast<double>(whole) / length) {}
   struct Shares {
     int first, count;
     std::array<float, 4> share;
@@ -45,7 +45,7 @@ struct Halving {
 // texel(x, y): texel of the picture that is to be halved.
 template <class Texel>
 LinearImage halved(int width, int height, Texel texel) {
-  const Halving across(width), down(height);
+  const LengthHalving across(width), down(height);
   LinearImage to{across.length, down.length, {}};
   to.rgba.assign(4 * static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height), 0.0f);
   float* out = to.rgba.data();

@@ -42,8 +42,8 @@ double lobe_l1(const Lobe& lobe, const LtcValue& value, int n) {
   return difference / albedo;
 }
 
-Report measure(const LobeFamily& family, const LookUp& table, const ReportOptions& options) {
-  Report report;
+FitReport measure(const LobeFamily& family, const LookUp& table, const ReportOptions& options) {
+  FitReport report;
   const std::size_t columns = options.roughness.size();
   report.cells.resize(columns * options.degrees.size());
   tbb::parallel_for(std::size_t{0}, report.cells.size(), [&](std::size_t index) {
@@ -138,7 +138,7 @@ std::vector<BetweenNodes> measure_between_nodes(const LtcTable& fit, const LookU
   return result;
 }
 
-std::string describe(const Report& whole, const Report& nodes, const std::vector<BetweenNodes>& between) {
+std::string describe(const FitReport& whole, const FitReport& nodes, const std::vector<BetweenNodes>& between) {
   char line[160];
   std::string text;
   const auto add = [&](const char* format, auto... values) {
@@ -165,7 +165,7 @@ std::string describe(const Report& whole, const Report& nodes, const std::vector
   return text;
 }
 
-Picture draw(const Report& report, const ReportOptions& options) {
+Picture draw(const FitReport& report, const ReportOptions& options) {
   constexpr int kCell = 32;
   constexpr double kWhite = 0.03;
   const auto columns = static_cast<int>(options.roughness.size()), rows = static_cast<int>(options.degrees.size());

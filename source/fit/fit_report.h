@@ -38,7 +38,7 @@ ReportOptions whole_grid();
 // Grid of 8 roughness x 5 views on nodes of the 64 x 64 table.
 ReportOptions node_grid();
 
-struct Report {
+struct FitReport {
   std::vector<CellError> cells;  // view by view
   double rmse = 0;
   double relative = 0;  // over the root mean square of the signal
@@ -56,12 +56,12 @@ struct BetweenNodes {
 std::vector<BetweenNodes> measure_between_nodes(const LtcTable& fit, const LookUp& table);
 
 // Everything above as text, with the worst cells.
-std::string describe(const Report& whole, const Report& nodes, const std::vector<BetweenNodes>& between);
+std::string describe(const FitReport& whole, const FitReport& nodes, const std::vector<BetweenNodes>& between);
 
 // RMSE over roughness (to the right) and view (downwards): black 0, white 0.03 and more, 32 pixels a cell.
-Picture draw(const Report& report, const ReportOptions& options);
+Picture draw(const FitReport& report, const ReportOptions& options);
 
-Report measure(const LobeFamily& family, const LookUp& table, const ReportOptions& options);
+FitReport measure(const LobeFamily& family, const LookUp& table, const ReportOptions& options);
 
 // Error relative to the signal, both as root mean squares over the grid, with Schlick's Fresnel of F90 = 1.
 struct FresnelError {

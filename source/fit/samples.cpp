@@ -31,11 +31,11 @@ class Measured {
 };
 
 // The middles of the two cells between which a value lies.
-struct Between {
+struct CellPair {
   std::size_t low, high;
   double share;  // weight of high
 };
-Between between_cells(double at, std::size_t cells) {
+CellPair between_cells(double at, std::size_t cells) {
   const double x = std::clamp(at - 0.5, 0.0, static_cast<double>(cells - 1));
   const auto low = static_cast<std::size_t>(x);
   return {low, std::min(low + 1, cells - 1), x - static_cast<double>(low)};
@@ -57,19 +57,19 @@ class Merl : public Measured {
     double phi_d = std::atan2(dot(light, y), dot(light, x));
     if (phi_d < 0) phi_d += std::numbers::pi;  // reciprocity: light and view are exchanged
     const auto of = [&](double share, std::size_t axis) { return between_cells(share * static_cast<double>(sizes_[axis]), sizes_[axis]); };
-    const Between a = of(std::sqrt(theta_h / (0.5 * std::numbers::pi)), 0), b = of(theta_d / (0.5 * std::numbers::pi), 1);
+    const CellPair a = of(std::sqrt(theta_h / (0.5 * std::numbers::pi)), 0), b = of(theta_d / (0.5 * std::numbers::pi), 1);
     // The azimuth is periodic.
     const double at = phi_d / std::numbers::pi * static_cast<double>(sizes_[2]) - 0.5, floor = std::floor(at);
     const auto round = [&](double i) {
       const auto n = static_cast<double>(sizes_[2]);
       return static_cast<std::size_t>(i - n * std::floor(i / n));
     };
-    const Between c = {round(floor), round(floor + 1), at - floor};
+    const CellPair c = {round(floor), round(floor + 1), at - floor};
     Vec3d sum;
     double weights = 0;
     for (int corner = 0; corner < 8; ++corner) {
-      const auto pick = [](const Between& p, bool high) { return high ? p.high : p.low; };
-      const auto weight = [](const Between& p, bool high) { return high ? p.share : 1 - p.share; };
+      const auto pick = [](const CellPair& p, bool high) { return high ? p.high : p.low; };
+      const auto weight = [](const CellPair& p, bool high) { return high ? p.share : 1 - p.share; };
       const bool ha = (corner & 1) != 0, hb = (corner & 2) != 0, hc = (corner & 4) != 0;
       const double w = weight(a, ha) * weight(b, hb) * weight(c, hc);
       const std::size_t cell = (pick(a, ha) * sizes_[1] + pick(b, hb)) * sizes_[2] + pick(c, hc);
@@ -94,9 +94,9 @@ class Table : public Measured {
   Vec3d value(Vec3d view, Vec3d light) const override {
     const auto theta = [](Vec3d v) { return std::acos(std::clamp(v.z, -1.0, 1.0)) / kDegree; };
     double phi = std::fabs(std::atan2(view.x * light.y - view.y * light.x, view.x * light.x + view.y * light.y)) / kDegree;
-    const Between a = place(0, theta(view)), b = place(1, theta(light));
+    const CellPair a = place(0, theta(view)), b = place(1, theta(light));
     const auto at = [&](double azimuth) {
-      const Between c = place(2, azimuth);
+      const CellPair c = place(2, azimuth);
       Vec3d sum;
       for (int corner = 0; corner < 8; ++corner) {
         const bool ha = (corner & 1) != 0, hb = (corner & 2) != 0, hc = (corner & 4) != 0;
@@ -112,7 +112,7 @@ class Table : public Measured {
   }
 
  private:
-  Between place(std::size_t axis, double at) const {
+  CellPair place(std::size_t axis, double at) const {
     const std::vector<double>& nodes = angles_[axis];
     const auto above = std::upper_bound(nodes.begin(), nodes.end(), at);
     if (above == nodes.begin()) return {0, 0, 0};
@@ -151,13 +151,13 @@ std::unique_ptr<Measured> read_merl(const Bytes& bytes, std::array<std::size_t, 
   return std::make_unique<Merl>(sizes, std::move(values));
 }
 
-struct Row {
+struct TabledRow {
   std::array<double, 3> angle;
   Vec3d value;
   std::size_t line;
 };
 
-Row read_row(std::string_view text, std::size_t line, const std::string& path) {
+TabledRow read_row(std::string_view text, std::size_t line, const std::string& path) {
   const std::string place = path + ":" + std::to_string(line);
   std::vector<double> numbers;
   const char* at = text.data();
@@ -175,7 +175,7 @@ Row read_row(std::string_view text, std::size_t line, const std::string& path) {
   if (numbers.size() != 4 && numbers.size() != 6)
     throw Error(place, "has " + std::to_string(numbers.size()) + " numbers",
                 "write theta_view theta_light azimuth, then one value or three");
-  Row row{{numbers[0], numbers[1], numbers[2]}, {}, line};
+  TabledRow row{{numbers[0], numbers[1], numbers[2]}, {}, line};
   row.value = numbers.size() == 4 ? Vec3d{numbers[3], numbers[3], numbers[3]} : Vec3d{numbers[3], numbers[4], numbers[5]};
   for (std::size_t k = 0; k < 3; ++k)
     if (row.angle[k] < 0 || row.angle[k] > (k == 2 ? 360 : 90))
@@ -188,8 +188,8 @@ Row read_row(std::string_view text, std::size_t line, const std::string& path) {
 std::unique_ptr<Measured> read_table(const Bytes& bytes, const std::string& path, Budget& budget) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   budget.take_memory(path, "its lines",
-                     (sizeof(Row) + sizeof(Vec3d)) * static_cast<std::uint64_t>(1 + std::count(text.begin(), text.end(), '\n')));
-  std::vector<Row> rows;
+                     (sizeof(TabledRow) + sizeof(Vec3d)) * static_cast<std::uint64_t>(1 + std::count(text.begin(), text.end(), '\n')));
+  std::vector<TabledRow> rows;
   std::array<std::vector<double>, 3> angles;
   for (std::size_t line = 1; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -214,7 +214,7 @@ std::unique_ptr<Measured> read_table(const Bytes& bytes, const std::string& path
                 "give every combination of the angles that occur, once");
   std::vector<Vec3d> values(rows.size());
   std::vector<bool> known(rows.size(), false);
-  for (const Row& row : rows) {
+  for (const TabledRow& row : rows) {
     std::size_t i = 0;
     for (std::size_t k = 0; k < 3; ++k)
       i = i * angles[k].size() +

@@ -19,9 +19,9 @@ constexpr std::size_t kShortestRuns = 8, kLongestRuns = 32767;  // widths that m
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-class Reader {
+class HdrReader {
  public:
-  Reader(std::span<const std::uint8_t> bytes, const std::string& place) : bytes_(bytes), place_(place) {}
+  HdrReader(std::span<const std::uint8_t> bytes, const std::string& place) : bytes_(bytes), place_(place) {}
 
   [[noreturn]] void damaged(const std::string& what) const { throw Error(place_, "the Radiance picture " + what, "save it again"); }
 
@@ -54,7 +54,7 @@ struct Header {
   double exposure = 1;  // factor by which the pixels have been multiplied
 };
 
-Header read_header(Reader& in, const std::string& place) {
+Header read_header(HdrReader& in, const std::string& place) {
   if (!in.line().starts_with("#?"))
     throw Error(place, "is not a Radiance picture: its first bytes are another format's", "name the file by its format");
   Header header;
@@ -82,17 +82,17 @@ Header read_header(Reader& in, const std::string& place) {
   return header;
 }
 
-bool in_runs(const Reader& in, std::size_t width) {
+bool in_runs(const HdrReader& in, std::size_t width) {
   return width >= kShortestRuns && width <= kLongestRuns && in.peek(0) == 2 && in.peek(1) == 2 && (in.peek(2) & 0x80) == 0;
 }
 
 // The fewest bytes that a row can occupy: four for its start, and two for every 127 values of a channel.
-std::size_t fewest_bytes_of_row(const Reader& in, std::size_t width) {
+std::size_t fewest_bytes_of_row(const HdrReader& in, std::size_t width) {
   return in_runs(in, width) ? 4 + 4 * 2 * ((width + 126) / 127) : 4 * width;
 }
 
 // Reads one channel after the other; a count above 128 repeats the next byte.
-void read_runs(Reader& in, std::vector<Rgbe>& row) {
+void read_runs(HdrReader& in, std::vector<Rgbe>& row) {
   if ((std::size_t{in.peek(2)} << 8 | in.peek(3)) != row.size()) in.damaged("has a row of another width");
   in.skip(4);
   for (std::size_t channel = 0; channel < 4; ++channel)
@@ -108,7 +108,7 @@ void read_runs(Reader& in, std::vector<Rgbe>& row) {
     }
 }
 
-void read_flat(Reader& in, std::vector<Rgbe>& row) {
+void read_flat(HdrReader& in, std::vector<Rgbe>& row) {
   for (Rgbe& pixel : row) {
     for (std::uint8_t& value : pixel) value = in.byte();
     if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) in.damaged("is stored in the run lengths of before 1991, which are not read");
@@ -124,7 +124,7 @@ Vec3f radiance_of(const Rgbe& p, double scale) {
 }  // namespace
 
 Picture decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget) {
-  Reader in(bytes, place);
+  HdrReader in(bytes, place);
   const Header header = read_header(in, place);
   if (header.width > kLargestHdrSide || header.height > kLargestHdrSide)
     throw Error(place, "the picture claims " + std::to_string(header.width) + " x " + std::to_string(header.height) +

@@ -97,13 +97,13 @@ RadianceResult ellipse_answer(const Ellipse& outline, Vec3d radiance, const Shad
 }
 
 // Position of the line relative to the origin.
-struct Axis {
+struct SegmentAxis {
   double length, distance;  // of the segment
   Vec3d moment;             // nearer end x unit direction: its length is the distance of the endless line
 };
-Axis axis_of(const Capsule& c) {
+SegmentAxis axis_of(const Capsule& c) {
   const Vec3d span = c.end_b - c.end_a;
-  Axis axis;
+  SegmentAxis axis;
   axis.length = length(span);
   axis.distance = distance_to_axis(c, {});
   const Vec3d nearer = length(c.end_a) < length(c.end_b) ? c.end_a : c.end_b;
@@ -112,7 +112,7 @@ Axis axis_of(const Capsule& c) {
 }
 
 // The segment as a strip of that half width across the line of sight, in walk order from the lit side.
-PolygonLight strip(const Capsule& c, const Axis& axis, double half_width) {
+PolygonLight strip(const Capsule& c, const SegmentAxis& axis, double half_width) {
   const Vec3d aside = normalized(axis.moment) * half_width;
   PolygonLight light;
   light.vertices = {c.end_a + aside, c.end_b + aside, c.end_b - aside, c.end_a - aside};
@@ -120,8 +120,8 @@ PolygonLight strip(const Capsule& c, const Axis& axis, double half_width) {
 }
 
 //   radiance  times width
-RadianceResult thin_answer(const Capsule& c, const Axis& axis, Vec3d radiance, const ShadingPoint& at, const Material& m, const Row& entry,
-                           const RadianceOptions& options) {
+RadianceResult thin_answer(const Capsule& c, const SegmentAxis& axis, Vec3d radiance, const ShadingPoint& at, const Material& m,
+                           const Row& entry, const RadianceOptions& options) {
   // A line towards the point is not visible.
   if (!(length(axis.moment) > 1e-14 * axis.distance)) return nothing(entry.method);
   if (is_exact_lambert(m, entry))
@@ -168,14 +168,14 @@ struct AnswerOfShape {
 
   RadianceResult operator()(const Line& line) const {
     const Capsule c = {line.end_a, line.end_b, 0};
-    const Axis axis = axis_of(c);
+    const SegmentAxis axis = axis_of(c);
     if (!(axis.distance > 0)) return nothing(entry.method);
     if (is_small(c, axis)) return small_answer(middle(c), light.radiance * across(axis), at, m, entry, options);
     return thin_answer(c, axis, light.radiance, at, m, entry, options);
   }
 
   RadianceResult operator()(const Capsule& c) const {
-    const Axis axis = axis_of(c);
+    const SegmentAxis axis = axis_of(c);
     if (!(axis.distance > c.radius)) return nothing(entry.method);
     if (is_small(c, axis))
       return small_answer(middle(c), light.radiance * (2 * c.radius * across(axis) + std::numbers::pi * c.radius * c.radius), at, m, entry,
@@ -194,9 +194,9 @@ struct AnswerOfShape {
 
  private:
   // About the capsule's middle, the error is of second order.
-  static bool is_small(const Capsule& c, const Axis& axis) { return axis.length + c.radius < 1e-7 * axis.distance; }
+  static bool is_small(const Capsule& c, const SegmentAxis& axis) { return axis.length + c.radius < 1e-7 * axis.distance; }
   static Vec3d middle(const Capsule& c) { return (c.end_a + c.end_b) * 0.5; }
-  static double across(const Axis& axis) { return axis.length * length(axis.moment) / axis.distance; }
+  static double across(const SegmentAxis& axis) { return axis.length * length(axis.moment) / axis.distance; }
 };
 
 }  // namespace

@@ -64,13 +64,13 @@ TEST(Integrate, TakesSingleEdgesInAnyOrder) {
   expect_the_same_in_any_order(integrals::Irradiance<double>());
   expect_the_same_in_any_order(integrals::SolidAngle<double>(K().polygon_direction(K::vec3(0.1, 0.2, 1.0))));
   expect_the_same_in_any_order(integrals::Ltc<double>(a_lobe()));
-  integrals::Ggx<double> ggx;
+  integrals::GgxIntegral<double> ggx;
   ggx.alpha_x = ggx.alpha_y = 0.3;
   ggx.quality = Quality::draft;  // the cubature's nodes depend on the order of the edges
   expect_the_same_in_any_order(ggx);
   const integrals::PhongLobe<double> lobe(20);
   integrals::with_phong_share<double>(
-      lobe, {}, [](auto share) { expect_the_same_in_any_order(integrals::Phong<double, decltype(share)>(share, 20, {})); });
+      lobe, {}, [](auto share) { expect_the_same_in_any_order(integrals::PhongIntegral<double, decltype(share)>(share, 20, {})); });
 }
 
 TEST(Integrate, TwoIntegralsTogetherAreThoseOfTwoWalks) {

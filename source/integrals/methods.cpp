@@ -94,7 +94,7 @@ Vec3d ltc_lobe(Vec3d direction, const ShadingPoint& at, const Material& m, const
 template <class S>
 double sheen_radiance(const PreparedPolygon& light, const ShadingPoint& at, double alpha) {
   const Frame frame = Frame::from_normal(at.normal);
-  integrals::Charlie<S> integral;
+  integrals::CharlieIntegral<S> integral;
   integral.alpha = alpha;
   using integrals::to_kernel;
   const auto shading = integrals::shading_from<S>(shapes::lit_side(light, at.position), to_kernel<S>(frame.to_local(at.view)));

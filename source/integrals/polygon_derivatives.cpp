@@ -242,8 +242,8 @@ void refuse_other_lobes(const Material& m) {
 }
 
 template <class S>
-integrals::Ggx<S> ggx_of(const Material& m, Quality quality) {
-  integrals::Ggx<S> ggx;
+integrals::GgxIntegral<S> ggx_of(const Material& m, Quality quality) {
+  integrals::GgxIntegral<S> ggx;
   ggx.alpha_x = m.alpha_x;
   ggx.alpha_y = m.alpha_y;
   ggx.smith = m.shadowing ? 1.0 : 0.0;
@@ -274,7 +274,7 @@ auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const 
       return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
                                       : lobe.template share<Method::series, Quality::normal>(a, b, axis);
     };
-    integrals::Phong<S, decltype(share)> phong(share, m.exponent, {Method::series, quality});
+    integrals::PhongIntegral<S, decltype(share)> phong(share, m.exponent, {Method::series, quality});
     return integrate(outline, shading, phong);
   };
 }
@@ -336,7 +336,7 @@ LobeDensity lobe_density(const ShadingPoint& at, const Material& material) {
                       factors_of({1, 1, 1}, m));
   if (m.brdf == Brdf::phong) {
     const auto none = [](const auto&, const auto&, const auto&) { return Real<double>(0.0); };
-    const integrals::Phong<double, decltype(none)> lobe(none, m.exponent, {});
+    const integrals::PhongIntegral<double, decltype(none)> lobe(none, m.exponent, {});
     return density_of(lobe, at, Frame::from_normal(at.normal), factors_of({1, 1, 1}, m));
   }
   return [factor = m.albedo / std::numbers::pi, n = at.normal](Vec3d direction) { return factor * std::max(dot(n, direction), 0.0); };

@@ -18,7 +18,7 @@ Vec3d arc_point(const Arc& arc, double tau) { return arc.a * std::cos(tau) + cro
 
 }  // namespace
 
-Fan::Fan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) {
+RegionFan::RegionFan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) {
   determinant_ = dot(shape.x, cross(shape.y, shape.z));
   inverse_x_ = cross(shape.y, shape.z) / determinant_;
   inverse_y_ = cross(shape.z, shape.x) / determinant_;
@@ -49,11 +49,11 @@ Fan::Fan(const SphericalRegion& region, const LobeShape& shape) : shape_(shape) 
   for (const Arc& arc : region.arcs) add_triangles(arc);
 }
 
-Vec3d Fan::to_lobe_space(Vec3d v) const { return {dot(inverse_x_, v), dot(inverse_y_, v), dot(inverse_z_, v)}; }
+Vec3d RegionFan::to_lobe_space(Vec3d v) const { return {dot(inverse_x_, v), dot(inverse_y_, v), dot(inverse_z_, v)}; }
 
 // Positions at which an arc crosses the two planes through an axis of lobe space. In a space stretched a hundredfold or more, the arc
 // passes the axis in a tiny part of its length. Evenly spaced probes would miss that part.
-std::vector<double> Fan::crossings(const Arc& arc, const Frame& axis) const {
+std::vector<double> RegionFan::crossings(const Arc& arc, const Frame& axis) const {
   std::vector<double> taus;
   if (!stretched_) return taus;
   const Vec3d offset = axis.to_local(to_lobe_space(shape_.offset)), begin = axis.to_local(to_lobe_space(arc.a)),
@@ -73,7 +73,7 @@ std::vector<double> Fan::crossings(const Arc& arc, const Frame& axis) const {
 }
 
 // An approximation: it only provides a start.
-double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
+double RegionFan::nearest_tau(const Arc& arc, Vec3d to) const {
   const auto closeness = [&](double tau) { return dot(normalized(to_lobe_space(arc_point(arc, tau) + shape_.offset)), to); };
   constexpr int kProbes = 12;
   std::vector<double> probes = crossings(arc, Frame::from_normal(to));
@@ -103,7 +103,7 @@ double Fan::nearest_tau(const Arc& arc, Vec3d to) const {
 }
 
 // Adds a triangle for each place where the arc passes the apex or is nearest to it, up to half the way to the next.
-void Fan::add_triangles(const Arc& arc) {
+void RegionFan::add_triangles(const Arc& arc) {
   std::vector<double> anchors = crossings(arc, apex_);
   anchors.push_back(nearest_tau(arc, apex_.z));
   std::sort(anchors.begin(), anchors.end());
@@ -115,7 +115,7 @@ void Fan::add_triangles(const Arc& arc) {
   }
 }
 
-void Fan::add_triangle(const Arc& arc, double tau, double from, double to) {
+void RegionFan::add_triangle(const Arc& arc, double tau, double from, double to) {
   Triangle t;
   t.nearest = arc_point(arc, tau);
   t.along = cross(arc.normal, t.nearest);
@@ -140,7 +140,7 @@ void Fan::add_triangle(const Arc& arc, double tau, double from, double to) {
   }
 }
 
-Fan::Ray Fan::ray(const Triangle& t, double u) const {
+RegionFan::Ray RegionFan::ray(const Triangle& t, double u) const {
   const double e = std::exp(u);
   const double tau = t.tau_scale * 0.5 * (e - 1 / e), tau_speed = t.tau_scale * 0.5 * (e + 1 / e);
   const double sine = std::sin(tau), cosine = std::cos(tau);
@@ -156,7 +156,7 @@ Fan::Ray Fan::ray(const Triangle& t, double u) const {
   return ray;
 }
 
-Fan::Point Fan::at(const Ray& ray, double v) const {
+RegionFan::Point RegionFan::at(const Ray& ray, double v) const {
   const double e = std::exp(v * ray.v_scale);
   const double theta = theta_scale_ * 0.5 * (e - 1 / e), theta_speed = theta_scale_ * 0.5 * (e + 1 / e);
   const double sine = std::sin(theta);

@@ -14,10 +14,10 @@ namespace steradian::reference {
 
 using lobes::LobeShape;
 
-class Fan {
+class RegionFan {
  public:
   // The apex is the lobe's peak if the region contains it, else the boundary's nearest point to it.
-  Fan(const SphericalRegion& region, const LobeShape& shape);
+  RegionFan(const SphericalRegion& region, const LobeShape& shape);
 
   // A triangle, or the part of it on one side of the arc's point nearest to the apex. Coordinates: u along the arc from
   // that point, v in [0, 1] from apex to arc; both grow like the logarithm of the distance, beyond the lobe's width.

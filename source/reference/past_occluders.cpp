@@ -60,15 +60,15 @@ struct Section {
 Section::Place place_in(const HalfPlane& h, Vec3d v) { return {dot(v, h.axis), dot(v, h.across)}; }
 
 // The place where an edge crosses the half plane's plane; none if both ends are on one side. turns: +1 from the back to the front.
-struct Crossing {
+struct HalfPlaneCrossing {
   Section::Place place;
   int turns;
 };
-std::optional<Crossing> crossing(const HalfPlane& h, Vec3d p, Vec3d q) {
+std::optional<HalfPlaneCrossing> crossing(const HalfPlane& h, Vec3d p, Vec3d q) {
   const double dp = dot(h.normal, p), dq = dot(h.normal, q);
   if ((dp < 0) == (dq < 0)) return {};
   const double wp = std::fabs(dq), wq = std::fabs(dp);
-  return Crossing{place_in(h, (p * wp + q * wq) / (wp + wq)), dp < 0 ? 1 : -1};
+  return HalfPlaneCrossing{place_in(h, (p * wp + q * wq) / (wp + wq)), dp < 0 ? 1 : -1};
 }
 
 // The direction on a curve of [0, 1] that is nearest to another direction.
@@ -482,7 +482,7 @@ class Slices {
       highest = std::min(highest, turned + shift + 0.5 * kPi);
     }
     for (const Blocker& b : blockers_) {
-      std::array<std::optional<Crossing>, 3> c;
+      std::array<std::optional<HalfPlaneCrossing>, 3> c;
       for (std::size_t i = 0; i < 3; ++i) c[i] = crossing(h, b[i], b[(i + 1) % 3]);
       const std::size_t missed = !c[0] ? 0 : !c[1] ? 1 : 2;
       const auto &first = c[(missed + 1) % 3], &second = c[(missed + 2) % 3];

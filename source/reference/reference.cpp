@@ -39,7 +39,7 @@ class Cubature {
   // Refines until the bound is below the larger of the two, which are errors of the radiance for a light of radiance 1.
   void run(double relative, double absolute, int max_evaluations) {
     for (std::size_t i = 0; i < fan_.triangles().size(); ++i) {
-      const Fan::Triangle& t = fan_.triangles()[i];
+      const RegionFan::Triangle& t = fan_.triangles()[i];
       const int pieces = fan_.is_stretched() ? 4 : 1;  // one cell's nodes may all miss a ridge
       for (int k = 0; k < pieces; ++k) {
         const double width = (t.u_end - t.u_begin) / pieces;
@@ -104,7 +104,7 @@ class Cubature {
   }
 
   Cell evaluated(Cell cell) {
-    const Fan::Triangle& triangle = fan_.triangles()[cell.triangle];
+    const RegionFan::Triangle& triangle = fan_.triangles()[cell.triangle];
     const double u_mid = 0.5 * (cell.u0 + cell.u1), u_half = 0.5 * (cell.u1 - cell.u0);
     const double v_mid = 0.5 * (cell.v0 + cell.v1), v_half = 0.5 * (cell.v1 - cell.v0);
     std::array<LobeValue, kKronrodPoints * kKronrodPoints> values;
@@ -112,10 +112,10 @@ class Cubature {
     cell.boundary = 0;
     std::size_t index = 0;
     for (const KronrodNode& nu : kKronrodNodes) {
-      const Fan::Ray ray = fan_.ray(triangle, u_mid + u_half * nu.x);
+      const RegionFan::Ray ray = fan_.ray(triangle, u_mid + u_half * nu.x);
       LobeValue row_kronrod, row_gauss, last;
       for (const KronrodNode& nv : kKronrodNodes) {
-        const Fan::Point p = fan_.at(ray, v_mid + v_half * nv.x);
+        const RegionFan::Point p = fan_.at(ray, v_mid + v_half * nv.x);
         last = lobe_.evaluate(p.direction);
         const LobeValue f = last * p.measure;
         values[index++] = f;
@@ -153,7 +153,7 @@ class Cubature {
 
   const Lobe& lobe_;
   const LobeValue factors_;
-  const Fan fan_;
+  const RegionFan fan_;
   const SphericalRegion& region_;
   std::vector<Cell> heap_;
   LobeValue value_;

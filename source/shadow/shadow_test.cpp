@@ -509,7 +509,7 @@ TEST(EdgeMesh, WeldsEqualPositionsOnly) {
   const EdgeMesh mesh = build_edges(t.positions, t.indices);
   EXPECT_EQ(mesh.triangles.size(), 12u);
   EXPECT_EQ(mesh.edges.size(), 18u);
-  for (const Edge& e : mesh.edges) {
+  for (const MeshEdge& e : mesh.edges) {
     ASSERT_EQ(e.count, 2u);
     EXPECT_EQ(mesh.edge_triangles[e.first].walks + mesh.edge_triangles[e.first + 1].walks, 0);
   }

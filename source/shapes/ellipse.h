@@ -19,7 +19,7 @@ bool any_corner(Vec3f center, Vec3f x, Vec3f y, Vec3f z, Use use) {
   return false;
 }
 
-struct Disk {
+struct FloatDisk {
   Vec3f point{}, x{}, y{}, normal{};  // centre, conjugate half axes; the normal to the lit side, NaN without area
   bool two_sided = false;
 
@@ -29,10 +29,10 @@ struct Disk {
   }
 };
 
-struct Ellipsoid {
+struct FloatEllipsoid {
   Vec3f center{}, x{}, y{}, z{};                // half axes
   Vec3f inverse_x{}, inverse_y{}, inverse_z{};  // rows of the matrix that maps it to the unit sphere; NaN without volume
-  Capsule ball;                                 // a ball is also a capsule, whose irradiance is faster to compute; else of radius 0
+  FloatCapsule ball;                            // a ball is also a capsule, whose irradiance is faster to compute; else of radius 0
 
   template <class Use>
   bool any_bound(Use use) const {
@@ -40,7 +40,7 @@ struct Ellipsoid {
   }
 };
 
-inline Disk prepare_disk(const steradian::Ellipse& a, bool two_sided) {
+inline FloatDisk prepare_disk(const steradian::Ellipse& a, bool two_sided) {
   const Vec3d normal = cross(a.x, a.y);
   return {static_cast<Vec3f>(a.center), static_cast<Vec3f>(a.x), static_cast<Vec3f>(a.y), static_cast<Vec3f>(normal / length(normal)),
           two_sided};
@@ -53,17 +53,17 @@ inline bool is_ball(const steradian::Ellipsoid& a) {
   return !off(dot(a.y, a.y) - r2) && !off(dot(a.z, a.z) - r2) && !off(dot(a.x, a.y)) && !off(dot(a.y, a.z)) && !off(dot(a.z, a.x));
 }
 
-inline Ellipsoid prepare_ellipsoid(const steradian::Ellipsoid& a) {
+inline FloatEllipsoid prepare_ellipsoid(const steradian::Ellipsoid& a) {
   const double det = dot(a.x, cross(a.y, a.z));
   const auto single = [](Vec3d v) { return static_cast<Vec3f>(v); };
-  Ellipsoid light = {single(a.center),
-                     single(a.x),
-                     single(a.y),
-                     single(a.z),
-                     single(cross(a.y, a.z) / det),
-                     single(cross(a.z, a.x) / det),
-                     single(cross(a.x, a.y) / det),
-                     {}};
+  FloatEllipsoid light = {single(a.center),
+                          single(a.x),
+                          single(a.y),
+                          single(a.z),
+                          single(cross(a.y, a.z) / det),
+                          single(cross(a.z, a.x) / det),
+                          single(cross(a.x, a.y) / det),
+                          {}};
   if (is_ball(a)) light.ball = {light.center, light.center, static_cast<float>(length(a.x)), {}};
   return light;
 }
@@ -74,18 +74,19 @@ STERADIAN_BEGIN_ISA
 namespace shapes {
 
 template <class S>
-STERADIAN_INLINE Seen<S> see(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE Seen<S> see(const packed::FloatDisk& light, const typename Kernels<S>::vec3& p) {
   return {see_plane<S>(light, p).lit, Kernels<S>().mask_none()};  // its outline is walked in its visible order
 }
 
 // The outline as seen from the point p.
 template <class S>
-STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed::FloatDisk& light, const typename Kernels<S>::vec3& p) {
   return {to_kernel<S>(light.point) - p, to_kernel<S>(light.x), to_kernel<S>(light.y), Kernels<S>().mask_all()};
 }
 
 template <class S>
-STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed::FloatEllipsoid& light,
+                                                                    const typename Kernels<S>::vec3& p) {
   const auto column = [](float x, float y, float z) { return to_kernel<S>(Vec3f{x, y, z}); };
   const typename Kernels<S>::mat3 axes(to_kernel<S>(light.x), to_kernel<S>(light.y), to_kernel<S>(light.z));
   const typename Kernels<S>::mat3 inverse(column(light.inverse_x.x, light.inverse_y.x, light.inverse_z.x),
@@ -95,7 +96,7 @@ STERADIAN_INLINE typename Kernels<S>::EllipsoidOutline outline_from(const packed
 }
 
 template <class S>
-STERADIAN_INLINE Seen<S> see(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE Seen<S> see(const packed::FloatEllipsoid& light, const typename Kernels<S>::vec3& p) {
   return {outline_from<S>(light, p).outside, Kernels<S>().mask_none()};
 }
 
@@ -108,21 +109,21 @@ STERADIAN_INLINE auto ellipse_in(const Round& light, const typename Kernels<S>::
 
 // Mean squares of the lights' extents; an ellipsoid's is an upper bound.
 template <class S>
-STERADIAN_INLINE Real<S> deviation2(const packed::Disk& light) {
+STERADIAN_INLINE Real<S> deviation2(const packed::FloatDisk& light) {
   return static_cast<double>((dot(light.x, light.x) + dot(light.y, light.y)) / 4);
 }
 template <class S>
-STERADIAN_INLINE Real<S> deviation2(const packed::Ellipsoid& light) {
+STERADIAN_INLINE Real<S> deviation2(const packed::FloatEllipsoid& light) {
   return static_cast<double>(dot(light.x, light.x) + dot(light.y, light.y) + dot(light.z, light.z));
 }
 
 template <class S>
-STERADIAN_INLINE Real<S> distance2(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE Real<S> distance2(const packed::FloatDisk& light, const typename Kernels<S>::vec3& p) {
   const auto to = to_kernel<S>(light.point) - p;
   return dot(to, to);
 }
 template <class S>
-STERADIAN_INLINE Real<S> distance2(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE Real<S> distance2(const packed::FloatEllipsoid& light, const typename Kernels<S>::vec3& p) {
   const auto to = to_kernel<S>(light.center) - p;
   return dot(to, to);
 }
@@ -134,11 +135,11 @@ typename Kernels<S>::LightElements elements_of_outline(const Round& light, const
   return k.ellipse_elements(k.ellipse_prepare(outline.center, outline.axis_a, outline.axis_b));
 }
 template <class S>
-typename Kernels<S>::LightElements elements(const packed::Disk& light, const typename Kernels<S>::vec3& p) {
+typename Kernels<S>::LightElements elements(const packed::FloatDisk& light, const typename Kernels<S>::vec3& p) {
   return elements_of_outline<S>(light, p);
 }
 template <class S>
-typename Kernels<S>::LightElements elements(const packed::Ellipsoid& light, const typename Kernels<S>::vec3& p) {
+typename Kernels<S>::LightElements elements(const packed::FloatEllipsoid& light, const typename Kernels<S>::vec3& p) {
   return elements_of_outline<S>(light, p);
 }
 
@@ -164,17 +165,17 @@ STERADIAN_INLINE auto by_elements_where_small(typename Kernels<S>::vec3 e, const
   return e;
 }
 template <class S>
-__attribute__((flatten, noinline)) auto irradiance_vector(const packed::Disk& light, const typename Kernels<S>::mat3& frame,
+__attribute__((flatten, noinline)) auto irradiance_vector(const packed::FloatDisk& light, const typename Kernels<S>::mat3& frame,
                                                           const typename Kernels<S>::vec3& p) {
   return by_elements_where_small<S>(Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p)), light, frame, p);
 }
 template <class S>
-__attribute__((flatten, noinline)) auto irradiance_vector(const packed::Capsule& light, const typename Kernels<S>::mat3& frame,
+__attribute__((flatten, noinline)) auto irradiance_vector(const packed::FloatCapsule& light, const typename Kernels<S>::mat3& frame,
                                                           const typename Kernels<S>::vec3& p) {
   return by_elements_where_small<S>(outline_irradiance_vector<S>(light, frame, p), light, frame, p);
 }
 template <class S>
-__attribute__((flatten, noinline)) auto irradiance_vector(const packed::Ellipsoid& light, const typename Kernels<S>::mat3& frame,
+__attribute__((flatten, noinline)) auto irradiance_vector(const packed::FloatEllipsoid& light, const typename Kernels<S>::mat3& frame,
                                                           const typename Kernels<S>::vec3& p) {
   const auto e = light.ball.radius > 0 ? outline_irradiance_vector<S>(light.ball, frame, p)
                                        : Kernels<S>().ellipse_irradiance_vector(ellipse_in<S>(light, frame, p));

@@ -13,11 +13,11 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 // The two of the rising angles between which a value lies, and the fraction of the way; both are the same if there is only one.
 // Precondition: the value is within them.
-struct Between {
+struct AnglePair {
   std::size_t low, high;
   double share;
 };
-Between find(const std::vector<double>& angles, double at) {
+AnglePair find(const std::vector<double>& angles, double at) {
   if (angles.size() == 1) return {0, 0, 0};
   const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, at);
   const auto high = static_cast<std::size_t>(above - angles.begin());
@@ -48,7 +48,7 @@ double intensity(const LightProfile& profile, Vec3d d) {
     horizontal = std::atan2(-d.y, across) / kDegree;
   }
   if (!is_within(profile.vertical, vertical) || !is_within(profile.horizontal, horizontal)) return 0;
-  const Between v = find(profile.vertical, vertical), h = find(profile.horizontal, horizontal);
+  const AnglePair v = find(profile.vertical, vertical), h = find(profile.horizontal, horizontal);
   const auto along = [&](std::size_t plane) {
     const double* of = &profile.candela[plane * profile.vertical.size()];
     return of[v.low] + v.share * (of[v.high] - of[v.low]);

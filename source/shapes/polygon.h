@@ -15,7 +15,7 @@ namespace steradian::packed {
 inline constexpr double kRounding2 = 2 * (8 * 0x1p-23) * (8 * 0x1p-23);
 
 // A polygon in single precision, as packs read it.
-struct Polygon {
+struct FloatPolygon {
   std::vector<Vec3f> vertices;        // in walk order
   std::vector<std::size_t> contours;  // as in PreparedPolygon
   Vec3f normal{}, point{};            // of its plane; the normal to the lit side
@@ -30,8 +30,8 @@ struct Polygon {
   }
 };
 
-inline Polygon prepare(const PreparedPolygon& light) {
-  Polygon result;
+inline FloatPolygon prepare(const PreparedPolygon& light) {
+  FloatPolygon result;
   for (const Vec3d& v : light.vertices) result.vertices.push_back(static_cast<Vec3f>(v));
   result.contours = light.contours;
   result.normal = static_cast<Vec3f>(light.normal);
@@ -79,30 +79,30 @@ STERADIAN_INLINE Seen<S> see_plane(const Flat& light, const typename Kernels<S>:
 }
 
 template <class S>
-STERADIAN_INLINE Seen<S> see(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE Seen<S> see(const packed::FloatPolygon& light, const typename Kernels<S>::vec3& p) {
   return see_plane<S>(light, p);
 }
 
 // Elements of a light in the world's frame, about the point: shapes/small_light.h.
 template <class S>
-typename Kernels<S>::LightElements elements(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
+typename Kernels<S>::LightElements elements(const packed::FloatPolygon& light, const typename Kernels<S>::vec3& p) {
   return {to_kernel<S>(light.middle) - p, to_kernel<S>(light.reach_a), to_kernel<S>(light.reach_b), to_kernel<S>(light.area)};
 }
 
 // Square of the distance to the light's middle.
 template <class S>
-STERADIAN_INLINE Real<S> distance2(const packed::Polygon& light, const typename Kernels<S>::vec3& p) {
+STERADIAN_INLINE Real<S> distance2(const packed::FloatPolygon& light, const typename Kernels<S>::vec3& p) {
   const auto to = to_kernel<S>(light.middle) - p;
   return dot(to, to);
 }
 
 template <class S>
-STERADIAN_INLINE Real<S> deviation2(const packed::Polygon& light) {
+STERADIAN_INLINE Real<S> deviation2(const packed::FloatPolygon& light) {
   return static_cast<double>(light.deviation2);
 }
 
 template <class S>
-STERADIAN_INLINE auto contours_in(const packed::Polygon& light, const typename Kernels<S>::mat3& frame,
+STERADIAN_INLINE auto contours_in(const packed::FloatPolygon& light, const typename Kernels<S>::mat3& frame,
                                   const typename Kernels<S>::vec3& p) {
   const auto direction = [&frame, &p](const Vec3f& v) {
     return Kernels<S>().polygon_direction(transform_transposed(frame, to_kernel<S>(v) - p));

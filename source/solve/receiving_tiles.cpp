@@ -11,6 +11,7 @@
 
 #include "core/float_mode.h"
 #include "render/frame/frame_surfaces.h"
+#include "render/radiosity/patch_solver.h"
 #include "render/sampled/monte_carlo.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/error.h"
@@ -309,8 +310,10 @@ void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_
       reference::Random random(number);
       sampler.find_incident(surface, 16, random, found);
     };
-    const radiosity::PatchLight patches(room.scene, *room.parts.rays, *room.parts.maps, {room.options.bounces, quality}, direct, incident);
-    const radiosity::Gather gather(patches, *room.parts.rays, quality, room.options.bounce_error, 1);
+    const radiosity::Fineness fineness = radiosity::fineness_of(quality);
+    const radiosity::PatchLight patches =
+        radiosity::solve_patches(room.scene, *room.parts.rays, *room.parts.maps, {room.options.bounces, fineness}, direct, incident);
+    const radiosity::Gather gather(patches, *room.parts.rays, fineness, room.options.bounce_error, 1);
     each(tiles_.size(), [&](std::size_t index) { add_gathered(gather, *tiles_[index].surfaces, light(index)); });
   });
 }

@@ -18,7 +18,7 @@ struct Slope {
 // Sums over the edges, and the irradiance vector of the same walk.
 struct EdgeSums {
   K k;
-  const packed::Polygon& polygon;
+  const packed::FloatPolygon& polygon;
   const K::mat3& frame;
   const PackVec3& p;
   PackReal facing;
@@ -40,7 +40,7 @@ struct EdgeSums {
 
 __attribute__((flatten)) void find(const SurfaceTile& tile, const PackLight& light, const std::vector<solving::VertexMotion>& motions,
                                    TileVector* slopes) {
-  const auto& polygon = *std::get_if<packed::Polygon>(&light.shape);
+  const auto& polygon = *std::get_if<packed::FloatPolygon>(&light.shape);
   const Points points = points_of(tile);
   std::vector<Slope> sums(motions.size());
   for (std::size_t i = 0; i < kTilePixels; i += kLanes) {

@@ -129,7 +129,7 @@ inline Scene under_triangles(int count, const Shape& light = kSquare, const Spre
 inline std::vector<std::string> warnings_of(const Scene& scene, RenderOptions options) {
   options.width = options.height = 32;
   RenderStats stats;
-  Frame(scene, options).render(&stats);
+  DeviceFrame(scene, options).render(&stats);
   return stats.warnings;
 }
 

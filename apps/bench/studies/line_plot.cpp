@@ -41,7 +41,7 @@ std::string to_svg(const LinePlot& plot) {
   svg += label(kLeft, kTop - 18, "start", plot.title);
   svg += label(kLeft, kTop - 4, "start", plot.y_label);
   double legend = kTop + 10;
-  for (const Curve& curve : plot.curves) {
+  for (const PlotCurve& curve : plot.curves) {
     const char* colour = kPalette[curve.colour % 8];
     const char* dash = curve.dashed ? " stroke-dasharray='5 4'" : "";
     svg += print("<g clip-path='url(#c)'><polyline fill='none' stroke='%s' stroke-width='1.5'%s points='", colour, dash);

@@ -7,7 +7,7 @@
 
 namespace steradian::moment {
 
-struct Curve {
+struct PlotCurve {
   std::string name;  // no legend where empty
   std::vector<std::pair<double, double>> points;
   bool dashed = false;
@@ -17,7 +17,7 @@ struct Curve {
 struct LinePlot {
   std::string title, x_label, y_label;
   double x_low = 0, x_high = 1, y_low = 0, y_high = 1;
-  std::vector<Curve> curves;
+  std::vector<PlotCurve> curves;
 };
 
 std::string to_svg(const LinePlot& plot);

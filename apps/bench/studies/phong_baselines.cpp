@@ -11,7 +11,7 @@ namespace steradian::moment {
 namespace {
 
 // Unit directions of the light's corners in walk order, about the mirrored view r.
-struct Seen {
+struct SeenPolygon {
   std::vector<Vec3d> corners;
   Vec3d mirror;
   double solid_angle = 0;
@@ -35,8 +35,8 @@ Vec3d mean_of(const std::vector<Vec3d>& v) {
   return sum;
 }
 
-Seen seen_from(const PreparedPolygon& light, const ShadingPoint& at) {
-  Seen seen;
+SeenPolygon seen_from(const PreparedPolygon& light, const ShadingPoint& at) {
+  SeenPolygon seen;
   const Vec3d n = normalized(at.normal), v = normalized(at.view);
   seen.mirror = n * (2 * dot(n, v)) - v;
   if (light.side_of(at.position) <= 0) return seen;
@@ -92,7 +92,7 @@ std::vector<Flat> left_of(const std::vector<Flat>& polygon, Flat a, Flat b) {
 }  // namespace
 
 double by_spherical_gaussian(const PreparedPolygon& light, const ShadingPoint& at, double n) {
-  const Seen seen = seen_from(light, at);
+  const SeenPolygon seen = seen_from(light, at);
   const double length_of_mean = length(seen.mean);
   if (!(length_of_mean > 0)) return 0;
   const double r = std::min(length_of_mean / seen.solid_angle, 1 - 1e-9);
@@ -104,7 +104,7 @@ double by_spherical_gaussian(const PreparedPolygon& light, const ShadingPoint& a
 }
 
 double by_anisotropic_gaussian(const PreparedPolygon& light, const ShadingPoint& at, double n) {
-  const Seen seen = seen_from(light, at);
+  const SeenPolygon seen = seen_from(light, at);
   if (!(length(seen.mean) > 0)) return 0;
   const Frame frame = Frame::from_normal(normalized(seen.mean));
   if (!(frame.to_local(seen.mirror).z > 0)) return 0;
@@ -134,7 +134,7 @@ double by_anisotropic_gaussian(const PreparedPolygon& light, const ShadingPoint&
 }
 
 double by_representative_point(const PreparedPolygon& light, const ShadingPoint& at, double n) {
-  const Seen seen = seen_from(light, at);
+  const SeenPolygon seen = seen_from(light, at);
   if (seen.corners.empty()) return 0;
   const Frame frame = Frame::from_normal(seen.mirror);
   // Corners in the plane that touches the sphere at r; directions behind it are skipped.
@@ -236,7 +236,7 @@ double by_peak_fit_with_table(Method method, const PreparedPolygon& light, const
   static const HalfWidthTable tables[2] = {HalfWidthTable(0), HalfWidthTable(1)};
   BaselineKernels k;
   const int f_is_x = integrals::takes_x({.method = method}, false);
-  const Seen seen = seen_from(light, at);
+  const SeenPolygon seen = seen_from(light, at);
   const auto corner = [&](std::size_t i) {
     const Vec3d v = seen.corners[i % seen.corners.size()];
     return BaselineKernels::vec3(v.x, v.y, v.z);

@@ -8,12 +8,12 @@
 namespace steradian::studies {
 namespace {
 
-struct Corner {
+struct ContourPoint {
   float x = 0, y = 0;
 };
-using Contour = std::vector<Corner>;
+using Contour = std::vector<ContourPoint>;
 
-float cross_of(Corner a, Corner b, Corner c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+float cross_of(ContourPoint a, ContourPoint b, ContourPoint c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 float area_of(const Contour& c) {
   float twice = 0;
@@ -21,7 +21,7 @@ float area_of(const Contour& c) {
   return twice / 2;
 }
 
-bool contains(const Contour& c, Corner p) {
+bool contains(const Contour& c, ContourPoint p) {
   bool inside = false;
   for (std::size_t i = 0, j = c.size() - 1; i < c.size(); j = i++)
     if ((c[i].y > p.y) != (c[j].y > p.y) && p.x < (c[j].x - c[i].x) * (p.y - c[i].y) / (c[j].y - c[i].y) + c[i].x) inside = !inside;
@@ -29,11 +29,11 @@ bool contains(const Contour& c, Corner p) {
 }
 
 bool apart(const Contour& a, const Contour& b) {
-  const auto range = [](const Contour& c, float Corner::*of) {
-    const auto [low, high] = std::minmax_element(c.begin(), c.end(), [of](Corner p, Corner q) { return p.*of < q.*of; });
+  const auto range = [](const Contour& c, float ContourPoint::*of) {
+    const auto [low, high] = std::minmax_element(c.begin(), c.end(), [of](ContourPoint p, ContourPoint q) { return p.*of < q.*of; });
     return std::pair{*low.*of, *high.*of};
   };
-  for (const auto of : {&Corner::x, &Corner::y}) {
+  for (const auto of : {&ContourPoint::x, &ContourPoint::y}) {
     const auto [a_low, a_high] = range(a, of);
     const auto [b_low, b_high] = range(b, of);
     if (a_high < b_low || b_high < a_low) return true;
@@ -42,8 +42,8 @@ bool apart(const Contour& a, const Contour& b) {
 }
 
 // A corner of one of two polygons, or a crossing of their edges, which is in both polygons.
-struct Node {
-  Corner at;
+struct ContourNode {
+  ContourPoint at;
   float along = 0;  // for crossings: position along the edge
   int other = -1;   // index in the other polygon; -1: a corner
   bool enters = false, visited = false;
@@ -51,23 +51,23 @@ struct Node {
 
 // Corners and crossings of a polygon in order. `other` counts crossings until link() has found them.
 struct Ring {
-  std::vector<Node> nodes;
+  std::vector<ContourNode> nodes;
   std::size_t next(std::size_t i) const { return i + 1 == nodes.size() ? 0 : i + 1; }
   std::size_t previous(std::size_t i) const { return i == 0 ? nodes.size() - 1 : i - 1; }
 };
 
-struct Crossing {
+struct ContourCrossing {
   std::size_t edge_a, edge_b;
   float along_a, along_b;
-  Corner at;
+  ContourPoint at;
 };
 
-std::vector<Crossing> crossings_of(const Contour& a, const Contour& b) {
-  std::vector<Crossing> result;
+std::vector<ContourCrossing> crossings_of(const Contour& a, const Contour& b) {
+  std::vector<ContourCrossing> result;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Corner a0 = a[i], a1 = a[(i + 1) % a.size()];
+    const ContourPoint a0 = a[i], a1 = a[(i + 1) % a.size()];
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const Corner b0 = b[j], b1 = b[(j + 1) % b.size()];
+      const ContourPoint b0 = b[j], b1 = b[(j + 1) % b.size()];
       const float s0 = cross_of(b0, b1, a0), s1 = cross_of(b0, b1, a1), t0 = cross_of(a0, a1, b0), t1 = cross_of(a0, a1, b1);
       if ((s0 > 0) == (s1 > 0) || (t0 > 0) == (t1 > 0)) continue;
       const float s = s0 / (s0 - s1), t = t0 / (t0 - t1);
@@ -78,16 +78,16 @@ std::vector<Crossing> crossings_of(const Contour& a, const Contour& b) {
 }
 
 template <class EdgeOf, class AlongOf>
-Ring ring_of(const Contour& c, const std::vector<Crossing>& crossings, const Contour& other, EdgeOf edge_of, AlongOf along_of) {
+Ring ring_of(const Contour& c, const std::vector<ContourCrossing>& crossings, const Contour& other, EdgeOf edge_of, AlongOf along_of) {
   Ring ring;
   bool inside = contains(other, c[0]);
   for (std::size_t i = 0; i < c.size(); ++i) {
     ring.nodes.push_back({c[i]});
-    std::vector<Node> on_edge;
+    std::vector<ContourNode> on_edge;
     for (std::size_t k = 0; k < crossings.size(); ++k)
       if (edge_of(crossings[k]) == i) on_edge.push_back({crossings[k].at, along_of(crossings[k]), static_cast<int>(k)});
-    std::sort(on_edge.begin(), on_edge.end(), [](const Node& p, const Node& q) { return p.along < q.along; });
-    for (Node& n : on_edge) {
+    std::sort(on_edge.begin(), on_edge.end(), [](const ContourNode& p, const ContourNode& q) { return p.along < q.along; });
+    for (ContourNode& n : on_edge) {
       n.enters = !inside;
       inside = !inside;
       ring.nodes.push_back(n);
@@ -102,9 +102,9 @@ void link(Ring& a, Ring& b, std::size_t crossings) {
     if (a.nodes[i].other >= 0) in_a[static_cast<std::size_t>(a.nodes[i].other)] = static_cast<int>(i);
   for (std::size_t i = 0; i < b.nodes.size(); ++i)
     if (b.nodes[i].other >= 0) in_b[static_cast<std::size_t>(b.nodes[i].other)] = static_cast<int>(i);
-  for (Node& n : a.nodes)
+  for (ContourNode& n : a.nodes)
     if (n.other >= 0) n.other = in_b[static_cast<std::size_t>(n.other)];
-  for (Node& n : b.nodes)
+  for (ContourNode& n : b.nodes)
     if (n.other >= 0) n.other = in_a[static_cast<std::size_t>(n.other)];
 }
 
@@ -116,16 +116,16 @@ struct Left {
 // The difference of two polygons. Source: Greiner, Hormann, "Efficient clipping of arbitrary polygons", 1998.
 void subtract(const Contour& polygon, const Contour& triangle, Left& result) {
   if (apart(polygon, triangle)) return result.polygons.push_back(polygon);
-  const std::vector<Crossing> crossings = crossings_of(polygon, triangle);
+  const std::vector<ContourCrossing> crossings = crossings_of(polygon, triangle);
   if (crossings.empty()) {
     if (contains(triangle, polygon[0])) return;
     if (contains(polygon, triangle[0])) result.holes.push_back(triangle);
     return result.polygons.push_back(polygon);
   }
   Ring a = ring_of(
-      polygon, crossings, triangle, [](const Crossing& c) { return c.edge_a; }, [](const Crossing& c) { return c.along_a; });
+      polygon, crossings, triangle, [](const ContourCrossing& c) { return c.edge_a; }, [](const ContourCrossing& c) { return c.along_a; });
   Ring b = ring_of(
-      triangle, crossings, polygon, [](const Crossing& c) { return c.edge_b; }, [](const Crossing& c) { return c.along_b; });
+      triangle, crossings, polygon, [](const ContourCrossing& c) { return c.edge_b; }, [](const ContourCrossing& c) { return c.along_b; });
   link(a, b, crossings.size());
   const float sign = area_of(polygon);
   for (std::size_t start = 0; start < a.nodes.size(); ++start) {
@@ -134,7 +134,7 @@ void subtract(const Contour& polygon, const Contour& triangle, Left& result) {
     Ring* ring = &a;
     std::size_t at = start;
     for (std::size_t steps = 0; steps < 2 * (a.nodes.size() + b.nodes.size()); ++steps) {
-      Node& n = ring->nodes[at];
+      ContourNode& n = ring->nodes[at];
       if (n.visited) break;
       const bool forward = ring == &a ? !n.enters : n.enters;  // outside the triangle, inside the polygon
       n.visited = true;
@@ -183,8 +183,8 @@ std::vector<Vec3d> off_horizon(std::vector<Vec3d> polygon, const shadow::Viewpoi
 
 }  // namespace
 
-PreparedPolygon clipped_light(const PreparedPolygon& light, const shadow::EdgeMesh& mesh, const shadow::Viewpoint& from, Facing facing,
-                              Degenerate degenerate, reference::Random& random) {
+PreparedPolygon clipped_light(const PreparedPolygon& light, const shadow::EdgeMesh& mesh, const shadow::Viewpoint& from,
+                              CountedTriangles facing, Degenerate degenerate, reference::Random& random) {
   const int side = light.side_of(from.position);
   const Frame frame = Frame::from_normal(from.normal);
   PreparedPolygon result = light;
@@ -200,7 +200,7 @@ PreparedPolygon clipped_light(const PreparedPolygon& light, const shadow::EdgeMe
   const Vec3d to_light = light.normal * (side > 0 ? -1.0 : 1.0);
   const double height = dot(light.centroid - from.position, to_light) - shadow::margin_of_plane(light);
   for (std::size_t t = 0; t < mesh.triangles.size() && !left.polygons.empty(); ++t) {
-    if (facing == Facing::front && !(dot(mesh.planes[t].normal, from.position) > mesh.planes[t].offset)) continue;
+    if (facing == CountedTriangles::front && !(dot(mesh.planes[t].normal, from.position) > mesh.planes[t].offset)) continue;
     std::vector<Vec3d> corners;
     for (const std::uint32_t v : mesh.triangles[t]) corners.push_back(mesh.vertices[v]);
     Contour triangle = projected(above(off_horizon(corners, from), -to_light, -height), frame);
@@ -208,10 +208,10 @@ PreparedPolygon clipped_light(const PreparedPolygon& light, const shadow::EdgeMe
     if (area_of(triangle) < 0) std::reverse(triangle.begin(), triangle.end());
     if (degenerate == Degenerate::scaled) {
       const auto factor = static_cast<float>(1 + random.uniform(-0.01, 0.01));
-      Corner middle;
-      for (const Corner c : triangle)
+      ContourPoint middle;
+      for (const ContourPoint c : triangle)
         middle = {middle.x + c.x / static_cast<float>(triangle.size()), middle.y + c.y / static_cast<float>(triangle.size())};
-      for (Corner& c : triangle) c = {middle.x + factor * (c.x - middle.x), middle.y + factor * (c.y - middle.y)};
+      for (ContourPoint& c : triangle) c = {middle.x + factor * (c.x - middle.x), middle.y + factor * (c.y - middle.y)};
     }
     Left next;
     next.holes = std::move(left.holes);
@@ -220,7 +220,7 @@ PreparedPolygon clipped_light(const PreparedPolygon& light, const shadow::EdgeMe
   }
   const auto add = [&](Contour contour, bool hole) {
     if (hole != (side < 0)) std::reverse(contour.begin(), contour.end());
-    for (const Corner c : contour)
+    for (const ContourPoint c : contour)
       result.vertices.push_back(from.position + frame.to_world({static_cast<double>(c.x), static_cast<double>(c.y), 1}));
     result.contours.push_back(result.vertices.size());
   };

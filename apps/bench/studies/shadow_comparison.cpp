@@ -70,8 +70,8 @@ Lobes integrals_over(const PreparedPolygon& part, const ShadingPoint& at) {
   return {polygon_irradiance(part, at.position, at.normal), ltc_radiance(LtcMethod::classic, part, at, glossy()).x};
 }
 
-struct Stage {
-  explicit Stage(const families::Family& f)
+struct ComparisonStage {
+  explicit ComparisonStage(const families::Family& f)
       : triangles(rounded(f.triangles)),
         scene(scene_of(triangles)),
         rays(scene),
@@ -119,7 +119,7 @@ struct Stage {
 };
 
 // A point and the values known for it.
-struct Place {
+struct LobePoint {
   Viewpoint at;
   ShadingPoint shading;
   LobeDensity lobe;  // the transformed cosine
@@ -127,11 +127,11 @@ struct Place {
 };
 
 // Points that see between 1 % and 99 % of the light.
-std::vector<Place> places_in(const Stage& stage, const families::Family& family, int count) {
-  std::vector<Place> result;
+std::vector<LobePoint> places_in(const ComparisonStage& stage, const families::Family& family, int count) {
+  std::vector<LobePoint> result;
   Random random(5, 3);
   while (result.size() < static_cast<std::size_t>(count)) {
-    Place place;
+    LobePoint place;
     place.at = families::random_point(family, stage.occluders.mesh, stage.light, random).at;
     place.shading = shading_of(place.at, stage.light);
     place.lobe = ltc_lobe_density(LtcMethod::classic, place.shading, glossy());
@@ -144,7 +144,7 @@ std::vector<Place> places_in(const Stage& stage, const families::Family& family,
   return result;
 }
 
-Lobes by_pieces(const Stage& stage, const Place& place) {
+Lobes by_pieces(const ComparisonStage& stage, const LobePoint& place) {
   thread_local Scratch scratch;
   thread_local VisibleRegion region;
   stage.see(place.at, scratch.set);
@@ -156,7 +156,7 @@ Lobes by_pieces(const Stage& stage, const Place& place) {
 // The visible fraction of a light by visible and occluded places, weighted by both lobes, times the unoccluded value.
 class Shares {
  public:
-  Shares(const Stage& stage, const Place& place) : frame_(stage.frame_of(place.at)), place_(place) {}
+  Shares(const ComparisonStage& stage, const LobePoint& place) : frame_(stage.frame_of(place.at)), place_(place) {}
   // True if the place counts at all, before occlusion.
   bool weigh(double x, double y) {
     for (const auto& c : frame_.contours)
@@ -179,13 +179,13 @@ class Shares {
 
  private:
   const LightFrame& frame_;
-  const Place& place_;
+  const LobePoint& place_;
   Vec3d to_{};
   Lobes weight_, all_, arrives_;
 };
 
 // Laine's count of the same segments, at fixed places of the light. One ray tests the place with the lowest count.
-Lobes by_counts(const Stage& stage, const Place& place, int side) {
+Lobes by_counts(const ComparisonStage& stage, const LobePoint& place, int side) {
   thread_local SegmentSet set;
   thread_local SegmentArrays arrays;
   thread_local std::vector<std::pair<double, double>> places;
@@ -229,7 +229,7 @@ Lobes by_counts(const Stage& stage, const Place& place, int side) {
 }
 
 // The ratio estimator of Heitz, Hill and McGuire, 2018: stratified rays.
-Lobes by_rays(const Stage& stage, const Place& place, int side, Random& random) {
+Lobes by_rays(const ComparisonStage& stage, const LobePoint& place, int side, Random& random) {
   const LightFrame& frame = stage.frame_of(place.at);
   const double height = -frame.to_local(place.at.position).z;
   Shares shares(stage, place);
@@ -242,17 +242,17 @@ Lobes by_rays(const Stage& stage, const Place& place, int side, Random& random) 
   return shares.value();
 }
 
-Lobes by_clipping(const Stage& stage, const Place& place, Facing facing, Degenerate degenerate, Random& random) {
+Lobes by_clipping(const ComparisonStage& stage, const LobePoint& place, CountedTriangles facing, Degenerate degenerate, Random& random) {
   return integrals_over(clipped_light(stage.light, stage.occluders.mesh, place.at, facing, degenerate, random), place.shading);
 }
 
 // Evaluates all points once, then repeats until the time is long enough to measure. The errors are those of the first pass.
-ShadowRow shadow_comparison_measure(const std::string& method, const std::vector<Place>& places,
-                                    const std::function<Lobes(const Place&)>& value) {
+ShadowRow shadow_comparison_measure(const std::string& method, const std::vector<LobePoint>& places,
+                                    const std::function<Lobes(const LobePoint&)>& value) {
   constexpr double kLongEnough = 0.1;  // seconds
   ShadowRow row;
   row.method = method;
-  for (const Place& place : places) {
+  for (const LobePoint& place : places) {
     const Lobes v = value(place);
     const double error = (v.lambert - place.truth.lambert) / place.open.lambert, error_ltc = (v.ltc - place.truth.ltc) / place.open.ltc;
     row.rms += error * error;
@@ -266,7 +266,7 @@ ShadowRow shadow_comparison_measure(const std::string& method, const std::vector
   double best = 1e30, spent = 0;
   while (spent < kLongEnough) {
     const auto start = Clock::now();
-    for (const Place& place : places) value(place);
+    for (const LobePoint& place : places) value(place);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     best = std::min(best, seconds);
     spent += seconds;
@@ -275,13 +275,13 @@ ShadowRow shadow_comparison_measure(const std::string& method, const std::vector
   return row;
 }
 
-double ray_time(const Stage& stage, const std::vector<Place>& places) {
+double ray_time(const ComparisonStage& stage, const std::vector<LobePoint>& places) {
   constexpr int kRays = 200;
   double best = INFINITY;
   for (int repeat = 0; repeat < 5; ++repeat) {
     Random random(7);
     const auto start = Clock::now();
-    for (const Place& place : places) {
+    for (const LobePoint& place : places) {
       const LightFrame& frame = stage.frame_of(place.at);
       for (int i = 0; i < kRays; ++i)
         stage.rays.between(place.at.position,
@@ -293,11 +293,11 @@ double ray_time(const Stage& stage, const std::vector<Place>& places) {
 }
 
 // The error of the truth at the first points, against rays with cells refined along every border.
-double truth_against_rays(const Stage& stage, const std::vector<Place>& places) {
+double truth_against_rays(const ComparisonStage& stage, const std::vector<LobePoint>& places) {
   constexpr std::size_t kPoints = 5;
   double squares = 0;
   for (std::size_t i = 0; i < kPoints; ++i) {
-    const Place& place = places[i];
+    const LobePoint& place = places[i];
     const auto cosine = [](Vec3d l) { return std::array<double, 1>{l.z}; };
     RaysIntegral<1, decltype(cosine)> rays(stage.frame_of(place.at), place.at, stage.occluders.rays, Frame::from_normal(place.at.normal),
                                            cosine);
@@ -308,35 +308,35 @@ double truth_against_rays(const Stage& stage, const std::vector<Place>& places) 
 }
 
 ShadowScene scene_by_all(const families::Family& family, int points, bool growing) {
-  const Stage stage(family);
-  const std::vector<Place> places = places_in(stage, family, points);
+  const ComparisonStage stage(family);
+  const std::vector<LobePoint> places = places_in(stage, family, points);
   ShadowScene scene;
   scene.name = family.name;
   scene.triangles = stage.occluders.mesh.triangles.size();
   SegmentSet set;
-  for (const Place& place : places) {
+  for (const LobePoint& place : places) {
     stage.see(place.at, set);
     scene.segments += static_cast<double>(set.occluders) / static_cast<double>(places.size());
   }
   if (!growing) scene.truth = truth_against_rays(stage, places);
   scene.ray_microseconds = ray_time(stage, places);
-  const auto add = [&](const std::string& name, const std::function<Lobes(const Place&)>& value) {
+  const auto add = [&](const std::string& name, const std::function<Lobes(const LobePoint&)>& value) {
     scene.rows.push_back(shadow_comparison_measure(name, places, value));
   };
-  add("pieces", [&](const Place& p) { return by_pieces(stage, p); });
+  add("pieces", [&](const LobePoint& p) { return by_pieces(stage, p); });
   // The shade's cone is open, so both sides of its triangles are visible.
-  const Facing facing = family.name == "lamp shade" ? Facing::any : Facing::front;
+  const CountedTriangles facing = family.name == "lamp shade" ? CountedTriangles::any : CountedTriangles::front;
   Random scaling(11), as_they_are(12);
-  add("clipping, scaled", [&](const Place& p) { return by_clipping(stage, p, facing, Degenerate::scaled, scaling); });
+  add("clipping, scaled", [&](const LobePoint& p) { return by_clipping(stage, p, facing, Degenerate::scaled, scaling); });
   if (!growing)
-    add("clipping, not scaled", [&](const Place& p) { return by_clipping(stage, p, facing, Degenerate::as_they_are, as_they_are); });
+    add("clipping, not scaled", [&](const LobePoint& p) { return by_clipping(stage, p, facing, Degenerate::as_they_are, as_they_are); });
   for (const int side : {16, 32})
     if (side == 16 || !growing)
-      add("counts, " + std::to_string(side * side), [&, side](const Place& p) { return by_counts(stage, p, side); });
+      add("counts, " + std::to_string(side * side), [&, side](const LobePoint& p) { return by_counts(stage, p, side); });
   for (const int side : {4, 8, 32}) {
     if (side != 8 && growing) continue;
     Random random(13);
-    add("rays, " + std::to_string(side * side), [&, side](const Place& p) { return by_rays(stage, p, side, random); });
+    add("rays, " + std::to_string(side * side), [&, side](const LobePoint& p) { return by_rays(stage, p, side, random); });
   }
   return scene;
 }

@@ -41,8 +41,8 @@ double integrand(double c, double n, double phi) {
 
 // Error of a method's integral, relative to the peak, by its integral over short pieces.
 template <class Front>
-Curve error_of(const std::string& name, double c, double n, double phi_high, int colour, int pieces, Front front) {
-  Curve curve{name, {}, false, colour};
+PlotCurve error_of(const std::string& name, double c, double n, double phi_high, int colour, int pieces, Front front) {
+  PlotCurve curve{name, {}, false, colour};
   for (int i = 0; i < pieces; ++i) {
     const double a = phi_high * i / pieces, b = phi_high * (i + 1) / pieces;
     const auto edge = edge_on_circle(c, a, b);
@@ -59,7 +59,7 @@ LinePlot integrand_plot() {
     for (const double c : {0.5, 0.95, 0.9999}) {
       char name[64];
       std::snprintf(name, sizeof name, "n = %g, c = %g", n, c);
-      Curve curve{name, {}, c < 0.9 || c > 0.99, colour};
+      PlotCurve curve{name, {}, c < 0.9 || c > 0.99, colour};
       if (c > 0.99) curve.dashed = false;
       for (int i = 0; i <= 400; ++i) {
         const double phi = kQuarterTurn * i / 400;
@@ -78,12 +78,12 @@ LinePlot half_width_plot() {
   int colour = 0;
   for (const double n : {10.0, 11.0, 100.0, 101.0, 5000.0, 5001.0}) {
     const int even_n = static_cast<int>(n) % 2 == 0;
-    Curve exact{
+    PlotCurve exact{
         even_n ? "n = " + std::to_string(static_cast<int>(n)) + ", f = x" : "n = " + std::to_string(static_cast<int>(n)) + ", f = 1",
         {},
         false,
         colour};
-    Curve fit{"", {}, true, colour++};
+    PlotCurve fit{"", {}, true, colour++};
     for (int i = 1; i < 200; ++i) {
       const double c = i / 200.0, s2 = 1 - c * c;
       const auto height = [&](double phi) { return k.moment_peak_height(s2, c * c, n, even_n, std::cos(phi), std::sin(phi)).v; };

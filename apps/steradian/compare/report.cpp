@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 
 // Pictures in the page are logarithmic with 16 bits per value: radiance in steps of 1/2048 of a stop from `smallest` up, signed errors in
 // steps of 1/1024.
-double smallest_radiance(const Report& report) { return std::max(report.white, 1e-30) * std::exp2(-16); }
-double smallest_error(const Report& report) { return std::max(report.white, 1e-30) * std::exp2(-20); }
+double smallest_radiance(const ComparisonReport& report) { return std::max(report.white, 1e-30) * std::exp2(-16); }
+double smallest_error(const ComparisonReport& report) { return std::max(report.white, 1e-30) * std::exp2(-20); }
 
 std::uint16_t code_of(double value, double smallest, double steps, double most) {
   return static_cast<std::uint16_t>(std::lround(std::clamp(std::log2(1 + std::max(value, 0.0) / smallest) * steps, 0.0, most)));
@@ -39,7 +39,7 @@ std::string encoded_radiance(const Picture& picture, double smallest) {
 }
 
 // Red and green hold the error of the luminance, with its sign relative to 32768. Blue holds FLIP.
-std::string encoded_error(const Compared& of, const Picture& reference, double smallest) {
+std::string encoded_error(const ComparedPicture& of, const Picture& reference, double smallest) {
   return image::encode_png_bytes(reference.width, reference.height, [&](int y, std::uint8_t* row) {
     for (int x = 0; x < reference.width; ++x) {
       const double error = luminance(static_cast<Vec3d>(of.picture.at(x, y))) - luminance(static_cast<Vec3d>(reference.at(x, y)));
@@ -65,9 +65,9 @@ Json numbers_of(const Run& run) {
           {"mean_ratio", d.mean_ratio}};
 }
 
-Json report_data(const Report& report) {
+Json report_data(const ComparisonReport& report) {
   Json methods = Json::array(), over_time = Json::array();
-  for (const Compared& of : report.methods) {
+  for (const ComparedPicture& of : report.methods) {
     Json m = numbers_of(of.run);
     m["flip"] = of.flip;
     m["passes"] = Json::array();
@@ -97,14 +97,16 @@ Json report_data(const Report& report) {
 
 }  // namespace
 
-std::string report_json(const Report& report) { return report_data(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string report_json(const ComparisonReport& report) {
+  return report_data(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
-std::string report_page(const Report& report) {
+std::string report_page(const ComparisonReport& report) {
   Json data = report_data(report), pictures;
   const double smallest = smallest_radiance(report), error = smallest_error(report);
   data["encoding"] = {{"smallest", smallest}, {"smallest_error", error}};
   pictures["reference"] = {{"radiance", base64(encoded_radiance(report.reference, smallest))}};
-  for (const Compared& of : report.methods)
+  for (const ComparedPicture& of : report.methods)
     pictures[of.run.method] = {{"radiance", base64(encoded_radiance(of.picture, smallest))},
                                {"error", base64(encoded_error(of, report.reference, error))}};
   std::string page = kComparePage;

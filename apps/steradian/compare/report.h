@@ -17,7 +17,7 @@ struct Run {
   Difference difference;
 };
 
-struct Compared {
+struct ComparedPicture {
   Run run;
   Picture picture;
   std::vector<PassTime> passes;
@@ -25,7 +25,7 @@ struct Compared {
   std::vector<float> flip_error;  // one value per pixel
 };
 
-struct Report {
+struct ComparisonReport {
   std::string scene, command;
   std::string reference_words;  // description of the reference for people
   Picture reference;
@@ -33,13 +33,13 @@ struct Report {
   double reference_error = 0;  // error of the reference itself, as relative L2; 0: negligible
   float exposure = 0;
   double white = 0;  // upper bound of all but a thousandth of the reference's channels
-  std::vector<Compared> methods;
+  std::vector<ComparedPicture> methods;
   double time_limit = 0;                 // seconds; 0: none
   std::vector<std::string> did_not_fit;  // methods that have no picture, and "METHOD at SETTING"
   std::vector<Run> over_time;            // each method's settings, including those of `methods`
 };
 
-std::string report_json(const Report& report);
-std::string report_page(const Report& report);
+std::string report_json(const ComparisonReport& report);
+std::string report_page(const ComparisonReport& report);
 
 }  // namespace steradian::app

@@ -24,7 +24,7 @@ std::string name_in(const Scene& scene, std::size_t light) {
 }
 
 // A lamp of the file: by its node, or by its material for an emissive mesh.
-Lamp lamp_of(const Document& document, const std::vector<Lamp>& lamps, const Scene& scene, std::size_t light) {
+Lamp lamp_of(const EditedDocument& document, const std::vector<Lamp>& lamps, const Scene& scene, std::size_t light) {
   const std::size_t area = scene.area_lights.size();
   const bool punctual = light >= area;
   const int node = punctual ? scene.punctual_lights[light - area].node : scene.area_lights[light].node;
@@ -39,7 +39,7 @@ Lamp lamp_of(const Document& document, const std::vector<Lamp>& lamps, const Sce
 }
 
 // Gives a lamp whose definition other nodes use a copy of its own.
-void separate(Document& document, Lamp& lamp, const std::vector<Lamp>& lamps) {
+void separate(EditedDocument& document, Lamp& lamp, const std::vector<Lamp>& lamps) {
   if (lamp.kind != LampKind::area && lamp.kind != LampKind::punctual) return;
   const bool shared =
       std::count_if(lamps.begin(), lamps.end(), [&](const Lamp& l) { return l.kind == lamp.kind && l.light == lamp.light; }) > 1;
@@ -53,7 +53,7 @@ void separate(Document& document, Lamp& lamp, const std::vector<Lamp>& lamps) {
 }
 
 // Moves a lamp to a child of its node, where the node shows or carries other things.
-void take_out(Document& document, Lamp& lamp) {
+void take_out(EditedDocument& document, Lamp& lamp) {
   const std::string node = "/nodes/" + std::to_string(lamp.node);
   const bool alone =
       document.count(node + "/children") == 0 && document.find(node + "/mesh") == nullptr && document.find(node + "/camera") == nullptr;
@@ -69,7 +69,7 @@ void take_out(Document& document, Lamp& lamp) {
   lamp.node = child;
 }
 
-void move(Document& document, Lamp& lamp, const LightChange& change) {
+void move(EditedDocument& document, Lamp& lamp, const LightChange& change) {
   if (change.move == Vec3d{} && change.rotation == Vec3d{}) return;
   take_out(document, lamp);
   const Affine parent = NodeTree(document).parent_world(lamp.node);
@@ -79,7 +79,7 @@ void move(Document& document, Lamp& lamp, const LightChange& change) {
   set_pose(document, lamp.node, pose);
 }
 
-void shine(Document& document, const Lamp& lamp, const LightChange& change, Vec3d before, bool profiled) {
+void shine(EditedDocument& document, const Lamp& lamp, const LightChange& change, Vec3d before, bool profiled) {
   const double factor = luminance(change.radiance) / luminance(before);
   if (profiled) {
     const std::string at = "/extensions/EXT_lights_area/lights/" + std::to_string(lamp.light) + "/extras/steradian/profile/multiplier";
@@ -112,7 +112,7 @@ int material_of_light(const Scene& scene, std::size_t light) {
 }
 
 void write_solved(const std::string& input, const Scene& start, const Solution& found, const std::string& output) {
-  Document document(scene::read_gltf_file(input));
+  EditedDocument document(scene::read_gltf_file(input));
   std::vector<int> materials;  // that were changed: all lights of one shine alike
   for (const LightChange& change : found.changes) {
     const std::vector<Lamp> lamps = lamps_of(document, NodeTree(document));

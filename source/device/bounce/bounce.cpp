@@ -20,12 +20,12 @@ namespace {
 #include "shaders/bounce_layout.glsl"
 
 using indirect::DiffuseLight;
-using indirect::FrameSurfaces;
 using indirect::GgxLight;
 using indirect::GlossyLight;
 using indirect::Layout;
 using indirect::LightSet;
 using indirect::LobeArrays;
+using indirect::PictureSurfaces;
 using indirect::QuadLight;
 using indirect::ShadowMap;
 using indirect::VectorArray;
@@ -51,9 +51,9 @@ ComputeProgram::Dispatch threads(std::size_t pipeline, std::size_t count, std::u
 }
 
 // Writes vectors of four, one after another.
-class Writer {
+class FourWriter {
  public:
-  explicit Writer(float* to) : to_(to) {}
+  explicit FourWriter(float* to) : to_(to) {}
   void put(Vec3f v, float w) {
     for (float x : {v.x, v.y, v.z, w}) *to_++ = x;
   }
@@ -63,7 +63,7 @@ class Writer {
 };
 
 // The order is that of shaders/bounce_layout.glsl.
-void put_diffuse(const LightSet& set, std::size_t i, Writer to) {
+void put_diffuse(const LightSet& set, std::size_t i, FourWriter to) {
   const DiffuseLight& light = set.diffuse[i];
   const QuadLight& quad = set.diffuse_quads[i];
   to.put(light.position, light.reach);
@@ -74,7 +74,7 @@ void put_diffuse(const LightSet& set, std::size_t i, Writer to) {
   to.put({set.eggs.range[i], set.eggs.offset[i], 0}, 0);
 }
 
-void put_glossy(const LightSet& set, std::size_t i, IndirectMode mode, Writer to) {
+void put_glossy(const LightSet& set, std::size_t i, IndirectMode mode, FourWriter to) {
   const GlossyLight& light = set.glossy[i];
   const QuadLight& quad = set.glossy_quads[i];
   const indirect::SpheroidArrays& s = set.spheroids;
@@ -142,7 +142,7 @@ void Bounce::find_first_hits_by(std::shared_ptr<const SceneRays> rays) {
   if (rays == nullptr) {
     first_hits_.reset();
   } else if (first_hits_ == nullptr || first_hits_->scene() != rays.get()) {
-    first_hits_ = std::make_unique<FirstHits>(std::move(rays));
+    first_hits_ = std::make_unique<DeviceFirstHits>(std::move(rays));
   }
 }
 
@@ -164,7 +164,7 @@ LobeArrays Bounce::lobes(const ShadowMap& map) {
   if (count == 0) return result;
   auto* texels = static_cast<float*>(fitting(texels_, count * kTexel * kVector, "the shadow map").mapped());
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    Writer to(texels + i * kTexel * 4);
+    FourWriter to(texels + i * kTexel * 4);
     to.put(map.normal[i], map.alpha[i]);
     to.put(map.incoming[i], 0);
   });
@@ -187,7 +187,7 @@ LobeArrays Bounce::lobes(const ShadowMap& map) {
   return result;
 }
 
-void Bounce::upload(const FrameSurfaces& s) {
+void Bounce::upload(const PictureSurfaces& s) {
   const auto width = static_cast<std::size_t>(s.raster.width), height = static_cast<std::size_t>(s.raster.height);
   float* to[kPlanes];
   const std::size_t bytes = width * height * kVector;
@@ -196,11 +196,11 @@ void Bounce::upload(const FrameSurfaces& s) {
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t from = s.raster.at(static_cast<int>(x), static_cast<int>(y)), at = 4 * (y * width + x);
       const Vec3f f90 = s.f90[from];
-      Writer(to[kPositions] + at).put(s.position[from], s.alpha[from]);
-      Writer(to[kNormals] + at).put(s.normal[from], f90.x);
-      Writer(to[kViews] + at).put(s.view[from], f90.y);
-      Writer(to[kF0s] + at).put(s.f0[from], f90.z);
-      Writer(to[kAlbedos] + at).put(s.albedo[from], 0);
+      FourWriter(to[kPositions] + at).put(s.position[from], s.alpha[from]);
+      FourWriter(to[kNormals] + at).put(s.normal[from], f90.x);
+      FourWriter(to[kViews] + at).put(s.view[from], f90.y);
+      FourWriter(to[kF0s] + at).put(s.f0[from], f90.z);
+      FourWriter(to[kAlbedos] + at).put(s.albedo[from], 0);
     }
   });
 }
@@ -224,12 +224,12 @@ void Bounce::upload_lights(const std::vector<LightSet>& sets, const indirect::Bo
   auto* to = static_cast<float*>(fitting(lights_, std::max<std::size_t>(vectors, 1) * kVector, "a round of virtual lights").mapped());
   tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
     const std::uint32_t* of = &values_[kSets + s * kSet];
-    for (std::size_t i = 0; i < of[1]; ++i) put_diffuse(sets[s], begin + i, Writer(to + 4 * (of[0] + i * kDiffuse)));
-    for (std::size_t i = 0; i < of[3]; ++i) put_glossy(sets[s], begin + i, settings.mode, Writer(to + 4 * (of[2] + i * kGlossy)));
+    for (std::size_t i = 0; i < of[1]; ++i) put_diffuse(sets[s], begin + i, FourWriter(to + 4 * (of[0] + i * kDiffuse)));
+    for (std::size_t i = 0; i < of[3]; ++i) put_glossy(sets[s], begin + i, settings.mode, FourWriter(to + 4 * (of[2] + i * kGlossy)));
   });
 }
 
-std::vector<ComputeProgram::Dispatch> Bounce::light_tiles(const FrameSurfaces& s, const Layout& layout,
+std::vector<ComputeProgram::Dispatch> Bounce::light_tiles(const PictureSurfaces& s, const Layout& layout,
                                                           const indirect::BounceSettings& settings) {
   enum Kind : std::uint8_t { kEmpty, kDull, kShiny, kSharp };
   const float sharp_alpha = Kernels<float>().indirect_sharp().v;
@@ -268,7 +268,7 @@ std::vector<ComputeProgram::Dispatch> Bounce::light_tiles(const FrameSurfaces& s
   return dispatches;
 }
 
-VectorArray Bounce::radiance(const FrameSurfaces& surfaces, const std::vector<LightSet>& sets, const Layout& layout,
+VectorArray Bounce::radiance(const PictureSurfaces& surfaces, const std::vector<LightSet>& sets, const Layout& layout,
                              const indirect::BounceSettings& settings) {
   auto start = Clock::now();
   upload(surfaces);

@@ -21,9 +21,9 @@ class Bounce final : public indirect::Passes {
 
   // Sets the rays that make the shadow map. Null: the host's rays, as before the first call.
   void find_first_hits_by(std::shared_ptr<const SceneRays> rays);
-  FirstHits* first_hits() override { return first_hits_.get(); }
+  DeviceFirstHits* first_hits() override { return first_hits_.get(); }
   indirect::LobeArrays lobes(const indirect::ShadowMap& map) override;
-  indirect::VectorArray radiance(const indirect::FrameSurfaces& surfaces, const std::vector<indirect::LightSet>& sets,
+  indirect::VectorArray radiance(const indirect::PictureSurfaces& surfaces, const std::vector<indirect::LightSet>& sets,
                                  const indirect::Layout& layout, const indirect::BounceSettings& settings) override;
   std::vector<PassTime> take_times() override;
 
@@ -43,17 +43,17 @@ class Bounce final : public indirect::Passes {
   enum Kernel : std::size_t { kBoxes, kCull, kLight, kFilter, kResolve };
 
   Buffer& fitting(KeptBuffer& buffer, std::size_t bytes, const std::string& what) const;
-  void upload(const indirect::FrameSurfaces& surfaces);
+  void upload(const indirect::PictureSurfaces& surfaces);
   void upload_lights(const std::vector<indirect::LightSet>& sets, const indirect::BounceSettings& settings, std::size_t first,
                      std::size_t count);
   // Dispatches of the light pass, with a pipeline for each kind of tiles.
-  std::vector<ComputeProgram::Dispatch> light_tiles(const indirect::FrameSurfaces& surfaces, const indirect::Layout& layout,
+  std::vector<ComputeProgram::Dispatch> light_tiles(const indirect::PictureSurfaces& surfaces, const indirect::Layout& layout,
                                                     const indirect::BounceSettings& settings);
   void run(const std::vector<ComputeProgram::Dispatch>& dispatches, const std::vector<const char*>& names);
 
   const Device& device_;
   const LtcPackTables tables_;
-  std::unique_ptr<FirstHits> first_hits_;
+  std::unique_ptr<DeviceFirstHits> first_hits_;
   ComputeProgram lobe_program_, program_;
   KeptBuffer texels_, texel_lobes_, table_;
   std::vector<KeptBuffer> planes_;  // by Plane

@@ -44,7 +44,7 @@ void expect_same(const std::string& name, const Scene& scene, RenderOptions opti
   options.backend = Backend::cpu;
   const std::vector<Vec3f> cpu = render(scene, options).layers.at("indirect");
   options.backend = Backend::vulkan;
-  const std::vector<Vec3f> device = Frame(scene, options, nullptr, SurfacesBy::automatic, rays).render().layers.at("indirect");
+  const std::vector<Vec3f> device = DeviceFrame(scene, options, nullptr, SurfacesBy::automatic, rays).render().layers.at("indirect");
   double squares = 0, errors = 0, largest = 0;
   for (std::size_t i = 0; i < cpu.size(); ++i) {
     const Vec3f off = device[i] - cpu[i];
@@ -93,7 +93,7 @@ TEST_F(VulkanBounce, KeepsTheRaysOfAScene) {
   Scene scene = indirect::mixed_corner();
   RenderCache cache;
   const auto draw = [&](RenderCache* kept) {
-    return Frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device, kept).render().layers.at("indirect");
+    return DeviceFrame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device, kept).render().layers.at("indirect");
   };
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(draw(&cache) == draw(nullptr)) << k;
@@ -143,7 +143,7 @@ TEST_F(VulkanBounce, SaysWhatItsPassesTook) {
   const Scene scene = indirect::mixed_corner();
   options.width = options.height = 32;
   options.backend = Backend::vulkan;
-  Frame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device);
+  DeviceFrame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device);
   RenderStats stats;
   for (int i = 0; i < 2; ++i) frame.render(&stats);
   for (const char* name :
@@ -157,7 +157,7 @@ TEST_F(VulkanBounce, AHundredFramesLeaveMemoryWhereItWas) {
   const Scene scene = indirect::mixed_corner();
   options.width = options.height = 16;
   options.backend = Backend::vulkan;
-  Frame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device);
+  DeviceFrame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::device);
   for (int i = 0; i < 30; ++i) frame.render();
   const double before = test::resident_mib();
   for (int i = 0; i < 100; ++i) frame.render();
@@ -176,7 +176,7 @@ TEST_F(VulkanBounce, LeavesNothingToTheValidationLayer) {
     RenderOptions options = small(mode, 1 << 10);
     options.backend = Backend::vulkan;
     options.width = options.height = 32;
-    Frame(scene, options, validated, SurfacesBy::automatic, RaysBy::device).render();
+    DeviceFrame(scene, options, validated, SurfacesBy::automatic, RaysBy::device).render();
   }
   EXPECT_TRUE(validated->validation_messages().empty()) << validated->validation_messages().front();
 }

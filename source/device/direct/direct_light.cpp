@@ -74,7 +74,7 @@ void check_device(const DeviceInfo& device) {
   if (!device.broadcasts) throw Error(who, "has no subgroup ballots in compute shaders", "choose another --device, or --backend cpu");
 }
 
-struct DirectLight::Pass {
+struct DirectPass::Pass {
   Procedure procedure = Procedure::diffuse;
   bool coat = false;
   const OwnLobes::Lobe* own = nullptr;
@@ -94,7 +94,7 @@ struct DirectLight::Pass {
 };
 
 // Lists of a batch: for each pipeline, tiles with their lights.
-struct DirectLight::Work {
+struct DirectPass::Work {
   struct Entry {
     std::uint32_t square, count, own;
     std::vector<std::uint32_t> lights;  // numbers; of shadowed lights each with its states, of textured ones with its means
@@ -123,7 +123,7 @@ struct DirectLight::Work {
   }
 };
 
-DirectLight::Kept::Kept(const Device& d)
+DirectPass::Kept::Kept(const Device& d)
     : device(d),
       tiles((check_device(d.info()), std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program(d, shaders(), kBuffers, kTexels),
@@ -140,7 +140,7 @@ DirectLight::Kept::Kept(const Device& d)
   radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
 }
 
-DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::vector<PackLight>& lights)
+DirectPass::DirectPass(Kept& kept, const Scene& scene, const DirectMethod& method, const std::vector<PackLight>& lights)
     : kept_(kept),
       method_(method),
       specular_(methods::procedure_of(method.ggx, Brdf::ggx)),
@@ -170,13 +170,13 @@ DirectLight::DirectLight(Kept& kept, const Scene& scene, const DirectMethod& met
   kept.tables.hold(nodes);
 }
 
-bool DirectLight::has(const PackLight& light) const { return light_details_.has(light); }
+bool DirectPass::has(const PackLight& light) const { return light_details_.has(light); }
 
-Vec4Floats* DirectLight::planes_of(std::size_t place) {
+Vec4Floats* DirectPass::planes_of(std::size_t place) {
   return static_cast<Vec4Floats*>(kept_.surfaces.get().mapped()) + place * static_cast<std::size_t>(kPlanes * kSlots);
 }
 
-void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
+void DirectPass::put(std::size_t place, const SurfaceTile& tile) {
   Vec4Floats* planes = planes_of(place);
   put_vector(planes, kPosition, tile.position, tile.alpha_x);
   put_vector(planes, kNormal, tile.normal, tile.alpha_y);
@@ -194,12 +194,12 @@ void DirectLight::put(std::size_t place, const SurfaceTile& tile) {
   put_radiance(place, tile);
 }
 
-void DirectLight::put_radiance(std::size_t place, const SurfaceTile& tile) {
+void DirectPass::put_radiance(std::size_t place, const SurfaceTile& tile) {
   put_vector(static_cast<Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance), 0, tile.radiance,
              tile.coat);
 }
 
-void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
+void DirectPass::take_radiance(std::size_t place, TileVector& radiance) const {
   const Vec4Floats* from = static_cast<const Vec4Floats*>(kept_.radiance.get().mapped()) + place * static_cast<std::size_t>(kRadiance);
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     radiance.x[i] = from[i][0];
@@ -209,12 +209,12 @@ void DirectLight::take_radiance(std::size_t place, TileVector& radiance) const {
 }
 
 // Like SpecularPass::brings_diffuse: one walk along a polygon serves both lobes.
-bool DirectLight::brings_diffuse(const Square& square, const PackLight& light) const {
+bool DirectPass::brings_diffuse(const Square& square, const PackLight& light) const {
   return specular_ == Procedure::ltc && square.any_specular && square.any_diffuse && light.is_polygon() && light.is_even();
 }
 
 // Least squared distance for a lobe's integral, in the light's mean square deviations.
-double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) const {
+double DirectPass::least_distance2(const LightRecord& light, const Pass& pass) const {
   Kernels<double> k;
   const auto limits = [&] {
     switch (pass.procedure) {
@@ -228,7 +228,7 @@ double DirectLight::least_distance2(const LightRecord& light, const Pass& pass) 
 }
 
 // Returns true if some point of a box may see the light as small, or may be near its rim. Otherwise the shaders skip both tests.
-bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
+bool DirectPass::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
   const double least = least_distance2(light, pass);
   const Distances d = distances(light.middle, where.positions);
@@ -237,7 +237,7 @@ bool DirectLight::is_careful(const LightRecord& light, const SurfaceBounds& wher
   return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
-std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, bool shadowed) const {
+std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, bool shadowed) const {
   const bool by_arcs = pass.procedure == Procedure::closed_form || pass.procedure == Procedure::half_vector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
   const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
@@ -267,7 +267,7 @@ std::vector<std::int32_t> DirectLight::choices(const LightRecord& light, const P
 
 // Lists the mean of a textured light for a lobe. It is an entry of its own, since software devices limit a thread's loop
 // turns.
-void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
+void DirectPass::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
   std::vector<std::int32_t> constants = choices({}, {}, false, false, false);
   constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
   constants[9] = compact_size_;
@@ -277,7 +277,7 @@ void DirectLight::list_means(Work& work, std::uint32_t place, const Pass& pass, 
   group.entries.push_back({place, 1, pass.own != nullptr ? pass.own->first : 0, {light, work.means}});
 }
 
-void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) const {
+void DirectPass::find_squares(const SurfaceTile& surfaces, Tile& tile) const {
   constexpr auto kGroupSlots = static_cast<std::size_t>(kGroup);
   const auto any = [](const TileVector& v, std::size_t first) {
     const auto some = [&](const TilePlane& p) { return std::any_of(&p[first], &p[first] + kGroupSlots, [](float x) { return x > 0; }); };
@@ -299,11 +299,11 @@ void DirectLight::find_squares(const SurfaceTile& surfaces, Tile& tile) const {
   }
 }
 
-bool DirectLight::is_cut(const Tile& tile, const PackLight& light) {
+bool DirectPass::is_cut(const Tile& tile, const PackLight& light) {
   return std::any_of(tile.lights.cut.begin(), tile.lights.cut.end(), [&](const auto& cut) { return cut.get() == &light; });
 }
 
-void DirectLight::list_lights(Tile& tile) const {
+void DirectPass::list_lights(Tile& tile) const {
   const bool leaks = specular_ == Procedure::ltc_clipless;  // lights that reach the tile, also from below the horizon
   for (Square& square : tile.squares) {
     if (square.bounds.positions.is_empty()) continue;
@@ -314,24 +314,24 @@ void DirectLight::list_lights(Tile& tile) const {
   }
 }
 
-std::uint32_t DirectLight::number_of(const PackLight& light, bool cut) {
+std::uint32_t DirectPass::number_of(const PackLight& light, bool cut) {
   return cut ? records_.add(light, light_details_.first_of(light)) : static_cast<std::uint32_t>(light.index);
 }
 
-void DirectLight::list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass) {
+void DirectPass::list(Work& work, std::uint32_t place, const Tile& tile, const Square& square, const Pass& pass) {
   for (const Square::Listed& listed : square.lights) list(work, place, square, pass, listed, nullptr);
   for (const Tile::Shadowed& shadowed : tile.shadowed)
     if (reaches(*shadowed.light, square.bounds))
       list(work, place, square, pass, {shadowed.light, is_cut(tile, *shadowed.light), false, false}, &shadowed);
 }
 
-void DirectLight::list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square) {
+void DirectPass::list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square) {
   for (const Tile::Shadowed& shadowed : tile.shadowed)
     if (shadowed.shares && reaches(*shadowed.light, square.bounds)) work.add({kShares, {}}, "shares", 0, place, {0, shadowed.states});
 }
 
-void DirectLight::list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
-                       const Tile::Shadowed* shadowed) {
+void DirectPass::list(Work& work, std::uint32_t place, const Square& square, const Pass& pass, const Square::Listed& listed,
+                      const Tile::Shadowed* shadowed) {
   const bool together = brings_diffuse(square, *listed.light);
   if (pass.procedure == Procedure::diffuse && together) return;
   Pass own = pass;
@@ -352,7 +352,7 @@ void DirectLight::list(Work& work, std::uint32_t place, const Square& square, co
   work.add(key, own.name(), own.own != nullptr ? own.own->first : 0, place, numbers);
 }
 
-void DirectLight::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Visibility& visibility) {
+void DirectPass::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Visibility& visibility) {
   records_.keep(scene_lights_, scene_vertices_);
   Work work;
   for (std::size_t i = first_tile; i < end; ++i) {

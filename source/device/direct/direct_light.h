@@ -20,7 +20,7 @@ namespace steradian::vulkan {
 // Throws Error, with the device's name, if the device lacks something.
 void check_device(const DeviceInfo& device);
 
-class DirectLight {
+class DirectPass {
  public:
   // Objects on the device, for any number of pictures in turn. The device must outlive them. Throws Error if the device lacks something.
   struct Kept {
@@ -32,7 +32,7 @@ class DirectLight {
   };
 
   // `kept`, the scene and the lights must outlive this object.
-  DirectLight(Kept& kept, const Scene& scene, const DirectMethod& method, const std::vector<PackLight>& lights);
+  DirectPass(Kept& kept, const Scene& scene, const DirectMethod& method, const std::vector<PackLight>& lights);
 
   // Returns true if the shaders have this light, without shadows.
   bool has(const PackLight& light) const;

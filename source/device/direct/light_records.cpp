@@ -15,12 +15,12 @@ using Record = std::array<Vec4Floats, static_cast<std::size_t>(kRecord)>;
 
 Vec4Floats with(Vec3f v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
-struct Writer {
+struct RecordWriter {
   Record& r;
   LightRecord& light;
   std::vector<Vec4Floats>& vertices;
 
-  void operator()(const packed::Polygon& p) const {
+  void operator()(const packed::FloatPolygon& p) const {
     light.kind = kPolygon;
     const std::size_t first = vertices.size();
     for (std::size_t c = 0; c + 1 < p.contours.size(); ++c) {
@@ -39,7 +39,7 @@ struct Writer {
     r[5] = with(p.reach_b);
     r[6] = with(p.area);
   }
-  void operator()(const packed::Disk& d) const {
+  void operator()(const packed::FloatDisk& d) const {
     light.kind = kDisk;
     light.middle = d.point;
     light.deviation2 = (dot(d.x, d.x) + dot(d.y, d.y)) / 4;
@@ -49,7 +49,7 @@ struct Writer {
     r[3] = with(d.x);
     r[4] = with(d.y);
   }
-  void operator()(const packed::Ellipsoid& e) const {
+  void operator()(const packed::FloatEllipsoid& e) const {
     light.kind = kEllipsoid;
     light.ball = e.ball.radius > 0;
     light.middle = e.center;
@@ -66,7 +66,7 @@ struct Writer {
     r[7] = with(e.inverse_y);
     r[8] = with(e.inverse_z);
   }
-  void operator()(const packed::Capsule& c) const {
+  void operator()(const packed::FloatCapsule& c) const {
     light.kind = kCapsule;
     light.middle = (c.end_a + c.end_b) * 0.5f;
     light.deviation2 = dot(c.half_axis, c.half_axis) + c.radius * c.radius;
@@ -93,7 +93,7 @@ std::uint32_t LightRecords::add(const PackLight& light, std::ptrdiff_t details) 
   Record r{};
   LightRecord record;
   r[0] = with(light.radiance);
-  std::visit(Writer{r, record, vertices}, light.shape);
+  std::visit(RecordWriter{r, record, vertices}, light.shape);
   record.textured = light.textured != nullptr;
   record.profiled = record.kind == kPunctual && details != kNoDetails;
   if (details != kNoDetails) r[kWhereDetails][3] = static_cast<float>(details);

@@ -13,7 +13,7 @@ Picture render_on_device(const Scene& scene, const RenderOptions& options, Rende
   Picture picture;
   try {
     if (lacks.empty()) {
-      Frame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::automatic, cache);
+      DeviceFrame frame(scene, options, nullptr, SurfacesBy::automatic, RaysBy::automatic, cache);
       lacks = frame.lacks();
       if (lacks.empty()) picture = frame.render(stats);
     } else {
@@ -35,7 +35,7 @@ Picture render_on_device(const Scene& scene, const RenderOptions& options, Rende
 std::vector<PipelineReport> compile_picture(const Scene& original, const RenderOptions& options) {
   const LocalScene local(original);
   const auto device = std::make_shared<const Device>(DeviceOptions{options.device, false, true});
-  Frame frame(local.scene(), options, device);
+  DeviceFrame frame(local.scene(), options, device);
   frame.render();
   return device->pipelines();
 }

@@ -28,8 +28,8 @@ bool has_bent_coats(const SurfaceMaterial& m) {
 
 // The first feature of the picture that the device does not have; empty: it has all.
 std::string first_lack(const Scene& scene, const RenderOptions& options, const DeviceInfo& device, const std::vector<PackLight>& lights,
-                       const DirectLight& direct) {
-  if (options.shadows != steradian::Shadows::off && !Shadows::has(device))
+                       const DirectPass& direct) {
+  if (options.shadows != steradian::Shadows::off && !DeviceShadows::has(device))
     return "'" + device.name + "' has no shadows: its subgroups cannot add, or it has no whole numbers of 64 bits";
   if (options.indirect.mode == IndirectMode::path) return "it has no bounce by paths";
   if (options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0) return "it has no --indirect-shadows";
@@ -104,7 +104,7 @@ std::string lack_of_devices(const Scene& scene, const RenderOptions& options) {
   return choose_method(scene, options).estimates() ? "it has no method " + options.method : std::string();
 }
 
-struct Frame::Parts {
+struct DeviceFrame::Parts {
   Parts(const Scene& s, const RenderOptions& o, std::shared_ptr<const Device> d, SurfacesBy by, RaysBy rays, RenderCache* cache)
       : scene(s),
         options(o),
@@ -157,17 +157,17 @@ struct Frame::Parts {
   bool host_needs_surfaces() const { return host.has_shadows() || has_bounce() || surfaces.environment() != nullptr; }
 
   // Lists the lights that may reach a tile whose surfaces the device has found and the host does not need.
-  void list_found(std::size_t place, DirectLight::Tile& tile) {
+  void list_found(std::size_t place, DirectPass::Tile& tile) {
     RasterSurfaces::find_squares(direct.radiance(), place, tile);
     SurfaceBounds all;
-    for (const DirectLight::Square& square : tile.squares) add(all, square.bounds);
+    for (const DirectPass::Square& square : tile.squares) add(all, square.bounds);
     if (!all.positions.is_empty()) tile.lights = lights_reaching(light_pointers, all);
     direct.list_lights(tile);
   }
 
   // Finds the surfaces of the jobs, puts them on the device, and lists the lights that may reach them.
-  std::vector<DirectLight::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
-    std::vector<DirectLight::Tile> tiles(jobs.size());
+  std::vector<DirectPass::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
+    std::vector<DirectPass::Tile> tiles(jobs.size());
     if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size(), TileShadows());
     const bool drawn = raster && layer == 0;
     if (drawn)
@@ -216,7 +216,7 @@ struct Frame::Parts {
   }
 
   // Lights as many tiles at once as there is capacity for their shadows' data: one submission, or two if points are left to the host.
-  void light_tiles(std::vector<DirectLight::Tile>& tiles) {
+  void light_tiles(std::vector<DirectPass::Tile>& tiles) {
     const std::span all(shadowed.data(), tiles.size());
     if (!host.has_shadows() || std::all_of(all.begin(), all.end(), [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
@@ -233,11 +233,11 @@ struct Frame::Parts {
       }
       direct.run(tiles, first, end,
                  {[&](const Buffer& gates) -> ComputeProgram& { return shadows->record(gates); }, &shadows->states(), &shadows->parts()});
-      const Shadows::Outcome outcome = shadows->finish([this](std::size_t n, const auto& work) { each(n, work); });
+      const DeviceShadows::Outcome outcome = shadows->finish([this](std::size_t n, const auto& work) { each(n, work); });
       // The next run adds the light of the points that are left, and of no other.
-      for (std::size_t i = first; outcome == Shadows::Outcome::left && i < end; ++i)
-        for (DirectLight::Square& square : tiles[i].squares) square.lights.clear();
-      if (outcome == Shadows::Outcome::done) first = end;
+      for (std::size_t i = first; outcome == DeviceShadows::Outcome::left && i < end; ++i)
+        for (DirectPass::Square& square : tiles[i].squares) square.lights.clear();
+      if (outcome == DeviceShadows::Outcome::done) first = end;
     }
   }
 
@@ -245,7 +245,7 @@ struct Frame::Parts {
   std::vector<Job> light(std::vector<Job> jobs, int sample, int layer, Picture& picture) {
     next_ways.clear();
     next_ways.resize(jobs.size());
-    std::vector<DirectLight::Tile> tiles = find_surfaces(jobs, sample, layer);
+    std::vector<DirectPass::Tile> tiles = find_surfaces(jobs, sample, layer);
     device_clock.run([&] { light_tiles(tiles); });
     const float weight = 1.0f / static_cast<float>(options.aa);
     each(jobs.size(), [&](std::size_t i) {
@@ -347,11 +347,11 @@ struct Frame::Parts {
   const std::vector<PackLight> lights;
   std::vector<const PackLight*> light_pointers;
   TileLighting host;
-  DirectLight direct;
+  DirectPass direct;
   std::shared_ptr<const SceneRays> device_rays;  // null without shadows, and if the host traces the bounce's shadow map
   std::string lacks;
   std::string kept_on_host;
-  std::optional<Shadows> shadows;             // created on first use
+  std::optional<DeviceShadows> shadows;       // created on first use
   std::vector<TileShadows> shadowed;          // by job
   std::optional<RasterSurfaces> raster;       // none if the host finds the surfaces
   Bounce* bounce = nullptr;                   // null without a bounce
@@ -366,14 +366,14 @@ struct Frame::Parts {
   std::map<std::string, double> reported;  // milliseconds of passes up to the last report
 };
 
-Frame::Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces, RaysBy rays,
-             RenderCache* cache)
+DeviceFrame::DeviceFrame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device, SurfacesBy surfaces,
+                         RaysBy rays, RenderCache* cache)
     : parts_(std::make_unique<Parts>(scene, options, std::move(device), surfaces, rays, cache)) {}
-Frame::~Frame() = default;
+DeviceFrame::~DeviceFrame() = default;
 
-const std::string& Frame::lacks() const { return parts_->lacks; }
+const std::string& DeviceFrame::lacks() const { return parts_->lacks; }
 
-Picture Frame::render(RenderStats* stats) {
+Picture DeviceFrame::render(RenderStats* stats) {
   if (!lacks().empty()) throw UsageError("--backend vulkan", "cannot render all of this picture: " + lacks(), "use --backend cpu");
   const auto start = Clock::now();
   Picture picture = parts_->render();

@@ -22,15 +22,15 @@ enum class SurfacesBy { automatic, host, device };
 enum class RaysBy { automatic, host, device };
 
 // Buffers and pipelines are created once, for any number of frames of a scene.
-class Frame {
+class DeviceFrame {
  public:
   // Scene and options must outlive the frame. surfaces: `device` is a UsageError if something keeps the host at it. device: null for the
   // one that the options name. cache: stores sorted data and objects on that device for the next frame; null: nothing is stored. Throws
   // UsageError for pictures that the host renders alone, and for options that this back end does not support yet. Throws Error if there is
   // no such device.
-  Frame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
-        SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr);
-  ~Frame();
+  DeviceFrame(const Scene& scene, const RenderOptions& options, std::shared_ptr<const Device> device = nullptr,
+              SurfacesBy surfaces = SurfacesBy::automatic, RaysBy rays = RaysBy::automatic, RenderCache* cache = nullptr);
+  ~DeviceFrame();
 
   // The reason why this device cannot do all of the picture; empty: it can.
   const std::string& lacks() const;

@@ -139,7 +139,7 @@ TEST_F(VulkanFrame, LeavesPicturesWithLobesThatItLacksToTheCpu) {
   scene.materials[0].specular_override[0].multiple_scattering = true;
   scene.area_lights = {kQuad};
   expect_rendered_by_cpu(scene, tiny("auto"), "no shader for the ggx lobe of material 'strip 0'");
-  EXPECT_THROW(Frame(scene, tiny("auto")).render(), Error);
+  EXPECT_THROW(DeviceFrame(scene, tiny("auto")).render(), Error);
 }
 
 TEST_F(VulkanFrame, LeavesBentCoatsInShadowToTheCpu) {

@@ -99,7 +99,7 @@ void expect_no_growth(const Scene& scene, SurfacesBy surfaces, int frames, Shado
   RenderOptions options = small("ltc-compact");
   options.width = options.height = 8;
   options.shadows = shadows;
-  Frame frame(scene, options, nullptr, surfaces);
+  DeviceFrame frame(scene, options, nullptr, surfaces);
   for (int i = 0; i < 100; ++i) frame.render();
   const double before = test::resident_mib();
   for (int i = 0; i < frames; ++i) frame.render();
@@ -294,7 +294,7 @@ TEST_F(VulkanFrame, LightsInOneSubmission) {
   for (const auto& [name, scene, first_ones, next_ones] : {std::tuple{"20 needles, two lights", two_lights, 3u, 2u},
                                                            {"room", scene_of("room"), 1u, 1u},
                                                            {"32 needles", under_needles(32), 2u, 2u}}) {
-    Frame frame(scene, options, device);
+    DeviceFrame frame(scene, options, device);
     std::size_t before = device->submissions();
     const Picture first = frame.render();
     EXPECT_EQ(device->submissions() - before, first_ones) << name;
@@ -309,7 +309,7 @@ TEST_F(VulkanFrame, RefusesWhatItDoesNotHave) {
   const auto refused = [&](auto change) {
     RenderOptions options = small("auto");
     change(options);
-    EXPECT_THROW(Frame(scene, options), Error);
+    EXPECT_THROW(DeviceFrame(scene, options), Error);
   };
   refused([](RenderOptions& o) { o.method = "sampled"; });
   refused([](RenderOptions& o) { o.lights = LightSum::tree; });
@@ -325,7 +325,7 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothing) {
     options.width = 48;  // the layer checks the calls, not their results
     options.height = 27;
     options.shadows = shadows;
-    Frame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device);
+    DeviceFrame frame(scene, options, device, SurfacesBy::automatic, RaysBy::device);
     for (int i = 0; i < 2; ++i) frame.render();
   }
   EXPECT_TRUE(device->validation_messages().empty())

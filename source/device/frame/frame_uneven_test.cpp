@@ -117,7 +117,7 @@ TEST_F(VulkanFrame, TheValidationLayerFindsNothingUnderUnevenLights) {
   options.width = 48;
   options.height = 27;
   options.shadows = Shadows::off;
-  Frame(scene, options, device).render();
+  DeviceFrame(scene, options, device).render();
   EXPECT_TRUE(device->validation_messages().empty())
       << device->validation_messages().size() << " messages, the first: " << device->validation_messages().front();
 }

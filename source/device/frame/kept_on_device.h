@@ -23,8 +23,8 @@ struct KeptOnDevice {
   explicit KeptOnDevice(std::shared_ptr<const Device> d) : device(std::move(d)), direct(*device) {}
 
   const std::shared_ptr<const Device> device;
-  DirectLight::Kept direct;
-  std::unique_ptr<Shadows::Kept> shadows;
+  DirectPass::Kept direct;
+  std::unique_ptr<DeviceShadows::Kept> shadows;
   std::unique_ptr<RasterSurfaces::Kept> raster;
   std::unique_ptr<Bounce> bounce;
 };

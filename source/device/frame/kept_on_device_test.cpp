@@ -22,14 +22,14 @@ struct Pictures {
   RaysBy rays = RaysBy::host;
   RenderCache cache{};
 
-  Picture next() { return Frame(scene, options, device, surfaces, rays, &cache).render(); }
+  Picture next() { return DeviceFrame(scene, options, device, surfaces, rays, &cache).render(); }
   // Returns the number of memory allocations on the device.
   std::size_t render(const std::string& what) {
     const std::size_t before = device->allocations();
     const Picture picture = next();
     const std::size_t asked = device->allocations() - before;
     std::printf("%s: %zu allocations\n", what.c_str(), asked);
-    EXPECT_EQ(picture.pixels, Frame(scene, options, device, surfaces, rays).render().pixels) << what;
+    EXPECT_EQ(picture.pixels, DeviceFrame(scene, options, device, surfaces, rays).render().pixels) << what;
     return asked;
   }
   KeptOnDevice& kept() { return *cache.parts().on_device.first; }

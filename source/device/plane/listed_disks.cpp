@@ -23,9 +23,9 @@ double limit_of(const FrameScene& frame, const Emitter& e) {
 }
 
 // Tiles from the first to the last, along one axis, that are no further from a place than the limit.
-struct Stretch {
+struct TileStretch {
   int first, count;
-  Stretch(double place, double limit, double step, int tiles) {
+  TileStretch(double place, double limit, double step, int tiles) {
     const double size = step * kTileSide;
     first = static_cast<int>(std::clamp(std::floor((place - limit) / size), 0.0, static_cast<double>(tiles)));
     const int last = static_cast<int>(std::clamp(std::floor((place + limit) / size), -1.0, static_cast<double>(tiles - 1)));
@@ -75,7 +75,7 @@ void ListedDisks::choose(const FrameScene& frame, const PixelGrid& grid, std::si
     if (!has_lines) continue;
     const Vec2d corner = e.center - grid.origin;
     const double limit = limit_of(frame, e);
-    const Stretch across(corner.x, limit, grid.step.x, columns_), down(corner.y, limit, grid.step.y, rows);
+    const TileStretch across(corner.x, limit, grid.step.x, columns_), down(corner.y, limit, grid.step.y, rows);
     const std::size_t cells = static_cast<std::size_t>(across.count) * static_cast<std::size_t>(down.count);
     const std::size_t words = cells * ((count + 31) / 32 + 1);
     if (mask_words_ + words > mask_words) continue;

@@ -82,7 +82,7 @@ TEST_F(VulkanPlane, DrawsLightFieldsAsTheCpu) {
 
 // Every shape with every emission: edges, runs, arcs, spots.
 TEST_F(VulkanPlane, DrawsEveryLightAsTheCpu) {
-  for (const Drawing& drawing : all_drawings()) {
+  for (const LightPairDrawing& drawing : all_drawings()) {
     // A software device is slow with outlines of hundreds of edges.
     if (drawing.shape == "stroke" && drawing.emission != "uniform" && drawing.emission != "gradient") continue;
     const PlaneFrameOptions size = drawing.shape == "stroke" || drawing.shape == "curve" ? sized(33, 21) : sized(97, 61);

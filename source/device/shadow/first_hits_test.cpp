@@ -128,7 +128,7 @@ double off_ray(const MapRay& ray, Vec3f place) {
 // roundings of the scene's size, even where Embree's weights leave more.
 void expect_same(const std::string& name, const Scene& scene, int count) {
   const RayScene rays(scene);
-  FirstHits device(SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene));
+  DeviceFirstHits device(SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene));
   Recorded recorded(device);
   const ShadowMap map = make_shadow_map(scene, rays, count, &recorded), host = make_shadow_map(scene, rays, count);
   ASSERT_EQ(map.count, host.count);
@@ -226,7 +226,7 @@ TEST_F(VulkanMap, MeetsTheSameInEveryUnit) {
     const float unit = std::ldexp(1.0f, exponent);
     for (std::size_t m = 0; m < meshes.size(); ++m)
       for (std::size_t i = 0; i < meshes[m].positions.size(); ++i) scene.meshes[m].positions[i] = meshes[m].positions[i] * unit;
-    FirstHits hits(SceneRays::of(device, scene));
+    DeviceFirstHits hits(SceneRays::of(device, scene));
     Random random(19);
     MapRay* rays = hits.rays(kRays);
     for (std::size_t i = 0; i < kRays; ++i) {
@@ -266,7 +266,7 @@ TEST_F(VulkanMap, AsksTheHostWhereAWalkDoesNotEnd) {
   }
   scene.meshes.push_back(stack);
   const RayScene rays(scene);
-  FirstHits device(SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene));
+  DeviceFirstHits device(SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene));
   Recorded recorded(device);
   const ShadowMap map = make_shadow_map(scene, rays, 1 << 8, &recorded), host = make_shadow_map(scene, rays, 1 << 8);
   std::size_t unknown = 0, unlike = 0;

@@ -206,7 +206,7 @@ TEST_F(VulkanRays, DoNotLeakBetweenTriangles) {
   Random random(17);
   std::vector<Way> ways;
   for (int k = 0; k < 10; ++k)
-    for (const shadow::Edge& e : mesh.edges) {
+    for (const shadow::MeshEdge& e : mesh.edges) {
       const Vec3d from = k == 0 ? Vec3d{} : in_box(random) * 0.5;
       const double t = std::max(random.uniform(-1, 1), 0.0);  // half of them through a corner
       const Vec3d through = mesh.vertices[e.v0] * (1 - t) + mesh.vertices[e.v1] * t;

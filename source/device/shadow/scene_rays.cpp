@@ -61,29 +61,29 @@ static_assert(sizeof(indirect::MapRay) == static_cast<std::size_t>(kMapRay) * 4 
 
 }  // namespace
 
-FirstHits::FirstHits(std::shared_ptr<const SceneRays> scene)
+DeviceFirstHits::DeviceFirstHits(std::shared_ptr<const SceneRays> scene)
     : scene_(std::move(scene)),
       program_(scene_->device(), {shader("bounce_rays.comp")}, 3),
       rays_(scene_->device()),
       met_(scene_->device(), BufferUse::host_reads) {}
 
-std::size_t FirstHits::most() const { return std::size_t{1} << 20; }  // 32 MiB; in one row of work groups
+std::size_t DeviceFirstHits::most() const { return std::size_t{1} << 20; }  // 32 MiB; in one row of work groups
 
-indirect::MapRay* FirstHits::rays(std::size_t count) {
+indirect::MapRay* DeviceFirstHits::rays(std::size_t count) {
   Buffer& met = met_.fit_with_room(count * sizeof(std::uint32_t), "triangles that a shadow map meets");
   if (scene_->device().only_compiles())  // no answer comes
     std::fill_n(static_cast<std::uint32_t*>(met.mapped()), count, static_cast<std::uint32_t>(kHostFinds));
   return static_cast<indirect::MapRay*>(rays_.fit_with_room(count * sizeof(indirect::MapRay), "rays of a shadow map").mapped());
 }
 
-void FirstHits::find(std::size_t count) {
+void DeviceFirstHits::find(std::size_t count) {
   const auto groups = static_cast<std::uint32_t>((count + kThreads - 1) / kThreads);
   const auto ms = program_.run({&rays_.get(), &met_.get(), &scene_->hierarchy()},
                                {{program_.pipeline(), groups, 1, static_cast<std::uint32_t>(count)}});
   if (!ms.empty()) time_ += ms.front();
 }
 
-indirect::FirstHit FirstHits::hit(std::size_t ray) const {
+indirect::FirstHit DeviceFirstHits::hit(std::size_t ray) const {
   const std::uint32_t met = static_cast<const std::uint32_t*>(met_.get().mapped())[ray];
   if (met == static_cast<std::uint32_t>(kMeetsNothing)) return {};
   if (met == static_cast<std::uint32_t>(kHostFinds)) return {indirect::FirstHit::kUnknown, 0};

@@ -42,10 +42,10 @@ bool all_cast_exactly(const Scene& scene);
 
 // First hits of a shadow map's rays, found by a device (shaders/bounce_rays.comp).
 
-class FirstHits final : public indirect::FirstHits {
+class DeviceFirstHits final : public indirect::FirstHits {
  public:
   // Takes a scene in which all shadow casters cast exactly.
-  explicit FirstHits(std::shared_ptr<const SceneRays> scene);
+  explicit DeviceFirstHits(std::shared_ptr<const SceneRays> scene);
 
   std::size_t most() const override;
   indirect::MapRay* rays(std::size_t count) override;

@@ -31,24 +31,26 @@ struct AnswersHead {
     std::uint32_t points, one_y, one_z, first_name;
   } spaces[kShadowSpaces];
 };
-struct Answer {
+struct ShadowAnswer {
   Vec3f origin;
   std::uint32_t state;
   Vec3f way;
   std::uint32_t sees;
 };
-static_assert(sizeof(AnswersHead) == kAnswersHead * kVector && sizeof(Answer) == kShadowAnswer * kVector);
+static_assert(sizeof(AnswersHead) == kAnswersHead * kVector && sizeof(ShadowAnswer) == kShadowAnswer * kVector);
 
 constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow_rays.comp
 
 std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
-Answer* answers_in(const Buffer& buffer) { return reinterpret_cast<Answer*>(static_cast<char*>(buffer.mapped()) + sizeof(AnswersHead)); }
+ShadowAnswer* answers_in(const Buffer& buffer) {
+  return reinterpret_cast<ShadowAnswer*>(static_cast<char*>(buffer.mapped()) + sizeof(AnswersHead));
+}
 
 }  // namespace
 
-Shadows::Kept::Kept(const Device& d)
+DeviceShadows::Kept::Kept(const Device& d)
     : device(d),
       program(d, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 6),
       groups(d),
@@ -56,12 +58,12 @@ Shadows::Kept::Kept(const Device& d)
       parts(d),
       states(d) {}
 
-bool Shadows::has(const DeviceInfo& device) {
+bool DeviceShadows::has(const DeviceInfo& device) {
   return device.adds && device.int64 && device.subgroup > 0 && device.subgroup <= kSegments.front() &&
          device.shared_memory >= kLeastSegments * kSegmentBytes;
 }
 
-void Shadows::upload_groups() {
+void DeviceShadows::upload_groups() {
   constexpr std::size_t kHeader = static_cast<std::size_t>(kShadowHeader);
   const std::size_t headers = begins_.back().group * kHeader;
   auto* to =
@@ -82,7 +84,7 @@ void Shadows::upload_groups() {
 }
 
 // Writes the states and records that the host knows.
-void Shadows::upload_states() {
+void DeviceShadows::upload_states() {
   auto* to = static_cast<std::uint32_t*>(
       kept_.states.fit_with_room(begins_.back().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
   const std::size_t record = begins_.back().record;
@@ -97,14 +99,14 @@ void Shadows::upload_states() {
   }
 }
 
-void Shadows::upload_points() {
+void DeviceShadows::upload_points() {
   const std::size_t count = begins_.back().point, list = (names_.size() + 3) / 4, first_list = count * kShadowAnswer;
   AnswersHead head{number(begins_.back().record), 0, number(parts().bytes() / kVector - begins_.back().record), 0, 0, {}, {}};
   for (std::size_t i = 0; i < kSegments.size(); ++i)
     head.spaces[i] = {i == 0 ? number(names_.size()) : 0, 1, 1, number(first_list + i * list)};
   Buffer& buffer = kept_.answers.fit_with_room(sizeof head + (first_list + kSegments.size() * list) * kVector, "points before lights");
   buffer.write(&head, sizeof head);
-  Answer* answers = answers_in(buffer);
+  ShadowAnswer* answers = answers_in(buffer);
   for (std::size_t i = 0; i < tiles_.size(); ++i)
     for (std::size_t k = 0; k < tiles_[i].points.size(); ++k) {
       const TileShadows::Point& point = tiles_[i].points[k];
@@ -114,7 +116,7 @@ void Shadows::upload_points() {
   std::memcpy(static_cast<void*>(answers + count), names_.data(), names_.size() * sizeof(std::uint32_t));
 }
 
-std::size_t Shadows::upload(std::span<TileShadows> tiles) {
+std::size_t DeviceShadows::upload(std::span<TileShadows> tiles) {
   const auto fits = [&](const Begin& b) {
     return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues &&
            b.record * kVector <= kept_.parts.most() / 2;
@@ -134,7 +136,7 @@ std::size_t Shadows::upload(std::span<TileShadows> tiles) {
   return tiles_.size();
 }
 
-ComputeProgram& Shadows::record(const Buffer& gates) {
+ComputeProgram& DeviceShadows::record(const Buffer& gates) {
   std::vector<ComputeProgram::Dispatch> dispatches;
   if (!names_.empty()) {
     const DeviceInfo& device = kept_.device.info();
@@ -155,8 +157,8 @@ ComputeProgram& Shadows::record(const Buffer& gates) {
 }
 
 // The host finds the visible parts for the points that the device has not answered. The tile then has only these.
-void Shadows::ask_host(TileShadows& tile, std::size_t begin) {
-  const Answer* answers = answers_in(kept_.answers.get()) + begin;
+void DeviceShadows::ask_host(TileShadows& tile, std::size_t begin) {
+  const ShadowAnswer* answers = answers_in(kept_.answers.get()) + begin;
   tile.records.clear();
   for (TileShadows::Light& light : tile.by_light) {
     light.listed = false;
@@ -193,7 +195,7 @@ void Shadows::ask_host(TileShadows& tile, std::size_t begin) {
   tile.points.clear();
 }
 
-Shadows::Outcome Shadows::finish(const Each& each) {
+DeviceShadows::Outcome DeviceShadows::finish(const Each& each) {
   const std::vector<double>& times = kept_.program.times();
   for (std::size_t i = 0; i < times.size(); ++i) (i + 1 == times.size() ? rays_time_ : time_) += times[i];
   AnswersHead head;

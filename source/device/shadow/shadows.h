@@ -16,7 +16,7 @@
 
 namespace steradian::vulkan {
 
-class Shadows {
+class DeviceShadows {
  public:
   // Objects on the device, for any number of pictures in turn. The device must outlive them.
   struct Kept {
@@ -30,7 +30,7 @@ class Shadows {
   static bool has(const DeviceInfo& device);
 
   // All arguments must outlive this object.
-  Shadows(Kept& kept, TileLighting& host, const SceneRays& rays) : kept_(kept), rays_(rays), host_(host) {}
+  DeviceShadows(Kept& kept, TileLighting& host, const SceneRays& rays) : kept_(kept), rays_(rays), host_(host) {}
 
   // Uploads the points of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
   // one is too many.

@@ -30,9 +30,9 @@ using FourBits = std::array<std::uint32_t, 4>;
 FourBits with_bits(Vec3d v, double w) { return {bits(v.x), bits(v.y), bits(v.z), bits(w)}; }
 
 // Adds vectors of four, one after another.
-class Rows {
+class VectorRows {
  public:
-  explicit Rows(std::vector<std::uint32_t>& values) : values_(values) {}
+  explicit VectorRows(std::vector<std::uint32_t>& values) : values_(values) {}
   std::uint32_t size() const { return whole(values_.size() / 4); }
   void add(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t w) { values_.insert(values_.end(), {x, y, z, w}); }
   void add(const FourBits& row) { values_.insert(values_.end(), row.begin(), row.end()); }
@@ -52,7 +52,7 @@ std::uint32_t walks_of(float walks, int there, int against) { return walks == 0 
 
 void add_edges(const shadow::EdgeArrays& arrays, std::vector<std::uint32_t>& values, std::array<std::uint32_t, 24>& header) {
   const shadow::LaneEdges edges = arrays.lane_edges();
-  Rows rows(values);
+  VectorRows rows(values);
   header[0] = rows.size();
   for (std::size_t i = 0; i < edges.vertex_count; ++i)
     rows.add(bits(edges.vertices.x[i]), bits(edges.vertices.y[i]), bits(edges.vertices.z[i]), arrays.vertex_number(i));
@@ -101,7 +101,7 @@ void add_point(const LightSide& side, const Viewpoint& at, bool shares, std::vec
       flags |= flag((event.weight == horizons[h].weight ? kHorizonLeft : 2 * kHorizonLeft) << (2 * h));
   }
   flags += flag(kBase) * static_cast<std::uint32_t>(base / shadow::kHidden);
-  Rows rows(values);
+  VectorRows rows(values);
   rows.add(bits(eye.x), bits(eye.y), bits(eye.z), flags);
   rows.add(with_bits(at.normal, 0));
   for (const shadow::Segment& h : horizons) rows.add(h);
@@ -112,7 +112,7 @@ std::array<FourBits, 3> plane_of(const shadow::LightFrame& f) {
   return {with_bits(f.axes.x, f.half_x), with_bits(f.axes.y, f.half_y), with_bits(f.axes.z, -f.eta)};
 }
 
-void add_plane(const shadow::LightFrame& f, const shadow::LightFrame& base, const Viewpoint& at, Rows rows) {
+void add_plane(const shadow::LightFrame& f, const shadow::LightFrame& base, const Viewpoint& at, VectorRows rows) {
   for (const FourBits& row : plane_of(f)) rows.add(row);
   rows.add(with_bits(base.to_local(f.origin), f.box_x));
   rows.add(with_bits(base.to_local(at.position), f.box_y));
@@ -179,7 +179,7 @@ bool TileShadows::find(const Group& asked) {
   group.points = found.size();
   const bool turned = asked.base != nullptr;
   add_edges(edges, values, group.header);
-  Rows rows(values);
+  VectorRows rows(values);
   group.header[5] = rows.size();
   for (const shadow::Segment& s : outline) {
     rows.add(s);

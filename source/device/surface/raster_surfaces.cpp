@@ -84,12 +84,12 @@ bool RasterSurfaces::is_for_host(const Buffer& radiance, std::size_t place) {
   return false;
 }
 
-void RasterSurfaces::find_squares(const Buffer& radiance, std::size_t place, DirectLight::Tile& tile) {
+void RasterSurfaces::find_squares(const Buffer& radiance, std::size_t place, DirectPass::Tile& tile) {
   const Vec4Floats* bounds = bounds_of(radiance, place);
   for (std::size_t group = 0; group < static_cast<std::size_t>(kGroupsOfTile); ++group, bounds += kBounds) {
     const int kinds = static_cast<int>(bounds[0][3]);
     if (kinds == 0) continue;
-    DirectLight::Square& square = tile.squares[DirectLight::square_of_group(group)];
+    DirectPass::Square& square = tile.squares[DirectPass::square_of_group(group)];
     add(square.bounds, {vector(bounds[0]), vector(bounds[1]), vector(bounds[2]), vector(bounds[3])});
     square.any_diffuse |= (kinds & kAnyDiffuse) != 0;
     square.any_specular |= (kinds & kAnySpecular) != 0;

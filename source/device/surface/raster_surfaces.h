@@ -37,7 +37,7 @@ class RasterSurfaces {
   // shows features that the shaders do not have.
   static bool is_for_host(const Buffer& radiance, std::size_t place);
   // Finds the contents of the tile's squares.
-  static void find_squares(const Buffer& radiance, std::size_t place, DirectLight::Tile& tile);
+  static void find_squares(const Buffer& radiance, std::size_t place, DirectPass::Tile& tile);
   // Reads the tile's surfaces, as FrameSurfaces::fill writes them, without the background.
   void take(const Buffer& radiance, std::size_t place, SurfaceTile& tile) const;
 

@@ -319,8 +319,8 @@ namespace {
 // Renders with the host's and the device's surfaces, and prints how many pixels differ. One of 200 may differ where triangles meet.
 void expect_same_picture(const std::string& name, const Scene& scene, const RenderOptions& options) {
   static const auto device = std::make_shared<Device>();
-  const Picture by_host = Frame(scene, options, device, SurfacesBy::host).render();
-  Frame frame(scene, options, device, SurfacesBy::device);
+  const Picture by_host = DeviceFrame(scene, options, device, SurfacesBy::host).render();
+  DeviceFrame frame(scene, options, device, SurfacesBy::device);
   const Picture by_raster = frame.render();
   double squares = 0, errors = 0, light = 0;
   for (const Vec3f& p : by_host.pixels) light += static_cast<double>(length(p));

@@ -103,20 +103,20 @@ bool is_number(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-struct Candidate {
+struct DeviceCandidate {
   vk::raii::PhysicalDevice device;
   std::uint32_t queue_family;
   DeviceInfo info;
 };
 
-std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
-  std::vector<Candidate> found;
+std::vector<DeviceCandidate> candidates(const vk::raii::Instance& instance) {
+  std::vector<DeviceCandidate> found;
   for (const auto& device : vk::raii::PhysicalDevices(instance)) {
     if (device.getProperties().apiVersion < VK_API_VERSION_1_2) continue;
     if (const auto family = compute_queue_family(device)) found.push_back({device, *family, describe(device, *family)});
   }
-  const auto rank = [](const Candidate& c) { return !c.info.runs ? 2 : c.info.software ? 1 : 0; };
-  std::stable_sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
+  const auto rank = [](const DeviceCandidate& c) { return !c.info.runs ? 2 : c.info.software ? 1 : 0; };
+  std::stable_sort(found.begin(), found.end(), [&](const DeviceCandidate& a, const DeviceCandidate& b) { return rank(a) < rank(b); });
   return found;
 }
 
@@ -143,7 +143,7 @@ std::vector<DeviceInfo> list_devices() {
   std::vector<DeviceInfo> infos;
   try {
     const vk::raii::Context context;
-    for (const Candidate& c : candidates(make_instance(context, false))) infos.push_back(c.info);
+    for (const DeviceCandidate& c : candidates(make_instance(context, false))) infos.push_back(c.info);
   } catch (const std::exception&) {
     // No loader or no driver: an expected absence, not an error.
     infos.clear();
@@ -168,7 +168,7 @@ Device::Device(const DeviceOptions& options) {
     }
     std::string seen;
     std::size_t place = 0;
-    for (const Candidate& c : candidates(h.instance)) {
+    for (const DeviceCandidate& c : candidates(h.instance)) {
       seen += (seen.empty() ? "" : ", ") + std::to_string(place) + " " + c.info.name;
       const bool is_place = options.name == std::to_string(place++);
       if (!is_place && (is_number(options.name) || c.info.name.find(options.name) == std::string::npos)) continue;

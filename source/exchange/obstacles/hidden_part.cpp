@@ -37,7 +37,7 @@ enum IdKind : std::uint64_t {
 
 FineCell cell_at(double x, double y, std::uint64_t id) {
   // The displacement is that of the shadow's cells.
-  const shadow::Cell tie = shadow::cell_of(id, 0, 0);
+  const shadow::SnappedVertex tie = shadow::cell_of(id, 0, 0);
   const auto whole = [](double v) {
     return static_cast<std::int64_t>(std::floor(std::clamp(v, -1.0, 1.0) * static_cast<double>(kFineCells) + 0.5));
   };
@@ -182,7 +182,7 @@ void HiddenPart::collect() {
     return Vec3d{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), -eta_};
   };
   for (std::uint32_t number = 0; number < mesh_.edges.size(); ++number) {
-    const shadow::Edge& edge = mesh_.edges[number];
+    const shadow::MeshEdge& edge = mesh_.edges[number];
     const bool below0 = below(edge.v0), below1 = below(edge.v1);
     if (!below0 && !below1) continue;
     std::int32_t weight = 0;

@@ -25,14 +25,14 @@ class EventCollector {
 
   std::vector<EventSegment> collect() {
     add_face_planes();
-    std::vector<const shadow::Edge*> edges;
+    std::vector<const shadow::MeshEdge*> edges;
     std::vector<bool> used(vertices_.size(), false);
-    for (const shadow::Edge& e : mesh_.edges) {
+    for (const shadow::MeshEdge& e : mesh_.edges) {
       if (is_flat(e)) continue;
       edges.push_back(&e);
       used[e.v0] = used[e.v1] = true;
     }
-    for (const shadow::Edge* e : edges) {
+    for (const shadow::MeshEdge* e : edges) {
       const Vec3d a = vertices_[e->v0], b = vertices_[e->v1];
       for (const Vec3d& corner : corners_) shadow_from(corner, a, b);
     }
@@ -44,7 +44,7 @@ class EventCollector {
         const Vec3d& next = corners_[i + 1 < corners_.size() ? i + 1 : first];
         seen_through(vertices_[v], corners_[i], next);
       }
-      for (const shadow::Edge* e : edges) {
+      for (const shadow::MeshEdge* e : edges) {
         if (e->v0 == v || e->v1 == v || share_a_face(*e, static_cast<std::uint32_t>(v))) continue;
         const Vec3d a = vertices_[e->v0], b = vertices_[e->v1];
         if (may_reach_target(vertices_[v], a, b)) {
@@ -59,14 +59,14 @@ class EventCollector {
  private:
   Vec3d local(Vec3d p) const { return plane_.axes.to_local(p - plane_.origin); }
 
-  bool is_flat(const shadow::Edge& e) const {
+  bool is_flat(const shadow::MeshEdge& e) const {
     if (e.count != 2) return false;
     const auto& s = mesh_.edge_triangles[e.first];
     const auto& t = mesh_.edge_triangles[e.first + 1];
     const Vec3d n = normalized(mesh_.planes[s.triangle].normal), m = normalized(mesh_.planes[t.triangle].normal);
     return s.walks != t.walks && length(n - m) < kCoplanar;
   }
-  bool share_a_face(const shadow::Edge& e, std::uint32_t v) const {
+  bool share_a_face(const shadow::MeshEdge& e, std::uint32_t v) const {
     for (std::uint32_t i = e.first; i < e.first + e.count; ++i)
       for (const std::uint32_t c : mesh_.triangles[mesh_.edge_triangles[i].triangle])
         if (c == v) return true;

@@ -11,7 +11,7 @@ namespace integrals {
 // It takes two walks: the first stores the clipped outline and the sum that gives the light's direction. One object serves a thread for all
 // its lights. x: radiance of colour 1.
 template <class S>
-class Charlie {
+class CharlieIntegral {
  public:
   static constexpr Clip kClip = Clip::horizon;
   using K = Kernels<S>;

@@ -25,7 +25,7 @@ integrals::Part<S> integrate_ggx(const PreparedPolygon& light, const ShadingPoin
 template <class S>
 Vec3d closed_form(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, Quality quality) {
   check_ggx(m);
-  integrals::Ggx<S> integral;
+  integrals::GgxIntegral<S> integral;
   integral.smith = m.shadowing ? 1.0 : 0.0;
   integral.quality = quality;
   return integrals::radiance_of<S>(integrate_ggx<S>(light, at, m, integral), m.f0, m.f90, light.radiance);

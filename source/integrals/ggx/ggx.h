@@ -60,7 +60,7 @@ class GgxArcs {
 };
 
 template <class S>
-class Ggx : public GgxArcs<S> {
+class GgxIntegral : public GgxArcs<S> {
  public:
   using K = Kernels<S>;
   Real<S> smith{1.0};  // 1 with shadowing, 0 without

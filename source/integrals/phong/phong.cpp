@@ -54,7 +54,7 @@ S radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material&
   const Frame frame = Frame::from_normal(at.normal);
   const auto shading = integrals::shading_from<S>(shapes::lit_side(light, at.position), to_kernel<S>(frame.to_local(at.view)));
   const auto by = [&](auto share) {
-    integrals::Phong<S, decltype(share)> integral(share, n, options);
+    integrals::PhongIntegral<S, decltype(share)> integral(share, n, options);
     integral.foreshortened = material.foreshortening;
     return integrate(integrals::contours_in<S>(light, frame, at.position), shading, integral).x.v;
   };

@@ -87,14 +87,14 @@ inline double bias_of(double exponent, const PhongOptions& options) {
 
 // x: radiance of albedo 1, in [0, 1]. share(a, b, axis): one edge's contribution to (n + 1) times the moment, by the options' method.
 template <class S, class Share>
-class Phong {
+class PhongIntegral {
  public:
   static constexpr Clip kClip = Clip::horizon;
   using vec3 = typename Kernels<S>::vec3;
 
   bool foreshortened = false;  // the shares are those of the lobe times the light's cosine
 
-  STERADIAN_INLINE Phong(Share share, double exponent, const PhongOptions& options)
+  STERADIAN_INLINE PhongIntegral(Share share, double exponent, const PhongOptions& options)
       : exponent_(exponent), small_(small_light_of_power<S>(exponent, bias_of(exponent, options))), share_(share) {}
   STERADIAN_INLINE Mask<S> begin(const Shading<S>& shading) {
     axis_ = Kernels<S>().phong_mirror(shading.view);

@@ -25,11 +25,11 @@ constexpr double kLobeShare = 0.6, kProfileShare = 0.5;
 constexpr double kFinerInPart = 4;   // a cell that is visible in part is finer by this
 constexpr double kNarrowest = 0.01;  // no measured lamp is steeper than this [rad]
 
-struct Node {
+struct GaussNode {
   double x, weight;
 };
 constexpr double kOuter = 0.774596669241483377;  // Gauss-Legendre, three points
-constexpr std::array<Node, 3> kGauss = {{{-kOuter, 5.0 / 9}, {0, 8.0 / 9}, {kOuter, 5.0 / 9}}};
+constexpr std::array<GaussNode, 3> kGauss = {{{-kOuter, 5.0 / 9}, {0, 8.0 / 9}, {kOuter, 5.0 / 9}}};
 
 // The angle in which the profile's steepest part would fall from the peak to nothing [rad].
 double steepest_part(const LightProfile& profile) {
@@ -203,8 +203,8 @@ Vec3d ProfiledLight::seen_by(const Material& material, const ShadingPoint& at, d
     if (share == 0) return;
     const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
     const double half_u = 0.5 * (cell.u1 - cell.u0), half_v = 0.5 * (cell.v1 - cell.v0);
-    for (const Node& nu : kGauss)
-      for (const Node& nv : kGauss) {
+    for (const GaussNode& nu : kGauss)
+      for (const GaussNode& nv : kGauss) {
         const Sent s = sent(cells, u + half_u * nu.x, v + half_v * nv.x, lobe, frame, at.position);
         const lobes::LobeValue w = s.lobe * (share * nu.weight * nv.weight * half_u * half_v);
         if (!(w.plain > 0) || !(s.even > 0)) continue;

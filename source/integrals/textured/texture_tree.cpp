@@ -11,7 +11,7 @@ double mean_square(Vec3d v) { return dot(v, v) / 3; }  // mean of the three chan
 double length2(const std::array<double, 2>& v) { return v[0] * v[0] + v[1] * v[1]; }
 
 // Sums over texels: coverage, radiance and their first moments, the coverage's second moments, and the mean square of the radiance.
-struct Moments {
+struct TexelMoments {
   double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, square = 0;
   Vec3d power{}, power_x{}, power_y{};
 
@@ -31,7 +31,7 @@ struct Moments {
     power_x += p * at_x;
     power_y += p * at_y;
   }
-  void add(const Moments& m) {
+  void add(const TexelMoments& m) {
     area += m.area;
     x += m.x;
     y += m.y;
@@ -56,8 +56,8 @@ struct Range {
 TextureTree::TextureTree(const PlaneTexels& t) {
   const int least = std::max(1, std::max(t.width, t.height) / kMostCells);
   // Children are side by side, before their own children: the moments of a cell are known when its second child is complete.
-  const auto build = [&](auto&& self, std::size_t index, const Range& r) -> Moments {
-    Moments m;
+  const auto build = [&](auto&& self, std::size_t index, const Range& r) -> TexelMoments {
+    TexelMoments m;
     if (std::max(r.width(), r.height()) <= least) {
       for (int j = r.bottom; j < r.top; ++j)
         for (int i = r.left; i < r.right; ++i)

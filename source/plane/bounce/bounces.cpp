@@ -34,14 +34,14 @@ Vec3d times(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 Vec3d magnitude(Vec3d v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
 // View from a point of a wall: parts of walls in front of it, and the direct light.
-struct Node {
+struct WallNode {
   ElementPlace place;
   std::vector<SeenPart> walls;
   Vec3d direct;  // integral of radiance times the cosine
 };
 
-Node look(const World& world, const Outlook& outlook, const Elements& elements, const Element& element, double share) {
-  Node node;
+WallNode look(const World& world, const Outlook& outlook, const BoundaryElements& elements, const BoundaryElement& element, double share) {
+  WallNode node;
   node.place = place_on(world, element, share);
   const Vec2d at = node.place.at, normal = node.place.normal;
   if (!is_open(world, node.place)) return node;
@@ -60,17 +60,18 @@ Node look(const World& world, const Outlook& outlook, const Elements& elements, 
 }
 
 // The integral of the elements' radiance, over the directions of a node's parts, times the cosine.
-class Row {
+class WallRow {
  public:
-  Row() = default;
-  Row(const RowsTable& table, const World& world, const Elements& elements, const Node& node) {
+  WallRow() = default;
+  WallRow(const RowsTable& table, const World& world, const BoundaryElements& elements, const WallNode& node) {
     Making& making = begin();
     for (std::size_t k = 0; k < node.walls.size(); ++k) add(world, elements, node, k, making);
     finish(table, node.place.normal, making);
   }
 
   // Updates the row after some elements have been halved: the weights of other walls stay the same.
-  void follow(const RowsTable& table, const World& world, const Elements& before, const Elements& elements, const Node& node) {
+  void follow(const RowsTable& table, const World& world, const BoundaryElements& before, const BoundaryElements& elements,
+              const WallNode& node) {
     Making& making = begin();
     std::size_t at = 0;
     for (std::size_t k = 0; k < node.walls.size(); ++k) {
@@ -118,7 +119,7 @@ class Row {
     return making;
   }
 
-  static void add(const World& world, const Elements& elements, const Node& node, std::size_t k, Making& making) {
+  static void add(const World& world, const BoundaryElements& elements, const WallNode& node, std::size_t k, Making& making) {
     const SeenPart& part = node.walls[k];
     const Vec2d at = node.place.at, normal = node.place.normal;
     if (part.curve->kind == Curve::Kind::segment) {
@@ -160,9 +161,9 @@ class Row {
   std::vector<std::size_t> ends_;       // by part of the node's walls
 };
 
-class Solver {
+class WallSolver {
  public:
-  Solver(const World& world, const PlaneBounceOptions& options)
+  WallSolver(const World& world, const PlaneBounceOptions& options)
       : world_(world),
         options_(options),
         budget_(options.limits),
@@ -193,8 +194,8 @@ class Solver {
   // Nodes of every element: two at the places of Gauss' rule, and a third one between them for the error check.
   static constexpr double kShares[3] = {0.5 - 0.28867513459481288, 0.5 + 0.28867513459481288, 0.5};
   struct Nodes {
-    Node at[3];
-    Row rows[3];
+    WallNode at[3];
+    WallRow rows[3];
     Vec3d middle;  // radiance of the third one
   };
   using Lines = std::vector<ElementLine>;
@@ -205,13 +206,13 @@ class Solver {
     const std::string what =
         "what " + std::to_string(looks) + " elements of its walls see of " + std::to_string(world_.curves.size()) + " edges";
     budget_.take_work(world_.scene.name, what, 3 * looks * world_.curves.size() * 150);
-    budget_.take_memory(world_.scene.name, what, 3 * looks * (sizeof(Node) + 40 * (sizeof(SeenPart) + 4 * sizeof(ElementWeight))));
+    budget_.take_memory(world_.scene.name, what, 3 * looks * (sizeof(WallNode) + 40 * (sizeof(SeenPart) + 4 * sizeof(ElementWeight))));
     nodes_.resize(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       if (fresh[i] == 0) return;
       for (int k = 0; k < 3; ++k) {
         nodes_[i].at[k] = look(world_, outlook_, elements_, elements_.all()[i], kShares[k]);
-        nodes_[i].rows[k] = Row(table_, world_, elements_, nodes_[i].at[k]);
+        nodes_[i].rows[k] = WallRow(table_, world_, elements_, nodes_[i].at[k]);
       }
     });
   }
@@ -240,7 +241,7 @@ class Solver {
     else
       count_bounces(lines);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      Element& e = elements_.all()[i];
+      BoundaryElement& e = elements_.all()[i];
       e.constant = {lines[i].constant[0], lines[i].constant[1], lines[i].constant[2]};
       e.slope = {lines[i].slope[0], lines[i].slope[1], lines[i].slope[2]};
     }
@@ -248,7 +249,7 @@ class Solver {
 
   void settle(double settled, Lines& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const Element& e = elements_.all()[i];
+      const BoundaryElement& e = elements_.all()[i];
       lines[i] = {{e.constant.x, e.constant.y, e.constant.z, 0}, {e.slope.x, e.slope.y, e.slope.z, 0}};
     }
     FixedPoint fixed_point(8 * lines.size());
@@ -289,11 +290,11 @@ class Solver {
     const double size = std::max(world_.scene.width, world_.scene.height);
     double brightest = 0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const Element& e = elements_.all()[i];
+      const BoundaryElement& e = elements_.all()[i];
       for (int k = 0; k < 2; ++k) brightest = std::max(brightest, largest(e.constant + e.slope * nodes_[i].at[k].place.u));
     }
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      Element& e = elements_.all()[i];
+      BoundaryElement& e = elements_.all()[i];
       e.error = magnitude(nodes_[i].middle - e.constant - e.slope * nodes_[i].at[2].place.u);
       // The tolerance applies to an element of the initial length; a shorter one may be off by more, because it sends less.
       const auto judge = [&](std::size_t k, double error) {
@@ -303,7 +304,7 @@ class Solver {
       // A sharp edge of light may miss the middle: then neighbouring lines do not meet. Each element gets half of the difference, at its
       // end.
       if (i + 1 == nodes_.size()) continue;
-      const Element& next = elements_.all()[i + 1];
+      const BoundaryElement& next = elements_.all()[i + 1];
       if (next.curve != e.curve || next.back != e.back || next.from != e.to) continue;
       const double apart = largest(e.constant + e.slope - next.constant + next.slope);
       judge(i, 0.25 * apart);
@@ -325,7 +326,7 @@ class Solver {
       }
     }
     nodes_ = std::move(next);
-    const Elements before = elements_;
+    const BoundaryElements before = elements_;
     elements_.halve(world_, marked);
     tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
       if (fresh[i] != 0) return;
@@ -336,7 +337,7 @@ class Solver {
 
   // Errors are propagated like light.
   void spread_error() {
-    std::vector<Element>& all = elements_.all();
+    std::vector<BoundaryElement>& all = elements_.all();
     Lines errors(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) errors[i] = {{all[i].error.x, all[i].error.y, all[i].error.z, 0}, {}};
     for (int sweep = 0; sweep < 50; ++sweep) {
@@ -352,7 +353,7 @@ class Solver {
     }
     double size = 0, squares = 0, mean = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      Element& e = all[i];
+      BoundaryElement& e = all[i];
       e.error = {errors[i].constant[0], errors[i].constant[1], errors[i].constant[2]};
       const Vec3d light = magnitude(e.constant);
       size += e.half;
@@ -366,7 +367,7 @@ class Solver {
   const PlaneBounceOptions& options_;
   Budget budget_;
   Outlook outlook_;
-  Elements elements_;
+  BoundaryElements elements_;
   const RowsTable& table_ = rows_table_for(active_simd());
   std::vector<Nodes> nodes_;
   PlaneBounceStats stats_;
@@ -399,9 +400,9 @@ PlaneBounces::PlaneBounces(const PlaneWorld& world, const PlaneBounceOptions& op
     throw Error(world.scene().name, "has " + extras->names + ", of which bounces know nothing",
                 "leave bounces out, or what they know nothing of");
   if (options.bounces == 0)
-    impl_->elements = plane::Elements(world.impl(), 1e300, 0);  // none: nothing reflects
+    impl_->elements = plane::BoundaryElements(world.impl(), 1e300, 0);  // none: nothing reflects
   else
-    plane::Solver(world.impl(), options).run(*impl_);
+    plane::WallSolver(world.impl(), options).run(*impl_);
   impl_->stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -419,7 +420,7 @@ PlaneLight PlaneBounces::query(Vec2d position) const {
   plane::for_each_wall(*impl_, p, [&](const plane::Visible& v, Vec2d from) {
     for (int k = 0; k < 3; ++k)
       plane::weigh(*impl_->world, impl_->elements, v, from, k == 0 ? nullptr : &axes[k - 1], [&](std::size_t i, double w0, double w1) {
-        const plane::Element& e = impl_->elements.all()[i];
+        const plane::BoundaryElement& e = impl_->elements.all()[i];
         *parts[k] += (e.constant * w0 + e.slope * w1) / (2 * std::numbers::pi);
       });
   });

@@ -8,7 +8,7 @@ namespace steradian {
 
 struct PlaneBounces::Impl {
   const plane::World* world = nullptr;
-  plane::Elements elements;
+  plane::BoundaryElements elements;
   PlaneBounceStats stats;
 };
 

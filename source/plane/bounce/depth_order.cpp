@@ -11,13 +11,13 @@ constexpr std::size_t kCandidates = 8;    // number of facets whose lines are tr
 constexpr std::size_t kSplitsWeigh = 4;   // weight of a cut facet, relative to one more on the larger side
 constexpr std::size_t kMostParts = 6;     // facets for each segment, on average
 
-struct Line {
+struct SplittingLine {
   Vec2d normal;
   double offset;
   double height(Vec2d p) const { return dot(normal, p) - offset; }
 };
 
-Line line_of(const Facet& facet) {
+SplittingLine line_of(const Facet& facet) {
   const Vec2d e = facet.curve->b - facet.curve->a, normal = Vec2d{-e.y, e.x} / length(e);
   return {normal, dot(normal, facet.curve->a)};
 }
@@ -28,10 +28,10 @@ struct Heights {
   bool in_front() const { return a >= -kOnDividingLine && b >= -kOnDividingLine; }
   bool behind() const { return a <= kOnDividingLine && b <= kOnDividingLine; }
 };
-Heights heights(const Line& line, const Facet& f) { return {line.height(f.a), line.height(f.b)}; }
+Heights heights(const SplittingLine& line, const Facet& f) { return {line.height(f.a), line.height(f.b)}; }
 
 // A line across the longer side of the facets' middles, with half of them on each side.
-Line halving(const std::vector<Facet>& facets) {
+SplittingLine halving(const std::vector<Facet>& facets) {
   Box2d box;
   for (const Facet& f : facets) box.add((f.a + f.b) * 0.5);
   const bool wide = box.high.x - box.low.x > box.high.y - box.low.y;
@@ -44,7 +44,7 @@ Line halving(const std::vector<Facet>& facets) {
 
 // Returns kUseless if one side would have all of them.
 constexpr std::size_t kUseless = static_cast<std::size_t>(-1);
-std::size_t cost_of(const Line& line, const std::vector<Facet>& facets) {
+std::size_t cost_of(const SplittingLine& line, const std::vector<Facet>& facets) {
   std::size_t front = 0, back = 0, cut = 0;
   for (const Facet& f : facets) {
     const Heights h = heights(line, f);
@@ -60,10 +60,10 @@ std::size_t cost_of(const Line& line, const std::vector<Facet>& facets) {
   return kSplitsWeigh * cut + (front > back ? front - back : back - front);
 }
 
-Line best_line(const std::vector<Facet>& facets) {
-  Line best = line_of(facets[0]);
+SplittingLine best_line(const std::vector<Facet>& facets) {
+  SplittingLine best = line_of(facets[0]);
   std::size_t least = kUseless;
-  const auto consider = [&](const Line& line) {
+  const auto consider = [&](const SplittingLine& line) {
     if (const std::size_t cost = cost_of(line, facets); cost < least) best = line, least = cost;
   };
   const std::size_t step = std::max<std::size_t>(1, facets.size() / kCandidates);
@@ -94,7 +94,7 @@ DepthOrder::DepthOrder(const World& world) {
     const auto index = static_cast<std::int32_t>(nodes_.size());
     if (task.parent >= 0)
       (task.in_front ? nodes_[static_cast<std::size_t>(task.parent)].front : nodes_[static_cast<std::size_t>(task.parent)].back) = index;
-    const Line line = best_line(task.facets);
+    const SplittingLine line = best_line(task.facets);
     Node node;
     node.normal = line.normal;
     node.offset = line.offset;

@@ -27,7 +27,7 @@ Vec2d normal_on(const Curve& c, double share) {
   return Vec2d{e.y, -e.x} / length(e);
 }
 
-bool is_thin(const Ellipse& e) {
+bool is_thin(const PlaneEllipse& e) {
   const double sum = dot(e.x, e.x) + dot(e.y, e.y), det = std::fabs(cross(e.x, e.y));
   return sum > (kThinnest + 1 / kThinnest) * det;
 }
@@ -37,7 +37,7 @@ double length_of(const Curve& c) {
   return c.tau_span * std::sqrt(0.5 * (dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y)));
 }
 
-void lay(const World& world, Element& e) {
+void lay(const World& world, BoundaryElement& e) {
   const Curve& c = world.curves[e.curve];
   const Vec2d a = point_on(c, e.from), b = point_on(c, e.to);
   e.middle = (a + b) * 0.5;
@@ -83,12 +83,12 @@ bool is_open(const World& world, const ElementPlace& place) {
   return !inside.dark && inside.body < 0;
 }
 
-std::pair<Vec2d, Vec2d> ends_of(const World& world, const Element& element) {
+std::pair<Vec2d, Vec2d> ends_of(const World& world, const BoundaryElement& element) {
   const Curve& c = world.curves[element.curve];
   return {point_on(c, element.from), point_on(c, element.to)};
 }
 
-ElementPlace place_on(const World& world, const Element& element, double share) {
+ElementPlace place_on(const World& world, const BoundaryElement& element, double share) {
   const Curve& c = world.curves[element.curve];
   const double s = element.from + (element.to - element.from) * share;
   const Vec2d at = point_on(c, s);
@@ -103,7 +103,7 @@ std::optional<Vec3d> albedo_of(const PlaneBody& body, double most) {
   return a;
 }
 
-Elements::Elements(const World& world, double size, double most_albedo) {
+BoundaryElements::BoundaryElements(const World& world, double size, double most_albedo) {
   for (std::size_t c = 0; c < world.curves.size(); ++c) {
     const Curve& curve = world.curves[c];
     const auto albedo = albedo_of(world.scene.bodies[static_cast<std::size_t>(curve.body)], most_albedo);
@@ -114,7 +114,7 @@ Elements::Elements(const World& world, double size, double most_albedo) {
       for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
         const double share = cuts[k + 1] - cuts[k];
         if (share < 1e-9) continue;
-        Element whole;
+        BoundaryElement whole;
         whole.curve = c;
         whole.back = side == 1;
         whole.albedo = *albedo;
@@ -125,7 +125,7 @@ Elements::Elements(const World& world, double size, double most_albedo) {
         const double parts = share * std::max(length_of(curve) / size, arc ? curve.tau_span / kMostTurn : 1.0);
         const int count = std::max(1, static_cast<int>(std::ceil(parts - 1e-9)));
         for (int i = 0; i < count; ++i) {
-          Element e = whole;
+          BoundaryElement e = whole;
           e.from = cuts[k] + share * i / count;
           e.to = cuts[k] + share * (i + 1) / count;
           lay(world, e);
@@ -136,8 +136,8 @@ Elements::Elements(const World& world, double size, double most_albedo) {
   index(world);
 }
 
-void Elements::halve(const World& world, const std::vector<char>& marked) {
-  std::vector<Element> next;
+void BoundaryElements::halve(const World& world, const std::vector<char>& marked) {
+  std::vector<BoundaryElement> next;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     if (marked[i] == 0) {
       next.push_back(all_[i]);
@@ -145,7 +145,7 @@ void Elements::halve(const World& world, const std::vector<char>& marked) {
     }
     const double middle = 0.5 * (all_[i].from + all_[i].to);
     for (int half = 0; half < 2; ++half) {
-      Element e = all_[i];
+      BoundaryElement e = all_[i];
       (half == 0 ? e.to : e.from) = middle;
       // A straight element keeps the same radiance.
       e.constant += e.slope * (half == 0 ? -0.5 : 0.5);
@@ -158,12 +158,12 @@ void Elements::halve(const World& world, const std::vector<char>& marked) {
   index(world);
 }
 
-void Elements::index(const World& world) {
+void BoundaryElements::index(const World& world) {
   first_.assign(2 * world.curves.size() + 1, 0);
-  for (const Element& e : all_) ++first_[2 * e.curve + (e.back ? 1 : 0) + 1];
+  for (const BoundaryElement& e : all_) ++first_[2 * e.curve + (e.back ? 1 : 0) + 1];
   for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
   spans_.clear();
-  for (const Element& e : all_) spans_.push_back({e.from, e.to, 1 / (e.to - e.from)});
+  for (const BoundaryElement& e : all_) spans_.push_back({e.from, e.to, 1 / (e.to - e.from)});
 }
 
 }  // namespace steradian::plane

@@ -10,7 +10,7 @@
 
 namespace steradian::plane {
 
-struct Element {
+struct BoundaryElement {
   std::size_t curve = 0;        // in World::curves
   bool back = false;            // is it the other side of a line without thickness?
   double from = 0, to = 1;      // fractions of the curve
@@ -27,8 +27,8 @@ struct ElementPlace {
   double u;
 };
 // Its first and its last point: identical to its neighbours' numbers.
-std::pair<Vec2d, Vec2d> ends_of(const World& world, const Element& element);
-ElementPlace place_on(const World& world, const Element& element, double share);
+std::pair<Vec2d, Vec2d> ends_of(const World& world, const BoundaryElement& element);
+ElementPlace place_on(const World& world, const BoundaryElement& element, double share);
 
 // Is the place outside of all other bodies?
 bool is_open(const World& world, const ElementPlace& place);
@@ -42,14 +42,14 @@ struct ElementSpan {
 };
 
 // All elements, by curve and side and by rising place, no longer than `size`; cut where other outlines cross.
-class Elements {
+class BoundaryElements {
  public:
-  Elements() = default;
-  Elements(const World& world, double size, double most_albedo);
+  BoundaryElements() = default;
+  BoundaryElements(const World& world, double size, double most_albedo);
 
-  const std::vector<Element>& all() const { return all_; }
+  const std::vector<BoundaryElement>& all() const { return all_; }
   const std::vector<ElementSpan>& spans() const { return spans_; }
-  std::vector<Element>& all() { return all_; }
+  std::vector<BoundaryElement>& all() { return all_; }
   // Halves the marked elements.
   void halve(const World& world, const std::vector<char>& marked);
 
@@ -71,7 +71,7 @@ class Elements {
 
  private:
   void index(const World& world);
-  std::vector<Element> all_;
+  std::vector<BoundaryElement> all_;
   std::vector<ElementSpan> spans_;
   std::vector<std::size_t> first_;
 };

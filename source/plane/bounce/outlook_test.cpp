@@ -55,11 +55,11 @@ TEST(PlaneOutlook, SeesWhatTheLowerEnvelopeSees) {
     const Outlook outlook(world);
     std::vector<const Curve*> curves;
     for (const Curve& c : world.curves) curves.push_back(&c);
-    const Elements elements(world, 1e9, 1);
+    const BoundaryElements elements(world, 1e9, 1);
     int places = 0, directions = 0;
     std::vector<SeenPart> parts;
     for (std::size_t k = 0; places < 60; k = (k + 7) % elements.all().size()) {
-      const Element& element = elements.all()[k];
+      const BoundaryElement& element = elements.all()[k];
       const ElementPlace place = place_on(world, element, random.uniform(0.05, 0.95));
       if (!is_open(world, place)) continue;
       ++places;
@@ -116,7 +116,7 @@ TEST(PlaneOutlook, WeighsPiecesAsQuadratureDoes) {
     scene.bodies.push_back(line);
     const PlaneWorld owner(scene);
     const World& world = owner.impl();
-    const Elements elements(world, std::pow(10, random.uniform(0.5, 3)), 1);
+    const BoundaryElements elements(world, std::pow(10, random.uniform(0.5, 3)), 1);
     const Vec2d from{random.uniform(0, 1000), random.uniform(0, 1000)};
     const double t = random.uniform(-pi, pi);
     const Vec2d normal{std::cos(t), std::sin(t)};
@@ -124,7 +124,7 @@ TEST(PlaneOutlook, WeighsPiecesAsQuadratureDoes) {
     for (const Vec2d* cosine : {static_cast<const Vec2d*>(nullptr), &normal})
       for (const Visible& piece : seen)
         weigh(world, elements, piece, from, cosine, [&](std::size_t k, double w0, double w1) {
-          const Element& e = elements.all()[k];
+          const BoundaryElement& e = elements.all()[k];
           const auto [low, high] = ends_of(world, e);
           double begin = angle_of(low - from);
           const double width = std::atan2(cross(low - from, high - from), dot(low - from, high - from));

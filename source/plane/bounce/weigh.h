@@ -30,7 +30,8 @@ inline constexpr std::array<std::pair<double, double>, 6> kGauss6 = {{{-0.932469
 // A piece of a segment, between two directions, and the ends of the elements in it.
 class SeenPiece {
  public:
-  SeenPiece(const Curve& curve, Vec2d from, Vec2d begin, Vec2d end, const Elements& elements, std::pair<std::size_t, std::size_t> side) {
+  SeenPiece(const Curve& curve, Vec2d from, Vec2d begin, Vec2d end, const BoundaryElements& elements,
+            std::pair<std::size_t, std::size_t> side) {
     const Vec2d e = curve.b - curve.a;
     size_ = length(e);
     along_ = e / size_;
@@ -97,7 +98,7 @@ class SeenPiece {
 
 // Adds an arc's part between two places tau. It is halved until it is no longer than a tenth of its distance: Gauss' rule is then accurate
 // to 1e-14.
-inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2d* normal, double low, double high, double& w0,
+inline void add_arc(const Curve& curve, const BoundaryElement& e, Vec2d from, const Vec2d* normal, double low, double high, double& w0,
                     double& w1) {
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
   const Vec2d to_middle = curve.ellipse.at(middle) - from, across = curve.ellipse.y * std::cos(middle) - curve.ellipse.x * std::sin(middle);
@@ -118,7 +119,7 @@ inline void add_arc(const Curve& curve, const Element& e, Vec2d from, const Vec2
 
 // Calls f(element, w0, w1) with the integrals over the piece's directions of 1 and u, times the cosine from `normal` if there is one.
 template <class F>
-void weigh(const World& world, const Elements& elements, const Visible& piece, Vec2d from, const Vec2d* normal, F f) {
+void weigh(const World& world, const BoundaryElements& elements, const Visible& piece, Vec2d from, const Vec2d* normal, F f) {
   const Curve& curve = *piece.curve;
   const auto [first, last] = elements.of(piece, world);
   if (first == last) return;
@@ -148,7 +149,7 @@ void weigh(const World& world, const Elements& elements, const Visible& piece, V
   double tau0 = near(tau_of(piece.begin), middle), tau1 = near(tau_of(piece.end), middle);
   if (tau0 > tau1) std::swap(tau0, tau1);
   for (std::size_t k = first; k < last; ++k) {
-    const Element& e = elements.all()[k];
+    const BoundaryElement& e = elements.all()[k];
     for (int turn = -1; turn <= 1; ++turn) {  // a whole outline has no first place
       const double shift = 2 * std::numbers::pi * turn;
       const double low = std::max(tau0, curve.tau0 + curve.tau_span * e.from + shift),

@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-struct Tangents {
+struct SeenTangents {
   Vec2d first, second;  // relative to the point
   double begin, end;    // angles; end may exceed pi
 };
@@ -41,7 +41,7 @@ void add_vertices(const Curve& c, Vec2d from, std::vector<Vec2d>& out) {
   }
 }
 
-bool tangents_of(const World& world, std::size_t body, Vec2d from, std::vector<Vec2d>& vertices, Tangents& out) {
+bool tangents_of(const World& world, std::size_t body, Vec2d from, std::vector<Vec2d>& vertices, SeenTangents& out) {
   vertices.clear();
   for (std::size_t c = world.first_curve[body]; c < world.first_curve[body + 1]; ++c) {
     const Curve& curve = world.curves[c];
@@ -88,7 +88,7 @@ bool crosses(Vec2d key, Vec2d a, Vec2d b) {
   return cross(key, a) * cross(key, b) <= 0 && origin_side * key_side <= 0;
 }
 
-bool blocks(const Tangents& light, const Tangents& body, Interval<double> in_light, double begin, double end) {
+bool blocks(const SeenTangents& light, const SeenTangents& body, Interval<double> in_light, double begin, double end) {
   const bool body_within = begin > in_light.low && end < in_light.high;
   if (body_within) return !crosses(body.first, light.first, light.second) && !crosses(body.second, light.first, light.second);
   return crosses(light.first, body.first, body.second) || crosses(light.second, body.first, body.second);
@@ -99,13 +99,13 @@ bool blocks(const Tangents& light, const Tangents& body, Interval<double> in_lig
 PlaneLight par_light(const World& world, Vec2d from, ParOverlaps overlaps) {
   PlaneLight sum;
   std::vector<Vec2d> vertices;
-  std::vector<std::pair<bool, Tangents>> bodies(world.scene.bodies.size());
+  std::vector<std::pair<bool, SeenTangents>> bodies(world.scene.bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!world.scene.bodies[i].light) bodies[i].first = tangents_of(world, i, from, vertices, bodies[i].second);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto& light = world.scene.bodies[i].light;
-    Tangents seen;
+    SeenTangents seen;
     if (!light || !tangents_of(world, i, from, vertices, seen)) continue;
     const Interval<double> whole{seen.begin, seen.end};
     std::vector<Interval<double>> blocked;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kTouchingEnds = 1e-9;  // fraction of an edge's length
 
 // Points that two edges share except their ends: a crossing, or ends of one that lie on the other.
-void add_meetings(const Edge& e, const Edge& f, std::vector<Vec2d>& of_e, std::vector<Vec2d>& of_f) {
+void add_meetings(const PlaneEdge& e, const PlaneEdge& f, std::vector<Vec2d>& of_e, std::vector<Vec2d>& of_f) {
   const Vec2d d = e.b - e.a, g = f.b - f.a;
   const double c_side = cross(d, f.a - e.a), d_side = cross(d, f.b - e.a), a_side = cross(g, e.a - f.a), b_side = cross(g, e.b - f.a);
   const auto touch = [](Vec2d along, Vec2d from, Vec2d p, double side, std::vector<Vec2d>& to) {
@@ -48,13 +48,13 @@ EdgeRows::EdgeRows(const std::vector<std::vector<Vec2d>>& contours) {
     scale_ = high > low ? static_cast<double>(rows) / (high - low) : 0;
     first_.assign(rows + 1, 0);
     entries = 0;
-    for (const Edge& e : edges_) entries += row(std::max(e.a.y, e.b.y)) - row(std::min(e.a.y, e.b.y)) + 1;
+    for (const PlaneEdge& e : edges_) entries += row(std::max(e.a.y, e.b.y)) - row(std::min(e.a.y, e.b.y)) + 1;
     if (rows == 1 || entries <= 8 * edges_.size()) break;
   }
-  const auto for_each_row = [&](const Edge& e, auto call) {
+  const auto for_each_row = [&](const PlaneEdge& e, auto call) {
     for (std::size_t r = row(std::min(e.a.y, e.b.y)); r <= row(std::max(e.a.y, e.b.y)); ++r) call(r);
   };
-  for (const Edge& e : edges_) for_each_row(e, [&](std::size_t r) { ++first_[r + 1]; });
+  for (const PlaneEdge& e : edges_) for_each_row(e, [&](std::size_t r) { ++first_[r + 1]; });
   for (std::size_t r = 0; r < rows; ++r) first_[r + 1] += first_[r];
   edge_.resize(entries);
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
@@ -80,11 +80,11 @@ std::optional<EdgeRows::Meetings> EdgeRows::meetings() const {
   std::size_t count = 0, pairs_left = 500 * edges_.size() + 10'000;
   for (std::size_t r = 0; r + 1 < first_.size(); ++r)
     for (std::size_t i = first_[r]; i < first_[r + 1]; ++i) {
-      const Edge& e = edges_[edge_[i]];
+      const PlaneEdge& e = edges_[edge_[i]];
       const std::size_t first_row = row(std::min(e.a.y, e.b.y));
       for (std::size_t k = i + 1; k < first_[r + 1]; ++k) {
         if (pairs_left-- == 0) return {};
-        const Edge& f = edges_[edge_[k]];
+        const PlaneEdge& f = edges_[edge_[k]];
         // A pair is tested only in the first of the rows that contain both.
         if (r != std::max(first_row, row(std::min(f.a.y, f.b.y)))) continue;
         if (std::max(e.a.x, e.b.x) < std::min(f.a.x, f.b.x) || std::max(f.a.x, f.b.x) < std::min(e.a.x, e.b.x)) continue;

@@ -9,7 +9,7 @@
 
 namespace steradian::plane {
 
-struct Edge {
+struct PlaneEdge {
   Vec2d a, b;
 };
 
@@ -29,7 +29,7 @@ class EdgeRows {
  private:
   std::size_t row(double y) const;
 
-  std::vector<Edge> edges_;
+  std::vector<PlaneEdge> edges_;
   std::vector<std::size_t> first_;   // by row, and one more: start of its edges in
   std::vector<std::uint32_t> edge_;  // numbers of edges
   double low_ = 0, high_ = -1, scale_ = 0;

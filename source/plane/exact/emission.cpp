@@ -192,7 +192,7 @@ class ArcQuadrature {
   }
 
   void add_part(double t0, double t1, int depth, PlaneLight& sum) const {
-    const Ellipse& e = curve_.ellipse;
+    const PlaneEllipse& e = curve_.ellipse;
     const auto along = [&](double tau) { return e.y * std::cos(tau) - e.x * std::sin(tau); };
     const Vec2d p = e.at(t0) - from_, q = e.at(t1) - from_, d0 = along(t0), d1 = along(t1);
     // Singularities are at the point, and where the curve turns: in terms of half the part, they are at least 3 away from its middle. Eight
@@ -220,7 +220,7 @@ class ArcQuadrature {
   Vec2d from_;
 };
 
-bool is_circular(const Ellipse& e) {
+bool is_circular(const PlaneEllipse& e) {
   const double xx = dot(e.x, e.x), yy = dot(e.y, e.y);
   return std::fabs(xx - yy) <= 1e-12 * xx && std::fabs(dot(e.x, e.y)) <= 1e-12 * xx;
 }

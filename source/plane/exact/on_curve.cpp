@@ -34,7 +34,7 @@ Vec2d tangent_at(const Curve& c, Vec2d p) {
 
 double distance_to(const Curve& c, Vec2d p) {
   if (c.kind == Curve::Kind::segment) return distance_to_segment(p, c.a, c.b);
-  const Ellipse& e = c.ellipse;
+  const PlaneEllipse& e = c.ellipse;
   const Vec2d unit = e.to_unit(p);
   if (!runs_over(c, unit)) return std::min(length(p - c.a), length(p - c.b));
   const double d = length(unit);

@@ -85,7 +85,7 @@ void append_edges(const std::vector<Vec2d>& contour, bool closed, int index, std
   }
 }
 
-Curve arc(const Ellipse& ellipse, double tau0, double span, int index) {
+Curve arc(const PlaneEllipse& ellipse, double tau0, double span, int index) {
   Curve c;
   c.kind = Curve::Kind::arc;
   c.body = index;
@@ -219,7 +219,7 @@ bool contains(const PlaneBody& body, Vec2d p) {
     case PlaneBody::Shape::polyline: return false;
     case PlaneBody::Shape::ellipse: {
       if (std::fabs(cross(body.x_axis, body.y_axis)) <= 1e-18) return false;
-      const Vec2d u = Ellipse{body.center, body.x_axis, body.y_axis}.to_unit(p);
+      const Vec2d u = PlaneEllipse{body.center, body.x_axis, body.y_axis}.to_unit(p);
       return dot(u, u) <= 1;
     }
     case PlaneBody::Shape::capsule: {
@@ -320,12 +320,12 @@ Crossings segment_arc(const Curve& s, const Curve& arc) {
   return result;
 }
 
-bool is_circle(const Ellipse& e) {
+bool is_circle(const PlaneEllipse& e) {
   const double xx = dot(e.x, e.x);
   return std::fabs(xx - dot(e.y, e.y)) <= 1e-14 * xx && std::fabs(dot(e.x, e.y)) <= 1e-14 * xx;
 }
 
-Crossings circle_circle(const Ellipse& a, const Ellipse& b) {
+Crossings circle_circle(const PlaneEllipse& a, const PlaneEllipse& b) {
   const Vec2d to = b.center - a.center;
   const double d2 = dot(to, to), r2 = dot(a.x, a.x), s2 = dot(b.x, b.x);
   Crossings result;
@@ -341,7 +341,7 @@ Crossings circle_circle(const Ellipse& a, const Ellipse& b) {
 // With the first ellipse as the unit circle of t = tan(tau / 2), the second one's equation is a quartic. Each of two charts covers half the
 // circle, so that t stays within [-1, 1].
 Crossings arc_arc(const Curve& first, const Curve& second) {
-  const Ellipse& e = first.ellipse;
+  const PlaneEllipse& e = first.ellipse;
   const Vec2d m = second.ellipse.to_unit(e.center), x = second.ellipse.to_unit(e.center + e.x) - m,
               y = second.ellipse.to_unit(e.center + e.y) - m;
   Crossings result;

@@ -11,7 +11,7 @@ namespace steradian::plane {
 // Outlines: the segments and arcs of bodies, which rays can hit.
 
 // An ellipse as the image of the unit circle: center + x cos(tau) + y sin(tau).
-struct Ellipse {
+struct PlaneEllipse {
   Vec2d center, x, y;
   // Maps to the space where it is the unit circle around the origin.
   Vec2d to_unit(Vec2d p) const {
@@ -27,8 +27,8 @@ struct Curve {
   Kind kind = Kind::segment;
   bool two_sided = false;  // both faces block and emit; else only the outer one is visible from outside
   int body = 0;
-  Vec2d a, b;       // segment, the body to the left of a -> b; arc: its ends
-  Ellipse ellipse;  // arc: counter-clockwise (cross(x, y) > 0) from tau0 over tau_span
+  Vec2d a, b;            // segment, the body to the left of a -> b; arc: its ends
+  PlaneEllipse ellipse;  // arc: counter-clockwise (cross(x, y) > 0) from tau0 over tau_span
   double tau0 = 0, tau_span = 0;
 };
 

@@ -36,7 +36,7 @@ struct Tile {
         x1(std::min(x0 + kSide, grid.width)),
         y1(std::min(y0 + kSide, grid.height)),
         box{grid.at(x0, y0), grid.at(x1 - 1, y1 - 1)} {}
-  Disk disk() const { return {box.center(), box.radius()}; }
+  BodyDisk disk() const { return {box.center(), box.radius()}; }
 };
 
 // Calls f(x, y, light) for all pixels.

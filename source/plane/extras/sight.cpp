@@ -19,9 +19,9 @@ using std::numbers::pi;
 
 using Curves = std::vector<const Curve*>;
 
-class Seen {
+class SightFrom {
  public:
-  Seen(const World& world, const View& view, Vec2d from, const SightRules& rules)
+  SightFrom(const World& world, const View& view, Vec2d from, const SightRules& rules)
       : world_(world), view_(view), rules_(rules), start_(start_at(world, from)), from_(start_.at) {
     for (int body : start_.deep)
       for (std::size_t c = world.first_curve[static_cast<std::size_t>(body)]; c < world.first_curve[static_cast<std::size_t>(body) + 1];
@@ -36,7 +36,7 @@ class Seen {
       for (const SunView& sun : view_.suns) add_open_sun(sun, from_, sum_);
     // If only mirrors are needed, collect the curves in front of the mirrors that may show something.
     const bool mirrors_only = !lights && view_.suns.size() == world_.scene.suns.size();
-    std::vector<Fan> fans;
+    std::vector<ViewFan> fans;
     if (mirrors_only)
       for (const MirrorView& mirror : view_.mirrors)
         if (may_show(mirror)) fans.emplace_back(from_, *mirror.edge);
@@ -44,7 +44,7 @@ class Seen {
     Curves blocking;
     for (std::size_t i = 0; i < view_.blocking.size(); ++i)
       if (!passes(world_, start_, view_.blocking[i]->body) &&
-          (!mirrors_only || std::any_of(fans.begin(), fans.end(), [&](const Fan& fan) { return fan.may_hold(view_.disks[i]); })))
+          (!mirrors_only || std::any_of(fans.begin(), fans.end(), [&](const ViewFan& fan) { return fan.may_hold(view_.disks[i]); })))
         blocking.push_back(view_.blocking[i]);
     const Path direct{from_, nullptr, with_deep(view_.clear), {}};
     const std::vector<Visible> envelope = lower_envelope(blocking, from_, world_.scene.bodies, {start_.light});
@@ -67,10 +67,10 @@ class Seen {
  private:
   bool may_show(const MirrorView& mirror) const {
     if (dot(mirror.normal, from_ - mirror.edge->a) <= 0) return false;
-    return !world_.scene.suns.empty() || shows(mirror, Fan(mirror.reflected(from_), *mirror.edge));
+    return !world_.scene.suns.empty() || shows(mirror, ViewFan(mirror.reflected(from_), *mirror.edge));
   }
-  static bool shows(const MirrorView& mirror, const Fan& window) {
-    return std::any_of(mirror.lights.begin(), mirror.lights.end(), [&](const Disk& light) { return window.may_hold(light); });
+  static bool shows(const MirrorView& mirror, const ViewFan& window) {
+    return std::any_of(mirror.lights.begin(), mirror.lights.end(), [&](const BodyDisk& light) { return window.may_hold(light); });
   }
 
   PlaneLight mean() const {
@@ -104,7 +104,7 @@ class Seen {
       const Vec2d first = on_edge(v.end) - path.eye, last = on_edge(v.begin) - path.eye;
       const double begin = angle_of(first);
       double end = angle_of(last);
-      const Fan window(path.eye, first / length(first), last / length(last));
+      const ViewFan window(path.eye, first / length(first), last / length(last));
       if (world_.scene.suns.empty() && !shows(mirror, window)) continue;
       Curves curves;
       for (std::size_t i = 0; i < mirror.beyond.size(); ++i)
@@ -201,7 +201,7 @@ class Seen {
   // The path with only the curves that lie between two directions.
   Path between(const Path& path, double begin, double end) const {
     if (end - begin >= 0.5 * pi || (path.before.empty() && path.beyond.empty())) return path;
-    const Fan fan(path.eye, direction_at(begin), direction_at(end));
+    const ViewFan fan(path.eye, direction_at(begin), direction_at(end));
     const auto met = [&](const Curves& curves, auto&& seen_at) {
       Curves near;
       int body = -1;
@@ -329,7 +329,7 @@ class Seen {
 }  // namespace
 
 PlaneLight sight(const World& world, const View& view, Vec2d from, const SightRules& rules) {
-  return Seen(world, view, from, rules).light();
+  return SightFrom(world, view, from, rules).light();
 }
 
 PlaneLight sight_from(const World& world, Vec2d from) { return sight(world, view_of(world, {from, 0}, true), from, {}); }

@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-Disk disk_of(const Box2d& box) {
+BodyDisk disk_of(const Box2d& box) {
   if (box.is_empty()) return {{1e300, 1e300}, 0};
   return {box.center(), box.radius()};
 }
@@ -19,25 +19,25 @@ Disk disk_of(const Box2d& box) {
 // Targets that an eye looks at. It errs on the large side by a little: a hull counts as a capsule, with a margin for rounding.
 class Targets {
  public:
-  explicit Targets(Disk eye) : eye_(eye) {}
+  explicit Targets(BodyDisk eye) : eye_(eye) {}
 
-  void add(Disk light) { lights_.push_back(light); }
+  void add(BodyDisk light) { lights_.push_back(light); }
   void add(const PlaneSun& sun) { suns_.push_back(&sun); }
   bool empty() const { return lights_.empty() && suns_.empty(); }
 
   // Can the body be between the eye and one of its targets?
-  bool touched_by(Disk body) const {
-    return std::any_of(lights_.begin(), lights_.end(), [&](Disk light) { return between(light, body); }) ||
+  bool touched_by(BodyDisk body) const {
+    return std::any_of(lights_.begin(), lights_.end(), [&](BodyDisk light) { return between(light, body); }) ||
            std::any_of(suns_.begin(), suns_.end(), [&](const PlaneSun* sun) { return towards(*sun, body); });
   }
-  bool between(Disk light, Disk body) const {
+  bool between(BodyDisk light, BodyDisk body) const {
     const Vec2d way = light.center - eye_.center, to = body.center - eye_.center;
     const double length2 = dot(way, way), t = length2 > 0 ? std::clamp(dot(to, way) / length2, 0.0, 1.0) : 0;
     const double reach = (std::max(eye_.radius, light.radius) + body.radius) * (1 + 1e-9) + 1e-6;
     const Vec2d off = to - way * t;
     return dot(off, off) <= reach * reach;
   }
-  bool towards(const PlaneSun& sun, Disk body) const {
+  bool towards(const PlaneSun& sun, BodyDisk body) const {
     const double reach = (eye_.radius + body.radius) * (1 + 1e-9) + 1e-6;
     const Vec2d to = body.center - eye_.center;
     if (dot(to, to) <= reach * reach || sun.half_width >= 0.5 * pi) return true;
@@ -47,14 +47,14 @@ class Targets {
   }
 
  private:
-  Disk eye_;
-  std::vector<Disk> lights_;
+  BodyDisk eye_;
+  std::vector<BodyDisk> lights_;
   std::vector<const PlaneSun*> suns_;
 };
 
 class Viewer {
  public:
-  Viewer(const World& world, Disk eye) : world_(world), eye_(eye) {
+  Viewer(const World& world, BodyDisk eye) : world_(world), eye_(eye) {
     for (std::size_t i : world.extras->lights) {
       if (world.first_curve[i] == world.first_curve[i + 1]) continue;
       const Light light{disk_of(world.boxes[i]), world.scene.bodies[i].light->range, i};
@@ -88,7 +88,7 @@ class Viewer {
       return std::any_of(bodies.begin(), bodies.end(), [&](std::size_t i) { return test(disk_of(world_.boxes[i])); });
     };
     // Bodies that hold points of the eye.
-    if (any_disk([&](Disk d) { return length(d.center - eye_.center) <= (d.radius + eye_.radius) * (1 + 1e-9) + 1e-6; })) return true;
+    if (any_disk([&](BodyDisk d) { return length(d.center - eye_.center) <= (d.radius + eye_.radius) * (1 + 1e-9) + 1e-6; })) return true;
     Targets direct(eye_);
     for (const Light& light : lights_) {
       if (!lights && !is_within_deep()) break;
@@ -104,19 +104,19 @@ class Viewer {
       direct.add(disk_of(edge));
       found = is_one(static_cast<std::size_t>(edge.body)) ||
               std::any_of(shown.lights.begin(), shown.lights.end(), [&](const Light* light) { return is_one(light->body); }) ||
-              any_disk([&](Disk d) { return shown.targets.touched_by(d); });
+              any_disk([&](BodyDisk d) { return shown.targets.touched_by(d); });
     });
-    return found || any_disk([&](Disk d) { return direct.touched_by(d); });
+    return found || any_disk([&](BodyDisk d) { return direct.touched_by(d); });
   }
 
  private:
   struct Light {
-    Disk disk;
+    BodyDisk disk;
     double range;
     std::size_t body;
   };
 
-  static bool reaches(const Light& light, Disk eye) {
+  static bool reaches(const Light& light, BodyDisk eye) {
     return length(light.disk.center - eye.center) - light.disk.radius - eye.radius < light.range;
   }
 
@@ -125,7 +125,7 @@ class Viewer {
     if (!world_.extras->deep) return false;
     for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i) {
       if (world_.extras->matter[i] != Matter::deep) continue;
-      const Disk body = disk_of(world_.boxes[i]);
+      const BodyDisk body = disk_of(world_.boxes[i]);
       if (length(body.center - eye_.center) <= body.radius + eye_.radius) return true;
     }
     return false;
@@ -183,9 +183,9 @@ class Viewer {
     Targets targets;
     std::vector<const Light*> lights;
   };
-  static bool in_front(Disk d, const Curve& edge, Vec2d normal) { return dot(normal, d.center - edge.a) + d.radius > 0; }
+  static bool in_front(BodyDisk d, const Curve& edge, Vec2d normal) { return dot(normal, d.center - edge.a) + d.radius > 0; }
   MirrorTargets targets_of(const Curve& edge, Vec2d normal) const {
-    const Disk eye{eye_.center - normal * (2 * dot(normal, eye_.center - edge.a)), eye_.radius}, glass = disk_of(edge);
+    const BodyDisk eye{eye_.center - normal * (2 * dot(normal, eye_.center - edge.a)), eye_.radius}, glass = disk_of(edge);
     MirrorTargets result{Targets(eye), {}};
     for (const Light& light : lights_)
       if (reaches(light, eye) && in_front(light.disk, edge, normal) && result.targets.between(light.disk, glass)) {
@@ -216,21 +216,21 @@ class Viewer {
   }
 
   const World& world_;
-  Disk eye_;
+  BodyDisk eye_;
   std::vector<Light> lights_;  // lights that reach the eye; by a mirror the path is longer
   View view_;
 };
 
 }  // namespace
 
-Disk disk_of(const Curve& c) {
+BodyDisk disk_of(const Curve& c) {
   if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
   return {c.ellipse.center, std::sqrt(dot(c.ellipse.x, c.ellipse.x) + dot(c.ellipse.y, c.ellipse.y))};
 }
 
-View view_of(const World& world, Disk eye, bool lights) { return Viewer(world, eye).view(lights); }
+View view_of(const World& world, BodyDisk eye, bool lights) { return Viewer(world, eye).view(lights); }
 
-bool may_matter(const World& world, Disk eye, bool lights, const std::vector<std::size_t>& bodies) {
+bool may_matter(const World& world, BodyDisk eye, bool lights, const std::vector<std::size_t>& bodies) {
   return Viewer(world, eye).depends_on(bodies, lights);
 }
 

@@ -122,12 +122,12 @@ class Taking {
 
 }  // namespace
 
-bool is_round(const Ellipse& e) {
+bool is_round(const PlaneEllipse& e) {
   const double xx = dot(e.x, e.x);
   return std::fabs(xx - dot(e.y, e.y)) <= 1e-12 * xx && std::fabs(dot(e.x, e.y)) <= 1e-12 * xx;
 }
 
-double stretch_of(const Ellipse& e) {
+double stretch_of(const PlaneEllipse& e) {
   const double sum = dot(e.x, e.x) + dot(e.y, e.y), det = cross(e.x, e.y);
   const double root = std::sqrt(std::max(sum * sum - 4 * det * det, 0.0));
   return std::sqrt((sum + root) / std::max(sum - root, 1e-300));
@@ -139,7 +139,7 @@ std::optional<std::vector<Emitter>> emitters_of(const World& world, std::size_t 
 
 namespace {
 
-Emitter edge_of(const World& world, const Element& element) {
+Emitter edge_of(const World& world, const BoundaryElement& element) {
   Emitter e;
   e.kind = Emitter::Kind::edge;
   const auto [a, b] = ends_of(world, element);
@@ -154,7 +154,7 @@ Emitter edge_of(const World& world, const Element& element) {
   return e;
 }
 
-Emitter arc_of(const Curve& curve, const Element& element) {
+Emitter arc_of(const Curve& curve, const BoundaryElement& element) {
   Emitter e;
   e.kind = Emitter::Kind::arc;
   e.ellipse = curve.ellipse;
@@ -174,8 +174,8 @@ Emitter arc_of(const Curve& curve, const Element& element) {
 std::vector<Emitter> wall_emitters(const PlaneBounces::Impl& bounces, WallLight what) {
   const World& world = *bounces.world;
   std::vector<Emitter> result;
-  for (const Element& given : bounces.elements.all()) {
-    Element element = given;
+  for (const BoundaryElement& given : bounces.elements.all()) {
+    BoundaryElement element = given;
     if (what == WallLight::error) element.constant = given.error, element.slope = {};
     const Curve& curve = world.curves[element.curve];
     Emitter e = curve.kind == Curve::Kind::segment ? edge_of(world, element) : arc_of(curve, element);

@@ -15,8 +15,8 @@ namespace steradian::plane {
 // thin that packs would lose them in rounding.
 std::optional<std::vector<Emitter>> emitters_of(const World& world, std::size_t body);
 
-bool is_round(const Ellipse& e);
-double stretch_of(const Ellipse& e);  // the longer half axis divided by the other
+bool is_round(const PlaneEllipse& e);
+double stretch_of(const PlaneEllipse& e);  // the longer half axis divided by the other
 bool is_full_circle(const Curve& c);
 
 // Walls that reflect light (plane/bounce) as emitters of a frame.

@@ -72,7 +72,8 @@ TEST(PlaneFrame, EqualsTheQueryInEveryInstructionSet) {
   for (Simd simd : available_simd()) {
     setenv("STERADIAN_SIMD", name_of(simd), 1);
     expect_query(make_plane_family(8, 2), 160, 120, 5, name_of(simd));
-    for (const Drawing& drawing : {Drawing{"ellipse", "gradient"}, Drawing{"circle", "lambert"}, Drawing{"capsule", "spot"}})
+    for (const LightPairDrawing& drawing :
+         {LightPairDrawing{"ellipse", "gradient"}, LightPairDrawing{"circle", "lambert"}, LightPairDrawing{"capsule", "spot"}})
       expect_query(make_drawing(drawing), 97, 61, 7, std::string(name_of(simd)) + ", " + drawing.shape + "-" + drawing.emission);
     unsetenv("STERADIAN_SIMD");
   }
@@ -122,7 +123,7 @@ TEST(PlaneFrame, EqualsTheQueryAtEveryDistanceFromAnArc) {
       const PlaneScene scene = load_plane_scene_from_text(svg, "arcs").scene;
       // Floats cannot decide on which side of an outline a point within a hair's breadth of it lies.
       const PlaneBody& light = scene.bodies.front();
-      const Ellipse outline{light.center, light.x_axis, light.y_axis};
+      const PlaneEllipse outline{light.center, light.x_axis, light.y_axis};
       expect_query(scene, 400, 300, 7, "arc " + std::to_string(s) + ", " + std::to_string(e), e == 2 ? 3e-5 : 1e-5,
                    [&](Vec2d p) { return std::fabs(length(outline.to_unit(p)) - 1) > 5e-3; });
     }
@@ -234,7 +235,7 @@ TEST(PlaneFrame, TakesLightsOfEveryKindOnPacks) {
 }
 
 TEST(PlaneFrame, EqualsTheQueryInDrawingsOfEveryLight) {
-  for (const Drawing& drawing : all_drawings())
+  for (const LightPairDrawing& drawing : all_drawings())
     expect_query(make_drawing(drawing), 97, 61, 11, drawing.shape + "-" + drawing.emission, drawing.emission == "inverse" ? 3e-5 : 1e-5);
 }
 

@@ -164,7 +164,7 @@ void Preparation::add_convex(const std::vector<Vec2d>& vertices, int owner) {
   frame_.blockers.push_back(b);
 }
 
-void Preparation::add_ellipse(const Ellipse& e, int owner) {
+void Preparation::add_ellipse(const PlaneEllipse& e, int owner) {
   Blocker b;
   b.kind = Blocker::Kind::ellipse;
   b.body = owner;

@@ -26,7 +26,7 @@ struct Emitter {
   RadianceEnds radiance;  // edge: linear between its ends. Arc: from a to b as dot(ramp, p - centre) + ramp_at_center goes from 0 to 1
   Vec2d ramp;
   double ramp_at_center = 0;
-  Ellipse ellipse;  // arc: counter-clockwise from tau0 over at most half a turn, or the whole outline
+  PlaneEllipse ellipse;  // arc: counter-clockwise from tau0 over at most half a turn, or the whole outline
   double tau0 = 0, tau_span = 0;
   bool whole = false;
   bool wall = false;    // a wall that reflects light: uniform, whatever its body is

@@ -37,12 +37,12 @@ PlaneScene make_light_field(const LightField& field, std::uint64_t seed) {
 
 namespace {
 
-struct Part {
+struct NamedShape {
   const char *name, *svg;
 };
 
 // Two shapes of each kind; {} is the place of their emission.
-constexpr Part kShapes[] = {
+constexpr NamedShape kShapes[] = {
     {"circle", R"(<circle cx="150" cy="120" r="24" {0}/><circle cx="470" cy="250" r="30" {0}/>)"},
     {"ellipse", R"(<ellipse cx="150" cy="120" rx="40" ry="14" {0}/><ellipse cx="470" cy="250" rx="18" ry="44" {0}/>)"},
     {"polygon", R"(<rect x="150" y="120" width="50" height="24" {0}/><polygon points="470,250 520,260 500,300 460,290" {0}/>)"},
@@ -52,33 +52,33 @@ constexpr Part kShapes[] = {
                R"(<path d="M470 250q40 10 30 50" stroke-width="14" {0}/></g>)"},
     {"curve", R"(<path d="M150 120C200 60 220 180 280 120z" {0}/><path d="M470 250q40 10 30 50t-30 -20z" {0}/>)"}};
 
-constexpr Part kEmissions[] = {{"uniform", ""},
-                               {"range", R"(data-range="200")"},
-                               {"lambert", R"(data-profile="lambert")"},
-                               {"inverse", R"(data-profile="inverse" data-intensity="60")"},
-                               {"spot", R"(data-spot="60 50")"},
-                               {"gradient", ""}};
+constexpr NamedShape kEmissions[] = {{"uniform", ""},
+                                     {"range", R"(data-range="200")"},
+                                     {"lambert", R"(data-profile="lambert")"},
+                                     {"inverse", R"(data-profile="inverse" data-intensity="60")"},
+                                     {"spot", R"(data-spot="60 50")"},
+                                     {"gradient", ""}};
 
 constexpr const char* kGradient = R"(<linearGradient id="g" x1="0" y1="0" x2="1" y2="0.4"><stop offset="0.1" stop-color="#ffe08a"/>)"
                                   R"(<stop offset="0.55" stop-color="#ff3010"/><stop offset="1" stop-color="#20a0ff"/></linearGradient>)";
 
 template <std::size_t N>
-const char* named(const Part (&parts)[N], const std::string& name) {
-  for (const Part& part : parts)
+const char* named(const NamedShape (&parts)[N], const std::string& name) {
+  for (const NamedShape& part : parts)
     if (name == part.name) return part.svg;
   return "";
 }
 
 }  // namespace
 
-std::vector<Drawing> all_drawings() {
-  std::vector<Drawing> all;
-  for (const Part& shape : kShapes)
-    for (const Part& emission : kEmissions) all.push_back({shape.name, emission.name});
+std::vector<LightPairDrawing> all_drawings() {
+  std::vector<LightPairDrawing> all;
+  for (const NamedShape& shape : kShapes)
+    for (const NamedShape& emission : kEmissions) all.push_back({shape.name, emission.name});
   return all;
 }
 
-PlaneScene make_drawing(const Drawing& drawing) {
+PlaneScene make_drawing(const LightPairDrawing& drawing) {
   const bool stroked = drawing.shape == "capsule" || drawing.shape == "stroke";
   const char* paint = drawing.emission == "gradient" ? "url(#g)" : "#fff";
   const std::string look = stroked ? fmt::format("fill=\"none\" stroke=\"{}\" ", paint) : fmt::format("fill=\"{}\" ", paint);

@@ -24,14 +24,14 @@ PlaneScene make_light_field(const LightField& field, std::uint64_t seed);
 
 // Drawings of fifteen shapes, of which two are lights of one kind: for tests and benches of every kind of light.
 
-struct Drawing {
+struct LightPairDrawing {
   std::string shape;     // shape of its lights: circle, ellipse, polygon, capsule, stroke or curve
   std::string emission;  // uniform, range, lambert, inverse, spot or gradient
 };
 
-std::vector<Drawing> all_drawings();
+std::vector<LightPairDrawing> all_drawings();
 
 // A scene of 640 x 360 units with circles, ellipses, rectangles and round strokes as occluders. It is the same on every machine.
-PlaneScene make_drawing(const Drawing& drawing);
+PlaneScene make_drawing(const LightPairDrawing& drawing);
 
 }  // namespace steradian::plane

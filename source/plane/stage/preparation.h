@@ -35,7 +35,7 @@ class Preparation {
   void check_general();
   void spend(std::uint64_t steps);
   void add_convex(const std::vector<Vec2d>& vertices, int owner);
-  void add_ellipse(const Ellipse& e, int owner);
+  void add_ellipse(const PlaneEllipse& e, int owner);
   std::vector<Vec2d> convex_outline(std::size_t i) const;
   void add_blockers(std::size_t i);
   void add_emitters(std::size_t i);

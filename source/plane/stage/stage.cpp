@@ -75,7 +75,7 @@ class Marking {
     return a.low.x <= b.high.x + kNear && b.low.x <= a.high.x + kNear && a.low.y <= b.high.y + kNear && b.low.y <= a.high.y + kNear;
   }
 
-  TileArea area(int column, int row, int side) const {
+  TileRectangle area(int column, int row, int side) const {
     return {grid_.at(column, row) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side), 0.5 * side * length(grid_.step)};
   }
 
@@ -98,7 +98,7 @@ class Marking {
   void for_each_tile_in_range(const Emitter& e, F call) {
     const double reach = std::min(e.range + e.bound, 1e9);
     for_each_tile(e.center - Vec2d{reach, reach}, e.center + Vec2d{reach, reach}, [&](int x, int y) {
-      const TileArea tile = area(x, y, kTileSide);
+      const TileRectangle tile = area(x, y, kTileSide);
       if (length(tile.center - e.center) <= reach + tile.radius) call(x, y);
     });
   }
@@ -136,7 +136,7 @@ class Marking {
     for (int j = 0; j < last && y0 + j * side < grid_.height; ++j)
       for (int i = 0; i < last && x0 + i * side < grid_.width; ++i) {
         const int x = x0 + i * side, y = y0 + j * side;
-        const TileArea tile = area(x, y, side);
+        const TileRectangle tile = area(x, y, side);
         const Vec2d axis = e.center - tile.center;
         const double reach = e.range + e.bound + tile.radius;
         if (dot(axis, axis) >= reach * reach) continue;
@@ -157,7 +157,7 @@ class Marking {
   const PixelGrid& grid_;
   TileSet& tiles_;
   ShareStore& store_;
-  const CullTable& cull_ = cull_table_for(active_simd());
+  const BlockerCullTable& cull_ = cull_table_for(active_simd());
   BlockerList found_;
 };
 

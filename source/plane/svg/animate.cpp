@@ -65,20 +65,20 @@ std::vector<double> numbers_in(std::string_view text) {
 }
 
 // The picture's larger side.
-double size_of(const Document& document) {
+double size_of(const SvgDocument& document) {
   const std::vector<double> box = numbers_in(document.root().attribute("viewBox").value());
   return std::max(box.size() == 4 ? std::max(box[2], box[3]) : 512, 1e-6);
 }
 
 // The two values between which an animation is, and the place between them.
-struct Place {
+struct KeyPlace {
   std::size_t index = 0;
   double share = 0;  // fraction of the way to the next one
 };
 
 class Animating {
  public:
-  Animating(Document& document, double seconds, Budget& budget)
+  Animating(SvgDocument& document, double seconds, Budget& budget)
       : document_(document), seconds_(seconds), tolerance_(kMotionFlatness * size_of(document)), budget_(budget) {}
 
   void run() {
@@ -109,7 +109,7 @@ class Animating {
     std::string transform;
   };
 
-  Place place_of(pugi::xml_node n, std::size_t values, double share, const char* otherwise) {
+  KeyPlace place_of(pugi::xml_node n, std::size_t values, double share, const char* otherwise) {
     const std::string mode = n.attribute("calcMode") ? n.attribute("calcMode").value() : otherwise;
     std::vector<double> times;
     for (const std::string& t : split_list(n.attribute("keyTimes").value(), ';')) {
@@ -172,8 +172,8 @@ class Animating {
     return v;
   }
 
-  std::string value_at(pugi::xml_node n, const std::vector<std::string>& list, const Progress& p, const char* mode) {
-    const Place at = place_of(n, list.size(), p.share, mode);
+  std::string value_at(pugi::xml_node n, const std::vector<std::string>& list, const TimelineProgress& p, const char* mode) {
+    const KeyPlace at = place_of(n, list.size(), p.share, mode);
     std::string value = list[at.index];
     if (at.share > 0) {
       // Values that cannot be interpolated change to the second one half way.
@@ -248,7 +248,7 @@ class Animating {
       } catch (const std::string& problem) {
         document_.fail(n, "the path of the motion: " + problem, "correct it");
       }
-      const Contours contours = pen.finish();
+      const Polylines contours = pen.finish();
       for (std::size_t i = 0; i < contours.points.size(); ++i) {
         way.insert(way.end(), contours.points[i].begin(), contours.points[i].end());
         if (contours.closed[i] && !contours.points[i].empty()) way.push_back(contours.points[i].front());
@@ -278,7 +278,7 @@ class Animating {
       const auto point = Scanner(value_at(n, points, *progress, "linear")).number();
       share = std::clamp(point.value_or(0), 0.0, 1.0);
     } else if (!drawn && !mode.empty() && mode != "paced") {
-      const Place at = place_of(n, way.size(), share, "linear");
+      const KeyPlace at = place_of(n, way.size(), share, "linear");
       const double from = lengths[at.index], to = lengths[std::min(at.index + 1, way.size() - 1)];
       share = lengths.back() > 0 ? (from + at.share * (to - from)) / lengths.back() : 0;
     }
@@ -321,7 +321,7 @@ class Animating {
     (target.attribute(key) ? target.attribute(key) : target.append_attribute(key)).set_value(value.c_str());
   }
 
-  Document& document_;
+  SvgDocument& document_;
   double seconds_, tolerance_;
   Budget& budget_;
   std::unordered_map<const void*, Motion> motions_;
@@ -332,16 +332,16 @@ class Animating {
 
 namespace steradian {
 
-using plane::svg::Document;
+using plane::svg::SvgDocument;
 
 PlaneAnimation::PlaneAnimation(std::string svg, std::string name, const Limits& limits)
     : svg_(std::move(svg)), name_(std::move(name)), limits_(limits) {
-  moves_ = !plane::svg::animations_of(Document(svg_, name_).root()).empty();
+  moves_ = !plane::svg::animations_of(SvgDocument(svg_, name_).root()).empty();
   if (moves_) backdrops_ = plane::svg::read_drawing(still_at(0).svg, name_, limits_).backdrops;
 }
 
 PlaneAnimation::Still PlaneAnimation::still_at(double seconds) const {
-  Document document(svg_, name_);
+  SvgDocument document(svg_, name_);
   Budget budget(limits_);
   plane::svg::Animating(document, seconds, budget).run();
   std::ostringstream text;
@@ -353,14 +353,14 @@ PlaneAnimation::PlaneAnimation(const std::string& path, const Limits& limits)
     : PlaneAnimation(plane::svg::read_text(path, limits), path, limits) {}
 
 double PlaneAnimation::duration() const {
-  Document document(svg_, name_);
+  SvgDocument document(svg_, name_);
   double end = 0;
   for (const pugi::xml_node n : plane::svg::animations_of(document.root())) end = std::max(end, extent_of(document, n).seconds);
   return end;
 }
 
 bool PlaneAnimation::endless() const {
-  Document document(svg_, name_);
+  SvgDocument document(svg_, name_);
   bool any = false;
   for (const pugi::xml_node n : plane::svg::animations_of(document.root())) any |= extent_of(document, n).endless;
   return any;

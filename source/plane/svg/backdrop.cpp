@@ -66,9 +66,9 @@ struct FlatLight {
   Box2d box;  // with the margin at which outlines touch
 };
 
-class Judge {
+class BackdropJudge {
  public:
-  Judge(const PlaneScene& scene, double tolerance, const std::function<void(std::uint64_t)>& spend)
+  BackdropJudge(const PlaneScene& scene, double tolerance, const std::function<void(std::uint64_t)>& spend)
       : scene_(scene), tolerance_(tolerance), spend_(spend) {
     const double margin = kMargin * std::max(scene.width, scene.height);
     const Vec2d inset{std::min(margin, scene.width / 4), std::min(margin, scene.height / 4)}, size{scene.width, scene.height};
@@ -143,7 +143,7 @@ class Judge {
 
 std::vector<Backdrop> backdrops_among(const PlaneScene& scene, const std::vector<std::size_t>& bodies, double tolerance,
                                       const std::function<void(std::uint64_t)>& spend) {
-  Judge judge(scene, tolerance, spend);
+  BackdropJudge judge(scene, tolerance, spend);
   std::vector<Backdrop> result;
   for (const std::size_t i : bodies)
     if (const auto why = judge.why(scene.bodies[i])) result.push_back({i, *why});

@@ -23,8 +23,8 @@ struct Shape {
   bool holds(Vec2d p) const { return rows.contains(p, even_odd); }
 };
 
-std::vector<Edge> edges_of(const std::vector<Contour>& contours, bool closed) {
-  std::vector<Edge> edges;
+std::vector<PlaneEdge> edges_of(const std::vector<Contour>& contours, bool closed) {
+  std::vector<PlaneEdge> edges;
   for (const Contour& c : contours)
     for (std::size_t i = 0; i + (closed ? 0 : 1) < c.size(); ++i)
       if (const Vec2d next = c[i + 1 < c.size() ? i + 1 : 0]; !(c[i] == next)) edges.push_back({c[i], next});
@@ -33,7 +33,7 @@ std::vector<Edge> edges_of(const std::vector<Contour>& contours, bool closed) {
 
 // Places at which each edge meets others, as fractions of its length: calls found(i, s) for edges[i].
 template <class Found>
-void for_each_meeting(const std::vector<Edge>& edges, double touch, const std::function<void(std::uint64_t)>& spend, Found found) {
+void for_each_meeting(const std::vector<PlaneEdge>& edges, double touch, const std::function<void(std::uint64_t)>& spend, Found found) {
   std::vector<std::size_t> order(edges.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto low = [&](std::size_t i) { return std::min(edges[i].a.x, edges[i].b.x); };
@@ -88,9 +88,9 @@ std::vector<Contour> loops(const std::vector<Vec2d>& points, std::map<int, std::
 }
 
 // Points that are the same on the grid have one number.
-class Points {
+class NumberedPoints {
  public:
-  explicit Points(double grid) : grid_(grid) {}
+  explicit NumberedPoints(double grid) : grid_(grid) {}
   int number(Vec2d p) {
     const auto [found, is_new] = numbers_.try_emplace({std::llround(p.x / grid_), std::llround(p.y / grid_)}, static_cast<int>(at.size()));
     if (is_new) at.push_back(p);
@@ -109,8 +109,8 @@ enum class Keep { common, rest };
 // the pieces with the kept region on one side only, with that side to their left.
 std::vector<Contour> part_of(const PlaneBody& a, const PlaneBody& b, Keep keep, double grid,
                              const std::function<void(std::uint64_t)>& spend) {
-  std::vector<Edge> edges = edges_of(a.contours, true);
-  const std::vector<Edge> others = edges_of(b.contours, true);
+  std::vector<PlaneEdge> edges = edges_of(a.contours, true);
+  const std::vector<PlaneEdge> others = edges_of(b.contours, true);
   edges.insert(edges.end(), others.begin(), others.end());
   std::vector<std::vector<double>> cuts(edges.size(), {0, 1});
   for_each_meeting(edges, grid, spend, [&](std::size_t i, double at) {
@@ -118,7 +118,7 @@ std::vector<Contour> part_of(const PlaneBody& a, const PlaneBody& b, Keep keep, 
   });
   const Shape in_a(a), in_b(b);
   const auto kept = [&](Vec2d p) { return in_a.holds(p) && in_b.holds(p) == (keep == Keep::common); };
-  Points points(grid);
+  NumberedPoints points(grid);
   std::set<std::pair<int, int>> seen;
   std::map<int, std::vector<int>> next;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -140,12 +140,12 @@ std::vector<Contour> part_of(const PlaneBody& a, const PlaneBody& b, Keep keep, 
 // The parts of open lines within the region.
 std::vector<Contour> lines_within(const std::vector<Contour>& lines, const ClipRegion& region, double grid,
                                   const std::function<void(std::uint64_t)>& spend) {
-  std::vector<Edge> edges = edges_of(lines, false);
+  std::vector<PlaneEdge> edges = edges_of(lines, false);
   const std::size_t own = edges.size();
   std::vector<Shape> shapes;
   for (const PlaneBody& part : region) {
     shapes.emplace_back(part);
-    const std::vector<Edge> others = edges_of(part.contours, true);
+    const std::vector<PlaneEdge> others = edges_of(part.contours, true);
     edges.insert(edges.end(), others.begin(), others.end());
   }
   std::vector<std::vector<double>> cuts(own, {0, 1});
@@ -171,9 +171,9 @@ std::vector<Contour> lines_within(const std::vector<Contour>& lines, const ClipR
 // Does no edge of `body` meet an edge of `part`, and are all its points within?
 bool lies_within(const PlaneBody& body, const PlaneBody& part, double grid, const std::function<void(std::uint64_t)>& spend) {
   const bool closed = body.shape == PlaneBody::Shape::polygon;
-  std::vector<Edge> edges = edges_of(body.contours, closed);
+  std::vector<PlaneEdge> edges = edges_of(body.contours, closed);
   const std::size_t own = edges.size();
-  const std::vector<Edge> others = edges_of(part.contours, true);
+  const std::vector<PlaneEdge> others = edges_of(part.contours, true);
   edges.insert(edges.end(), others.begin(), others.end());
   std::vector<char> mine(edges.size(), 0);
   for (std::size_t i = 0; i < own; ++i) mine[i] = 1;

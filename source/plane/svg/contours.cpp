@@ -112,7 +112,7 @@ void Pen::end_contour(bool closed) {
   points_.clear();
 }
 
-Contours Pen::finish() {
+Polylines Pen::finish() {
   end_contour(false);
   return std::move(result_);
 }

@@ -10,7 +10,7 @@
 
 namespace steradian::plane::svg {
 
-struct Contours {
+struct Polylines {
   std::vector<std::vector<Vec2d>> points;
   std::vector<bool> closed;
 };
@@ -32,7 +32,7 @@ class Pen {
   // An arc of an ellipse with half axes rx and ry, the first turned by `turn` radians; `large` and `sweep` as in SVG.
   void arc(double rx, double ry, double turn, bool large, bool sweep, Vec2d to);
   void close();
-  Contours finish();
+  Polylines finish();
 
  private:
   void begin(int more);
@@ -42,7 +42,7 @@ class Pen {
   Transform transform_;
   double tolerance_;
   Before before_;
-  Contours result_;
+  Polylines result_;
   std::vector<Vec2d> points_;
   Vec2d at_, start_;
   bool begun_ = false;

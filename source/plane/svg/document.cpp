@@ -9,7 +9,7 @@
 
 namespace steradian::plane::svg {
 
-Document::Document(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+SvgDocument::SvgDocument(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
   const auto parsed = document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_auto);
   if (!parsed)
     throw Error(place(parsed.offset), std::string("not well-formed XML: ") + parsed.description(),
@@ -31,37 +31,37 @@ Document::Document(std::string text, std::string name) : text_(std::move(text)),
   ignored.insert(sheet_.unsupported.begin(), sheet_.unsupported.end());
 }
 
-std::ptrdiff_t Document::line(std::ptrdiff_t offset) const {
+std::ptrdiff_t SvgDocument::line(std::ptrdiff_t offset) const {
   const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
   return 1 + std::count(text_.begin(), end, '\n');
 }
-std::string Document::place(std::ptrdiff_t offset) const { return name_ + ":" + std::to_string(line(offset)); }
-std::string Document::called(pugi::xml_node n) const {
+std::string SvgDocument::place(std::ptrdiff_t offset) const { return name_ + ":" + std::to_string(line(offset)); }
+std::string SvgDocument::called(pugi::xml_node n) const {
   if (*n.attribute("id").value() != '\0') return n.attribute("id").value();
   const std::string element = std::string("<") + n.name() + ">";
   return text_.find('\n') == std::string::npos ? element : element + " in line " + std::to_string(line(n.offset_debug()));
 }
-std::string Document::place_of(pugi::xml_node n) const {
+std::string SvgDocument::place_of(pugi::xml_node n) const {
   std::string where = place(n.offset_debug());
   if (*n.name() != '\0') where += std::string(": <") + n.name() + ">";
   if (n.attribute("id")) where += std::string(" '") + n.attribute("id").value() + "'";
   return where;
 }
-void Document::fail(pugi::xml_node n, const std::string& problem, const std::string& hint) const {
+void SvgDocument::fail(pugi::xml_node n, const std::string& problem, const std::string& hint) const {
   throw Error(place_of(n), problem, hint);
 }
 
-pugi::xml_node Document::by_id(const std::string& id) const {
+pugi::xml_node SvgDocument::by_id(const std::string& id) const {
   const auto found = ids_.find(id);
   return found == ids_.end() ? pugi::xml_node() : found->second;
 }
 
-pugi::xml_node Document::referred(pugi::xml_node n) const {
+pugi::xml_node SvgDocument::referred(pugi::xml_node n) const {
   const std::string_view target = n.attribute("href") ? n.attribute("href").value() : n.attribute("xlink:href").value();
   return target.starts_with('#') ? by_id(std::string(target.substr(1))) : pugi::xml_node();
 }
 
-std::optional<double> Document::length_of(std::string_view text, double whole) {
+std::optional<double> SvgDocument::length_of(std::string_view text, double whole) {
   Scanner scan(text);
   const auto value = scan.number();
   if (!value) return {};
@@ -75,7 +75,7 @@ std::optional<double> Document::length_of(std::string_view text, double whole) {
   if (unit == "%") return *value / 100 * whole;
   return {};
 }
-double Document::length_attribute(pugi::xml_node n, const char* attribute, double whole, double otherwise) const {
+double SvgDocument::length_attribute(pugi::xml_node n, const char* attribute, double whole, double otherwise) const {
   if (!n.attribute(attribute)) return otherwise;
   const auto v = length_of(n.attribute(attribute).value(), whole);
   if (!v)
@@ -84,7 +84,7 @@ double Document::length_attribute(pugi::xml_node n, const char* attribute, doubl
   return *v;
 }
 
-std::optional<std::string> Document::property(pugi::xml_node n, const char* key) const {
+std::optional<std::string> SvgDocument::property(pugi::xml_node n, const char* key) const {
   if (n.attribute("style")) {
     auto declarations = parse_declarations(n.attribute("style").value());
     if (const auto found = declarations.find(key); found != declarations.end()) return std::move(found->second);
@@ -95,7 +95,7 @@ std::optional<std::string> Document::property(pugi::xml_node n, const char* key)
   return {};
 }
 
-double Document::number_attribute(pugi::xml_node n, const char* key, double low, const char* hint) const {
+double SvgDocument::number_attribute(pugi::xml_node n, const char* key, double low, const char* hint) const {
   Scanner scan(n.attribute(key).value());
   const auto v = scan.number();
   scan.skip_separators();

@@ -17,10 +17,10 @@ namespace steradian::plane::svg {
 // The text of a file. Throws Error if it cannot be read, or needs more memory than the limits.
 std::string read_text(const std::string& path, const Limits& limits);
 
-class Document {
+class SvgDocument {
  public:
   // Throws Error if the text is not XML or not SVG.
-  Document(std::string text, std::string name);
+  SvgDocument(std::string text, std::string name);
 
   pugi::xml_node root() const { return document_.document_element(); }
   std::string place_of(pugi::xml_node n) const;  // file, line and name, for messages

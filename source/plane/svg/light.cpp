@@ -11,7 +11,7 @@
 
 namespace steradian::plane::svg {
 
-void take_extras(const Document& document, pugi::xml_node n, const Style& style, PlaneBody& body) {
+void take_extras(const SvgDocument& document, pugi::xml_node n, const Style& style, PlaneBody& body) {
   if (body.light) {
     // Attributes of a group apply to the occluders in it.
     for (const char* key : {"data-transmittance", "data-mirror", "data-light-depth"})
@@ -30,7 +30,7 @@ void take_extras(const Document& document, pugi::xml_node n, const Style& style,
   body.light_depth = style.light_depth;
 }
 
-std::vector<Vec3d> texels_of(const Document& document, pugi::xml_node n, const Style& style, const PlaneBody& line) {
+std::vector<Vec3d> texels_of(const SvgDocument& document, pugi::xml_node n, const Style& style, const PlaneBody& line) {
   if (line.shape != PlaneBody::Shape::polyline)
     document.fail(n, "data-texture of a shape that is not a plain line", "give it fill=\"none\", a stroke, and no round ends");
   const char* const hint = "write colours with semicolons between them";
@@ -52,7 +52,7 @@ namespace {
 
 class Paint {
  public:
-  Paint(Document& document, Vec2d size) : document_(document), size_(size) {}
+  Paint(SvgDocument& document, Vec2d size) : document_(document), size_(size) {}
 
   PlaneEmission emission(pugi::xml_node n, const PlaneBody& body, const Style& style, bool filled) {
     PlaneEmission e;
@@ -164,13 +164,13 @@ class Paint {
     return t * Transform{size.x, 0, 0, size.y, box.low.x, box.low.y};
   }
 
-  Document& document_;
+  SvgDocument& document_;
   Vec2d size_;
 };
 
 }  // namespace
 
-Vec3d color_of(const Document& document, const Style& style, bool filled) {
+Vec3d color_of(const SvgDocument& document, const Style& style, bool filled) {
   std::string_view paint = filled ? style.fill : style.stroke;
   if (paint == "currentColor") paint = style.color;
   if (!paint.starts_with("url(")) return parse_color(paint).value_or(Vec3d{});
@@ -188,7 +188,7 @@ Vec3d color_of(const Document& document, const Style& style, bool filled) {
   return sum / std::max(count, 1);
 }
 
-PlaneEmission emission_of(Document& document, pugi::xml_node n, const PlaneBody& body, const Style& style, bool filled, Vec2d size) {
+PlaneEmission emission_of(SvgDocument& document, pugi::xml_node n, const PlaneBody& body, const Style& style, bool filled, Vec2d size) {
   return Paint(document, size).emission(n, body, style, filled);
 }
 

@@ -43,14 +43,14 @@ std::vector<pugi::xml_node> elements_of(pugi::xml_node root) {
   return order;
 }
 
-class Reader {
+class DrawingReader {
  public:
-  Reader(std::string text, std::string name, const Limits& limits) : document_(std::move(text), name), budget_(limits) {
+  DrawingReader(std::string text, std::string name, const Limits& limits) : document_(std::move(text), name), budget_(limits) {
     result_.scene.name = std::move(name);
     find_drawing(document_.root());
   }
 
-  Drawing read(const Backdrops* backdrops) try {
+  LoadedDrawing read(const Backdrops* backdrops) try {
     if (backdrops != nullptr) keep_backdrops(*backdrops);
     const pugi::xml_node root = document_.root();
     read_frame(root);
@@ -307,7 +307,7 @@ class Reader {
     }
     Pen pen(style.transform, flatness(), [&](std::size_t points) { spend(n, 400 * points, 40 * points); });
     draw_shape(document_, n, size(), pen);
-    Contours contours = pen.finish();
+    Polylines contours = pen.finish();
     if (filled) {
       for (auto& c : contours.points)
         if (c.size() > 2) body.contours.push_back(std::move(c));
@@ -319,7 +319,7 @@ class Reader {
   }
 
   // A shape without a fill: a body of the stroke's width, or a line of no thickness, which is visible from both sides.
-  void stroke(pugi::xml_node n, Contours contours, const Style& style) {
+  void stroke(pugi::xml_node n, Polylines contours, const Style& style) {
     if (style.stroke == "none" && style.role == Role::by_shape) return leave_out(n, style, PlaneLeftOut::Why::unpainted);
     const Stroke pen = pen_of(style);
     const bool textured = n.attribute("data-texture") && pen.cap != Cap::round;
@@ -333,7 +333,7 @@ class Reader {
     add(n, std::move(body), style, false);
   }
 
-  void thick_stroke(pugi::xml_node n, const Contours& contours, const Style& style, const Stroke& pen) {
+  void thick_stroke(pugi::xml_node n, const Polylines& contours, const Style& style, const Stroke& pen) {
     for (std::size_t i = 0; i < contours.points.size(); ++i) {
       const std::uint64_t points = most_points(style.transform, contours.points[i], pen, flatness());
       spend(n, 60 * points, 20 * points);
@@ -453,7 +453,7 @@ class Reader {
     for (PlaneStop& stop : light.gradient->stops) stop.radiance = stop.radiance * opacity;
   }
 
-  Document document_;
+  SvgDocument document_;
   std::optional<Styles> styles_;
   std::optional<Fonts> fonts_;
   Budget budget_;
@@ -473,8 +473,8 @@ class Reader {
 
 }  // namespace
 
-Drawing read_drawing(const std::string& text, const std::string& name, const Limits& limits, const Backdrops* backdrops) {
-  return Reader(text, name, limits).read(backdrops);
+LoadedDrawing read_drawing(const std::string& text, const std::string& name, const Limits& limits, const Backdrops* backdrops) {
+  return DrawingReader(text, name, limits).read(backdrops);
 }
 
 }  // namespace steradian::plane::svg

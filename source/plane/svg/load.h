@@ -12,12 +12,12 @@ namespace steradian::plane::svg {
 // Elements that are taken for backdrops, by their number in the drawing.
 using Backdrops = std::map<std::size_t, PlaneLeftOut::Why>;
 
-struct Drawing {
+struct LoadedDrawing {
   PlaneSvg svg;
   Backdrops backdrops;
 };
 
 // Reads a drawing. `backdrops`: those of another frame, which remain; null: judged here. Throws as load_plane_scene.
-Drawing read_drawing(const std::string& text, const std::string& name, const Limits& limits, const Backdrops* backdrops = nullptr);
+LoadedDrawing read_drawing(const std::string& text, const std::string& name, const Limits& limits, const Backdrops* backdrops = nullptr);
 
 }  // namespace steradian::plane::svg

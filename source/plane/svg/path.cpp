@@ -105,7 +105,7 @@ void draw_points(std::string_view points, Pen& pen) {
   }
 }
 
-void draw_shape(const Document& document, pugi::xml_node n, Vec2d whole, Pen& pen) {
+void draw_shape(const SvgDocument& document, pugi::xml_node n, Vec2d whole, Pen& pen) {
   const std::string_view name = n.name();
   if (name == "rect") return draw_rect(document, n, whole, 0, pen);
   const auto point = [&](const char* x, const char* y) {
@@ -125,7 +125,7 @@ void draw_shape(const Document& document, pugi::xml_node n, Vec2d whole, Pen& pe
   }
 }
 
-void draw_rect(const Document& document, pugi::xml_node n, Vec2d whole, double height, Pen& pen) {
+void draw_rect(const SvgDocument& document, pugi::xml_node n, Vec2d whole, double height, Pen& pen) {
   const auto length = [&](const char* key, double of, double otherwise = 0) { return document.length_attribute(n, key, of, otherwise); };
   const Vec2d corner{length("x", whole.x), length("y", whole.y)}, size{length("width", whole.x), length("height", whole.y, height)};
   if (size.x < 0 || size.y < 0) document.fail(n, "width and height must not be negative", "move x or y instead");

@@ -20,9 +20,9 @@ void draw_points(std::string_view points, Pen& pen);
 
 // Draws the element, which is one of them; percentages refer to +whole+, the picture's size in user units. Throws Error with its line if it
 // is malformed.
-void draw_shape(const Document& document, pugi::xml_node n, Vec2d whole, Pen& pen);
+void draw_shape(const SvgDocument& document, pugi::xml_node n, Vec2d whole, Pen& pen);
 
 // Draws the box of x, y, width and height, with its round corners; nothing if it is empty. +height+ is the default height.
-void draw_rect(const Document& document, pugi::xml_node n, Vec2d whole, double height, Pen& pen);
+void draw_rect(const SvgDocument& document, pugi::xml_node n, Vec2d whole, double height, Pen& pen);
 
 }  // namespace steradian::plane::svg

@@ -21,9 +21,9 @@ double step_of(double radius, double tolerance) {
 Vec2d left(Vec2d along) { return {-along.y, along.x}; }
 
 // The side to the left along the line.
-class Side {
+class StrokeSide {
  public:
-  Side(const Stroke& stroke, double tolerance) : stroke_(stroke), radius_(stroke.radius), step_(step_of(stroke.radius, tolerance)) {}
+  StrokeSide(const Stroke& stroke, double tolerance) : stroke_(stroke), radius_(stroke.radius), step_(step_of(stroke.radius, tolerance)) {}
 
   std::vector<Vec2d> points;
 
@@ -80,7 +80,7 @@ class Side {
   double radius_, step_;
 };
 
-void walk(const std::vector<Vec2d>& line, bool closed, Side& side) {
+void walk(const std::vector<Vec2d>& line, bool closed, StrokeSide& side) {
   const std::size_t n = line.size();
   const auto segment = [&](std::size_t i) { return line[(i + 1) % n] - line[i % n]; };
   const auto turn = [&](std::size_t i) {
@@ -119,10 +119,10 @@ Transform inverse(const Transform& t) {
 }
 
 // The factors by which a transform stretches the most and the least.
-struct Stretch {
+struct StretchFactors {
   double most, least;
 };
-Stretch stretch_of(const Transform& t) {
+StretchFactors stretch_of(const Transform& t) {
   const double sum = std::hypot(t.a + t.d, t.b - t.c), difference = std::hypot(t.a - t.d, t.b + t.c);
   return {0.5 * (sum + difference), 0.5 * std::fabs(sum - difference)};
 }
@@ -145,7 +145,7 @@ PlaneBody stroke_of(const std::vector<Vec2d>& line, bool closed, const Stroke& s
     drawn.cap = stroke.join == Join::round ? Cap::round : Cap::butt;
   }
   if (points.size() == 2 && drawn.cap == Cap::round) return capsule(points[0], points[1], stroke.radius);
-  Side side(drawn, tolerance);
+  StrokeSide side(drawn, tolerance);
   PlaneBody body;
   walk(points, closed, side);
   if (closed) body.contours.push_back(std::move(side.points)), side.points.clear();
@@ -156,7 +156,7 @@ PlaneBody stroke_of(const std::vector<Vec2d>& line, bool closed, const Stroke& s
 }
 
 PlaneBody stroke_after(const Transform& transform, const std::vector<Vec2d>& line, bool closed, const Stroke& stroke, double tolerance) {
-  const Stretch stretch = stretch_of(transform);
+  const StretchFactors stretch = stretch_of(transform);
   if (!(stretch.least > kFlat * stretch.most)) return {};
   if (stretch.most - stretch.least <= kRound * stretch.most) {
     Stroke scaled = stroke;

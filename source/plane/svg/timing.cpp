@@ -13,7 +13,7 @@ namespace {
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 // The first of the begins that is a time; events and other animations never begin.
-std::optional<double> begin_of(Document& document, std::string_view text) {
+std::optional<double> begin_of(SvgDocument& document, std::string_view text) {
   if (text.empty()) return 0;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(';'), text.size());
@@ -27,7 +27,7 @@ std::optional<double> begin_of(Document& document, std::string_view text) {
   return {};
 }
 
-double duration_of(Document& document, pugi::xml_node n, const char* key) {
+double duration_of(SvgDocument& document, pugi::xml_node n, const char* key) {
   const std::string_view text = trimmed(n.attribute(key).value());
   if (text.empty() || text == "indefinite") return kForever;
   const auto seconds = clock_value(text);
@@ -62,7 +62,7 @@ std::optional<double> clock_value(std::string_view text) {
 namespace {
 
 // Active duration, with repeats. As in SMIL it is the smaller of the declared limits; one turn if none is declared.
-double active_of(Document& document, pugi::xml_node n, double simple) {
+double active_of(SvgDocument& document, pugi::xml_node n, double simple) {
   const std::string_view repeats = trimmed(n.attribute("repeatCount").value());
   double active = kForever;
   if (n.attribute("repeatDur")) active = duration_of(document, n, "repeatDur");
@@ -78,7 +78,7 @@ double active_of(Document& document, pugi::xml_node n, double simple) {
 
 }  // namespace
 
-Extent extent_of(Document& document, pugi::xml_node n) {
+Extent extent_of(SvgDocument& document, pugi::xml_node n) {
   const auto begin = begin_of(document, n.attribute("begin").value());
   if (!begin) return {};
   const double simple = duration_of(document, n, "dur");
@@ -87,20 +87,20 @@ Extent extent_of(Document& document, pugi::xml_node n) {
   return {std::max(*begin + (active == kForever ? simple : active), 0.0), active == kForever};
 }
 
-std::optional<Progress> progress_of(Document& document, pugi::xml_node n, double seconds) {
+std::optional<TimelineProgress> progress_of(SvgDocument& document, pugi::xml_node n, double seconds) {
   for (const char* key : {"end", "min", "max"})
     if (n.attribute(key)) document.ignored.insert(std::string("attribute ") + key + " of animations");
   const auto begin = begin_of(document, n.attribute("begin").value());
   if (!begin || seconds < *begin) return {};
   const double simple = duration_of(document, n, "dur"), at = seconds - *begin;
-  if (simple == kForever) return Progress{};
+  if (simple == kForever) return TimelineProgress{};
   const double active = active_of(document, n, simple);
   const bool over = at >= active;
   if (over && std::string_view(n.attribute("fill").value()) != "freeze") return {};
   const double turns = std::min(over ? active / simple : at / simple, 1e9), whole = std::floor(turns);
   // Frozen at the end of a turn, not at the beginning of the next.
-  if (over && turns == whole) return Progress{1, static_cast<int>(whole) - 1};
-  return Progress{turns - whole, static_cast<int>(whole)};
+  if (over && turns == whole) return TimelineProgress{1, static_cast<int>(whole) - 1};
+  return TimelineProgress{turns - whole, static_cast<int>(whole)};
 }
 
 }  // namespace steradian::plane::svg

@@ -7,7 +7,7 @@
 namespace steradian::plane::svg {
 namespace {
 
-ViewBox box_of(const Document& document, pugi::xml_node n) {
+ViewBox box_of(const SvgDocument& document, pugi::xml_node n) {
   Scanner scan(n.attribute("viewBox").value());
   double v[4];
   for (double& x : v) {
@@ -34,7 +34,7 @@ Transform Viewport::into(Vec2d corner, Vec2d room) const {
   return t;
 }
 
-Viewport viewport_of(const Document& document, pugi::xml_node n) {
+Viewport viewport_of(const SvgDocument& document, pugi::xml_node n) {
   Viewport view;
   if (n.attribute("viewBox")) view.box = box_of(document, n);
   const std::vector<std::string> given = words(n.attribute("preserveAspectRatio").value());

@@ -23,6 +23,6 @@ struct Viewport {
 };
 
 // Reads viewBox and preserveAspectRatio.
-Viewport viewport_of(const Document& document, pugi::xml_node n);
+Viewport viewport_of(const SvgDocument& document, pugi::xml_node n);
 
 }  // namespace steradian::plane::svg

@@ -145,7 +145,7 @@ Alone<T> alone_of(const Question& question) {
 
 // Memory of one thread.
 template <class T>
-struct Scratch {
+struct BatchScratch {
   Columns<T> position, normal, view;
   alignas(64) std::array<T, kTilePixels + 16> plain, fresnel;
   std::array<std::uint8_t, kTilePixels + 16> alone;
@@ -155,8 +155,8 @@ struct Scratch {
 template <class T>
 void answer_chunk(const Question& question, const Alone<T>& which, const PointRows<T>& points, std::size_t first, std::size_t count,
                   const RadianceRows<T>& result, Vector3<T> of_plain, Vector3<T> of_fresnel, const auto& run) {
-  thread_local const auto scratch = std::make_unique<Scratch<T>>();
-  Scratch<T>& s = *scratch;
+  thread_local const auto scratch = std::make_unique<BatchScratch<T>>();
+  BatchScratch<T>& s = *scratch;
   const BatchRowsTable<T>& table = rows_table<T>();
   const std::size_t padded = (count + kPackMultiple - 1) / kPackMultiple * kPackMultiple;
   const auto from = [&](const Rows<T>& rows) {

@@ -5,8 +5,8 @@ namespace steradian::indirect {
 // Culls against the tile first, then culls the rest against its blocks. A block's test costs a fortieth of its pairs' work.
 template <std::size_t planes>
 template <class Cull>
-void TileLists::Kind<planes>::run(Cull cull, const Bounds<planes>& all, const ReceiverBounds& box,
-                                  const std::array<ReceiverBounds, kBlocks>& blocks) {
+void BlockLists::Kind<planes>::run(Cull cull, const Bounds<planes>& all, const ReceiverBounds& box,
+                                   const std::array<ReceiverBounds, kBlocks>& blocks) {
   count.fill(0);
   if (all.count == 0 || box.empty) return;
   const std::size_t room = all.count + 32;
@@ -30,7 +30,7 @@ void TileLists::Kind<planes>::run(Cull cull, const Bounds<planes>& all, const Re
   }
 }
 
-void TileLists::cull(const CullTable& table, const LightSet& set, const Receivers& receivers, std::size_t first) {
+void BlockLists::cull(const LightCullTable& table, const LightSet& set, const Receivers& receivers, std::size_t first) {
   std::array<ReceiverBounds, kBlocks> blocks;
   for (std::size_t b = 0; b < kBlocks; ++b) blocks[b] = bounds_of(receivers, first + b * kBlockReceivers, kBlockReceivers);
   const ReceiverBounds box = bounds_of(receivers, first, kTileReceivers);

@@ -27,17 +27,17 @@ struct Passed {
   std::uint32_t* index = nullptr;
 };
 
-struct CullTable {
+struct LightCullTable {
   // Returns the number of lights that may reach the box.
   std::size_t (*eggs)(const Bounds<kEggPlanes>& bounds, const ReceiverBounds& box, const Passed<kEggPlanes>& passed);
   std::size_t (*spheroids)(const Bounds<kSpheroidPlanes>& bounds, const ReceiverBounds& box, const Passed<kSpheroidPlanes>& passed);
 };
 
 // The lights of every block of a tile, as indices into the set. The memory of one thread, reused for every tile.
-class TileLists {
+class BlockLists {
  public:
   // Fills the lists of the tile of receivers that begins at `first`.
-  void cull(const CullTable& table, const LightSet& set, const Receivers& receivers, std::size_t first);
+  void cull(const LightCullTable& table, const LightSet& set, const Receivers& receivers, std::size_t first);
 
   struct List {
     const std::uint32_t* begin = nullptr;
@@ -64,5 +64,5 @@ class TileLists {
 }  // namespace steradian::indirect
 
 namespace steradian {
-STERADIAN_DECLARE_PACK_TABLE(indirect::CullTable, cull_table)
+STERADIAN_DECLARE_PACK_TABLE(indirect::LightCullTable, cull_table)
 }

@@ -74,8 +74,8 @@ __attribute__((flatten)) std::size_t spheroids(const Bounds<kSpheroidPlanes>& bo
 
 }  // namespace
 
-const indirect::CullTable& cull_table() {
-  static constexpr indirect::CullTable table = {eggs, spheroids};
+const indirect::LightCullTable& cull_table() {
+  static constexpr indirect::LightCullTable table = {eggs, spheroids};
   return table;
 }
 

@@ -74,10 +74,10 @@ TEST(IndirectCulling, ListsHoldAllThatIsKept) {
     for (const Simd simd : available_simd())
       for (int tile = 0; tile < 12; ++tile) {
         const Receivers receivers = random_tile(draw);
-        TileLists lists;
+        BlockLists lists;
         lists.cull(cull_table_for(simd), set, receivers, 0);
         for (std::size_t b = 0; b < kBlocks; ++b) {
-          const auto missing = [](TileLists::List list, std::size_t j) {
+          const auto missing = [](BlockLists::List list, std::size_t j) {
             return !std::binary_search(list.begin, list.begin + list.count, j);
           };
           listed += (lists.diffuse(b).count + lists.glossy(b).count) * kBlockReceivers;
@@ -85,7 +85,7 @@ TEST(IndirectCulling, ListsHoldAllThatIsKept) {
             const Vec3f n = receivers.normal[i];
             if (dot(n, n) == 0) continue;
             // Lights that exceed the threshold by less than rounding may be missing.
-            const auto check = [&](TileLists::List list, std::size_t j, double value, float reach, float xi, double distance) {
+            const auto check = [&](BlockLists::List list, std::size_t j, double value, float reach, float xi, double distance) {
               if (!(value > 1.0001 * static_cast<double>(reach * xi) * distance)) return;
               ++kept;
               lost += missing(list, j);

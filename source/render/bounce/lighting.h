@@ -14,12 +14,12 @@ struct PickedLights {
 
 struct LightingTable {
   // Overwrites `light` at the block's receivers.
-  void (*ltc)(const LightSet& set, TileLists::List diffuse, TileLists::List glossy, const Receivers& receivers, std::size_t first,
-              const LtcPackTables& tables, bool quads, Light& light);
-  void (*ggx)(const LightSet& set, TileLists::List diffuse, TileLists::List glossy, const Receivers& receivers, std::size_t first,
-              const LtcPackTables& tables, bool quads, Light& light);
+  void (*ltc)(const LightSet& set, BlockLists::List diffuse, BlockLists::List glossy, const Receivers& receivers, std::size_t first,
+              const LtcPackTables& tables, bool quads, IncomingLight& light);
+  void (*ggx)(const LightSet& set, BlockLists::List diffuse, BlockLists::List glossy, const Receivers& receivers, std::size_t first,
+              const LtcPackTables& tables, bool quads, IncomingLight& light);
   // Chooses lights with a probability proportional to their light by `ltc`. shares: a uniform number per receiver.
-  void (*pick)(const LightSet& set, TileLists::List diffuse, TileLists::List glossy, const Receivers& receivers, std::size_t first,
+  void (*pick)(const LightSet& set, BlockLists::List diffuse, BlockLists::List glossy, const Receivers& receivers, std::size_t first,
                const LtcPackTables& tables, bool quads, const float* shares, const PickedLights& picked);
 };
 

@@ -6,19 +6,19 @@ STERADIAN_BEGIN_ISA
 namespace {
 
 using K = PackKernels;
+using indirect::BlockLists;
 using indirect::DiffuseLight;
 using indirect::GgxLight;
 using indirect::GlossyLight;
 using indirect::LightSet;
 using indirect::QuadLight;
-using indirect::TileLists;
 
 STERADIAN_INLINE PackVec3 load_vector(const indirect::VectorArray& a, std::size_t i) {
   return {load(a.x.data() + i), load(a.y.data() + i), load(a.z.data() + i)};
 }
 
 // Sums a pair's light, for the receiver's diffuse and glossy lobes.
-struct Sums {
+struct PairSums {
   PackVec3 diffuse{0.0, 0.0, 0.0}, glossy{0.0, 0.0, 0.0};
   STERADIAN_INLINE void add_diffuse(const PackVec3& light, std::size_t) { diffuse = diffuse + light; }
   STERADIAN_INLINE void add_glossy(const PackVec3& light, std::size_t) { glossy = glossy + light; }
@@ -38,7 +38,7 @@ struct Picks {
   STERADIAN_INLINE void add_glossy(const PackVec3& light, std::size_t id) { advance(glossy_sum, glossy_target, glossy, light, id); }
 };
 
-struct Receiver {
+struct PackReceiver {
   PackVec3 position, normal;
   K::IndirectLobe lobe;
   K::mask sharp;
@@ -47,14 +47,14 @@ struct Receiver {
 using Way = K::IndirectWay;
 STERADIAN_INLINE Way way_to(const Vec3f& light, const PackVec3& p) { return K().indirect_way(broadcast(light), p); }
 
-__attribute__((noinline, flatten)) PackReal quad_half(const Receiver& at, const K::IndirectQuad& quad, const Way& way, PackReal soft,
+__attribute__((noinline, flatten)) PackReal quad_half(const PackReceiver& at, const K::IndirectQuad& quad, const Way& way, PackReal soft,
                                                       PackReal rarity) {
   return K().indirect_quad_half(at.lobe, quad, way, soft, rarity);
 }
 
 // Adds the light of a pair; `kept` is the light's half after culling, `bright` its colour.
 template <bool glossy, bool quads, class Sink>
-STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept, const PackVec3& bright, const Vec3f& light_normal,
+STERADIAN_INLINE void add_pair(const PackReceiver& at, const Way& way, PackReal kept, const PackVec3& bright, const Vec3f& light_normal,
                                const QuadLight* quad, PackReal soft, PackReal value, std::size_t id, Sink& sums) {
   K k;
   const PackReal cosine = max(dot(at.normal, way.v), PackReal(0.0));
@@ -73,7 +73,7 @@ STERADIAN_INLINE void add_pair(const Receiver& at, const Way& way, PackReal kept
 }
 
 template <bool glossy, bool quads, class Sink>
-STERADIAN_INLINE void add_diffuse_lights(const LightSet& set, const TileLists::List& list, const Receiver& at, Sink& sums) {
+STERADIAN_INLINE void add_diffuse_lights(const LightSet& set, const BlockLists::List& list, const PackReceiver& at, Sink& sums) {
   K k;
   for (std::size_t j = 0; j < list.count; ++j) {
     const DiffuseLight& light = set.diffuse[list.begin[j]];
@@ -88,7 +88,7 @@ STERADIAN_INLINE void add_diffuse_lights(const LightSet& set, const TileLists::L
 }
 
 template <bool glossy, bool quads, class Sink>
-STERADIAN_INLINE void add_glossy_lights(const LightSet& set, const TileLists::List& list, const Receiver& at, Sink& sums) {
+STERADIAN_INLINE void add_glossy_lights(const LightSet& set, const BlockLists::List& list, const PackReceiver& at, Sink& sums) {
   K k;
   for (std::size_t j = 0; j < list.count; ++j) {
     const GlossyLight& light = set.glossy[list.begin[j]];
@@ -116,9 +116,9 @@ STERADIAN_INLINE void store_vector(indirect::VectorArray& a, std::size_t i, cons
 }
 
 template <bool glossy, bool quads, class Sink>
-__attribute__((flatten, noinline)) Sink add_lights(const LightSet& set, const TileLists::List& diffuse, const TileLists::List& shiny,
-                                                   const Receiver& receiver, const Sink& start) {
-  const Receiver at = receiver;
+__attribute__((flatten, noinline)) Sink add_lights(const LightSet& set, const BlockLists::List& diffuse, const BlockLists::List& shiny,
+                                                   const PackReceiver& receiver, const Sink& start) {
+  const PackReceiver at = receiver;
   Sink sink = start;
   add_diffuse_lights<glossy, quads>(set, diffuse, at, sink);
   add_glossy_lights<glossy, quads>(set, shiny, at, sink);
@@ -127,7 +127,7 @@ __attribute__((flatten, noinline)) Sink add_lights(const LightSet& set, const Ti
 
 // The lobes of a pack of receivers; `glossy` marks those with a glossy lobe.
 struct Prepared {
-  Receiver at;
+  PackReceiver at;
   K::mask glossy, facing;
 };
 STERADIAN_INLINE Prepared prepare(const indirect::Receivers& receivers, std::size_t i, const LtcPackTables& tables) {
@@ -149,18 +149,18 @@ STERADIAN_INLINE Prepared prepare(const indirect::Receivers& receivers, std::siz
 }
 
 template <class Sink>
-STERADIAN_INLINE Sink run(const LightSet& set, const TileLists::List& diffuse, const TileLists::List& shiny, const Prepared& p, bool quads,
-                          const Sink& start) {
+STERADIAN_INLINE Sink run(const LightSet& set, const BlockLists::List& diffuse, const BlockLists::List& shiny, const Prepared& p,
+                          bool quads, const Sink& start) {
   if (!any_lane(p.glossy)) return add_lights<false, false>(set, diffuse, shiny, p.at, start);
   if (quads && any_lane(p.at.sharp)) return add_lights<true, true>(set, diffuse, shiny, p.at, start);
   return add_lights<true, false>(set, diffuse, shiny, p.at, start);
 }
 
-void ltc(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
-         const LtcPackTables& tables, bool quads, indirect::Light& light) {
+void ltc(const LightSet& set, BlockLists::List diffuse, BlockLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
+         const LtcPackTables& tables, bool quads, indirect::IncomingLight& light) {
   for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
     const Prepared p = prepare(receivers, i, tables);
-    const Sums sums = run(set, diffuse, shiny, p, quads, Sums());
+    const PairSums sums = run(set, diffuse, shiny, p, quads, PairSums());
     store_vector(light.diffuse, i, sums.diffuse);
     // Receivers without a glossy lobe, or seen from below, get nothing.
     store_vector(light.glossy, i,
@@ -168,7 +168,7 @@ void ltc(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, co
   }
 }
 
-void pick(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
+void pick(const LightSet& set, BlockLists::List diffuse, BlockLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
           const LtcPackTables& tables, bool quads, const float* shares, const indirect::PickedLights& picked) {
   for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
     const Prepared p = prepare(receivers, i, tables);
@@ -196,7 +196,7 @@ struct GgxReceiver {
 };
 
 template <bool glossy>
-STERADIAN_INLINE void add_ggx_pair(const GgxReceiver& at, const Way& way, PackReal kept, const PackVec3& bright, Sums& sums) {
+STERADIAN_INLINE void add_ggx_pair(const GgxReceiver& at, const Way& way, PackReal kept, const PackVec3& bright, PairSums& sums) {
   K k;
   const PackReal cosine = max(dot(at.normal, way.v), PackReal(0.0));
   sums.diffuse = sums.diffuse + bright * (kept * cosine * (way.inverse * way.inverse));
@@ -209,8 +209,8 @@ STERADIAN_INLINE void add_ggx_pair(const GgxReceiver& at, const Way& way, PackRe
 }
 
 template <bool glossy>
-__attribute__((flatten, noinline)) void add_ggx_lights(const LightSet& set, const TileLists::List& diffuse, const TileLists::List& shiny,
-                                                       const GgxReceiver& receiver, Sums& sums) {
+__attribute__((flatten, noinline)) void add_ggx_lights(const LightSet& set, const BlockLists::List& diffuse, const BlockLists::List& shiny,
+                                                       const GgxReceiver& receiver, PairSums& sums) {
   K k;
   const GgxReceiver at = receiver;
   for (std::size_t j = 0; j < diffuse.count; ++j) {
@@ -234,14 +234,14 @@ __attribute__((flatten, noinline)) void add_ggx_lights(const LightSet& set, cons
   }
 }
 
-void ggx(const LightSet& set, TileLists::List diffuse, TileLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
-         const LtcPackTables& tables, bool, indirect::Light& light) {
+void ggx(const LightSet& set, BlockLists::List diffuse, BlockLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
+         const LtcPackTables& tables, bool, indirect::IncomingLight& light) {
   K k;
   for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
     GgxReceiver at;
     at.position = load_vector(receivers.position, i);
     at.normal = load_vector(receivers.normal, i);
-    Sums sums;
+    PairSums sums;
     const auto glossy = load(receivers.glossy.data() + i) > PackReal(0.0);
     if (any_lane(glossy)) {
       const PackVec3 v = load_vector(receivers.view, i);

@@ -26,10 +26,11 @@ struct GgxPairLight {
 
 struct PairTable {
   // Overwrites `light` at all receivers, without adding to it, demodulated as in LightingTable.
-  void (*ltc)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables, Light& light);
-  void (*ltc_schlick)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables, Light& light);
+  void (*ltc)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables, IncomingLight& light);
+  void (*ltc_schlick)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables,
+                      IncomingLight& light);
   // Overwrites with the radiance of the glossy lobe itself, Fresnel included.
-  void (*ggx)(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, Light& light);
+  void (*ggx)(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, IncomingLight& light);
 };
 
 }  // namespace steradian::indirect

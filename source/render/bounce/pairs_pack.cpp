@@ -8,13 +8,13 @@ namespace {
 
 using K = PackKernels;
 using indirect::GgxPairLight;
-using indirect::Light;
+using indirect::IncomingLight;
 using indirect::PairLight;
 using indirect::Receivers;
 
 template <bool schlick>
 STERADIAN_INLINE void sum_ltc(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables,
-                              Light& light) {
+                              IncomingLight& light) {
   K k;
   for (std::size_t i = 0; i < receivers.alpha.size(); i += kLanes) {
     const PackVec3 p = load_at(receivers.position, i), n = load_at(receivers.normal, i);
@@ -41,15 +41,15 @@ STERADIAN_INLINE void sum_ltc(const PairLight* lights, std::size_t count, const 
 }
 
 __attribute__((flatten)) void ltc(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables,
-                                  Light& light) {
+                                  IncomingLight& light) {
   sum_ltc<false>(lights, count, receivers, tables, light);
 }
 __attribute__((flatten)) void ltc_schlick(const PairLight* lights, std::size_t count, const Receivers& receivers,
-                                          const LtcPackTables& tables, Light& light) {
+                                          const LtcPackTables& tables, IncomingLight& light) {
   sum_ltc<true>(lights, count, receivers, tables, light);
 }
 
-__attribute__((flatten)) void ggx(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, Light& light) {
+__attribute__((flatten)) void ggx(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, IncomingLight& light) {
   K k;
   for (std::size_t i = 0; i < receivers.alpha.size(); i += kLanes) {
     const PackVec3 p = load_at(receivers.position, i), n = load_at(receivers.normal, i), view = load_at(receivers.view, i);

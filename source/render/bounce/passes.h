@@ -23,7 +23,7 @@ class Passes {
   // The same as VirtualLightTable::prepare.
   virtual LobeArrays lobes(const ShadowMap& map) = 0;
   // Culling, lighting, filter and resolve. Returns the bounce's radiance as planes of the surfaces' raster.
-  virtual VectorArray radiance(const FrameSurfaces& surfaces, const std::vector<LightSet>& sets, const Layout& layout,
+  virtual VectorArray radiance(const PictureSurfaces& surfaces, const std::vector<LightSet>& sets, const Layout& layout,
                                const BounceSettings& settings) = 0;
   // Times since the last call, by the device's own clock: all these passes, and the transfers to the device and back.
   virtual std::vector<PassTime> take_times() = 0;

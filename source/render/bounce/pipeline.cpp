@@ -26,7 +26,7 @@ bool needs_whole_surfaces(const RenderOptions& options) {
 }
 
 // Places spread over the picture, for the culling's threshold.
-VectorArray some_receivers(const FrameSurfaces& s) {
+VectorArray some_receivers(const PictureSurfaces& s) {
   constexpr int kColumns = 16, kDown = 9;
   VectorArray places(kColumns * kDown);
   std::size_t n = 0;
@@ -40,7 +40,7 @@ VectorArray some_receivers(const FrameSurfaces& s) {
 }
 
 // Distance between the surfaces of neighbouring pixels: the median over places spread over the picture.
-double pixel_spacing(const FrameSurfaces& s) {
+double pixel_spacing(const PictureSurfaces& s) {
   constexpr int kColumns = 32, kDown = 18;
   std::vector<double> spacings;
   for (int j = 0; j < kDown; ++j)
@@ -179,7 +179,7 @@ void Pipeline::add_sum(Picture& picture) {
   passes_.push_back({"light", lit.work.light_ms / threads_});
   if (o.shadow_rays > 0) passes_.push_back({"shadows", lit.work.shadow_ms / threads_});
   receivers = {};  // frees memory for the next planes
-  Light light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
+  IncomingLight light = timed("deinterleave", [&] { return deinterleave(lit.light, layout); });
   lit.light = {};
   if (o.filter && side > 1)
     light = timed("filter", [&] {

@@ -37,7 +37,7 @@ class Pipeline {
   const int threads_;
   Passes* device_;
   const LtcPackTables tables_;
-  FrameSurfaces surfaces_;
+  PictureSurfaces surfaces_;
   std::vector<Surface> whole_;  // for ground truth only: with coat, sheen and material; empty at places that take no light
   std::vector<PassTime> passes_;
 };

@@ -30,7 +30,7 @@ struct LightRay {
 };
 
 // A light as a side x side grid of rays.
-struct Emitter {
+struct LightRayGrid {
   double power = 0;
   std::function<LightRay(int column, int row, int side)> ray;
 };
@@ -42,7 +42,7 @@ double spot_falloff(const PunctualLight& light, Vec3d unit) {
 }
 
 // A grid over the square around the cone, in the plane at distance 1. A texel's solid angle is 4 tan^2 / side^2 cos^3.
-Emitter spot(const PunctualLight& light) {
+LightRayGrid spot(const PunctualLight& light) {
   const Frame frame = Frame::from_normal(light.direction);
   const double t = std::sqrt(1 - light.cos_outer * light.cos_outer) / light.cos_outer;
   return {luminance(light.intensity) * 2 * std::numbers::pi * (1 - light.cos_outer), [=](int i, int j, int side) {
@@ -60,7 +60,7 @@ Emitter spot(const PunctualLight& light) {
 }
 
 // Equal solid angles over the sphere. Wide spot lights use this too: their square would reach the horizon.
-Emitter sphere(const PunctualLight& light) {
+LightRayGrid sphere(const PunctualLight& light) {
   const Frame frame = Frame::from_normal(light.direction);
   const packed::Punctual source = packed::prepare(light);
   const double power = source.profile != nullptr ? luminous_flux(*source.profile) : 4 * std::numbers::pi;
@@ -80,7 +80,7 @@ Emitter sphere(const PunctualLight& light) {
           }};
 }
 
-Emitter directional(const PunctualLight& light, const Scene& scene) {
+LightRayGrid directional(const PunctualLight& light, const Scene& scene) {
   const Frame frame = Frame::from_normal(light.direction);
   const Vec3d center = (scene.bounds_min + scene.bounds_max) * 0.5;
   const double radius = std::max(length(scene.bounds_max - scene.bounds_min) * 0.5, 1e-6);
@@ -103,7 +103,7 @@ struct LightTriangle {
 };
 
 // Points are spread evenly over the light's triangles, directions follow the cosine, and every ray carries the same flux.
-Emitter area(const AreaLight& light, const std::vector<LightTriangle>& triangles, double total) {
+LightRayGrid area(const AreaLight& light, const std::vector<LightTriangle>& triangles, double total) {
   if (!(total > 0)) return {};
   const Vec3d radiance = light.radiance;
   const double sides = light.two_sided ? 2 : 1;
@@ -156,8 +156,8 @@ std::vector<std::vector<LightTriangle>> triangles_of_lights(const Scene& scene) 
   return all;
 }
 
-std::vector<Emitter> emitters_of(const Scene& scene) {
-  std::vector<Emitter> emitters;
+std::vector<LightRayGrid> emitters_of(const Scene& scene) {
+  std::vector<LightRayGrid> emitters;
   for (const PunctualLight& light : scene.punctual_lights) {
     constexpr double kWide = 0.26;  // 75 degrees: beyond, a plane's texels differ 200-fold in solid angle
     if (light.kind == PunctualKind::directional)
@@ -171,7 +171,7 @@ std::vector<Emitter> emitters_of(const Scene& scene) {
     const LightTriangle& last = triangles[l].back();
     emitters.push_back(area(scene.area_lights[l], triangles[l], last.area_before + length(cross(last.b - last.a, last.c - last.a)) / 2));
   }
-  std::erase_if(emitters, [](const Emitter& e) { return !(e.power > 0); });
+  std::erase_if(emitters, [](const LightRayGrid& e) { return !(e.power > 0); });
   return emitters;
 }
 
@@ -193,12 +193,12 @@ Vec3d section(const LightRay& r, Vec3d step, Vec3d normal, double along) {
 }
 
 // The place that a ray meets: a triangle, the weights of its second and third corners, and the distance.
-struct Place {
+struct HitPlace {
   unsigned mesh = 0, triangle = 0;
   float u = 0, v = 0, distance = 0;
 };
 
-Texel shade(const Scene& scene, const LightRay& r, const Place& place) {
+Texel shade(const Scene& scene, const LightRay& r, const HitPlace& place) {
   Texel texel;
   const Vec3d unit = normalized(r.direction);
   texel.incoming = static_cast<Vec3f>(-unit);
@@ -236,7 +236,7 @@ MapRay map_ray(const LightRay& r, const RayScene& rays) {
 bool is_ray(const MapRay& r) { return dot(r.direction, r.direction) > 0; }
 
 // Intersects a ray with a triangle's plane and moves the place into the triangle: whatever found the triangle may have rounded.
-Place place_on(const Scene& scene, FirstHit hit, const MapRay& ray) {
+HitPlace place_on(const Scene& scene, FirstHit hit, const MapRay& ray) {
   const Mesh& mesh = scene.meshes[hit.mesh];
   const auto corner = [&](std::size_t c) { return static_cast<Vec3d>(mesh.positions[mesh.indices[3 * hit.triangle + c]]); };
   const Vec3d p0 = corner(0), e1 = corner(1) - p0, e2 = corner(2) - p0;
@@ -253,7 +253,7 @@ constexpr int kMapBlock = 16;  // texels, 4 x 4
 
 // A row of blocks in a light's grid.
 struct BlockRow {
-  const Emitter* emitter;
+  const LightRayGrid* emitter;
   int side, y;
   std::size_t first;  // first texel in the map
   std::size_t size() const { return 4 * static_cast<std::size_t>(side); }
@@ -262,7 +262,8 @@ struct BlockRow {
 LightRay light_ray(const BlockRow& row, int block, int k) { return row.emitter->ray(4 * block + k % 4, row.y + k / 4, row.side); }
 
 // Finds the places that the rays of a block meet. hits: the known ones, null if none. Sets bit k of the result if ray k meets something.
-unsigned meet(const Scene& scene, const RayScene& rays, const MapRay (&of)[kMapBlock], const FirstHit* hits, Place (&places)[kMapBlock]) {
+unsigned meet(const Scene& scene, const RayScene& rays, const MapRay (&of)[kMapBlock], const FirstHit* hits,
+              HitPlace (&places)[kMapBlock]) {
   alignas(64) RTCRayHit16 packet;
   alignas(64) int valid[kMapBlock];
   bool any = false;
@@ -327,13 +328,13 @@ void ShadowMap::resize(std::size_t size) {
 }
 
 ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, FirstHits* hits) {
-  const std::vector<Emitter> emitters = emitters_of(scene);
+  const std::vector<LightRayGrid> emitters = emitters_of(scene);
   double power = 0;
-  for (const Emitter& e : emitters) power += e.power;
+  for (const LightRayGrid& e : emitters) power += e.power;
   ShadowMap map;
   std::vector<BlockRow> rows;
   std::size_t texels = 0;
-  for (const Emitter& emitter : emitters) {
+  for (const LightRayGrid& emitter : emitters) {
     // Sides are multiples of eight, so that the grid splits into 64 sets of one size.
     const int side = 8 * std::clamp(static_cast<int>(std::lround(std::sqrt(count * emitter.power / power) / 8)), 1, 512);
     for (int y = 0; y < side; y += 4, texels += rows.back().size()) rows.push_back({&emitter, side, y, texels});
@@ -360,7 +361,7 @@ ShadowMap make_shadow_map(const Scene& scene, const RayScene& rays, int count, F
         LightRay light_rays[kMapBlock];
         MapRay asked[kMapBlock];
         FirstHit known[kMapBlock];
-        Place places[kMapBlock];
+        HitPlace places[kMapBlock];
         for (int k = 0; k < kMapBlock; ++k) {
           asked[k] = map_ray(light_rays[k] = light_ray(row, block, k), rays);
           if (hits != nullptr) known[k] = hits->hit(texel - first + static_cast<std::size_t>(k));

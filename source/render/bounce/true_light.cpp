@@ -15,9 +15,9 @@ namespace {
 Vec3d wide(Vec3f v) { return static_cast<Vec3d>(v); }
 
 // One surface and the direction of its table look-up. Results are BRDF times the cosine of the other direction, in RGB.
-class End {
+class LinkEnd {
  public:
-  End(Vec3f normal, Vec3f view, Vec3f albedo, Vec3f f0, Vec3f f90, float alpha)
+  LinkEnd(Vec3f normal, Vec3f view, Vec3f albedo, Vec3f f0, Vec3f f90, float alpha)
       : frame_(Frame::from_normal_and_tangent(normalized(wide(normal)), wide(view))),
         view_(normalized(frame_.to_local(wide(view)))),
         albedo_(wide(albedo)),
@@ -75,7 +75,7 @@ class End {
 Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f view, const SumOptions& options) {
   const Vec3d p = wide(receiver.position);
   const float alpha = std::sqrt(receiver.alpha_x * receiver.alpha_y);
-  End eye(receiver.normal, view, receiver.albedo, receiver.f0, receiver.f90, alpha);
+  LinkEnd eye(receiver.normal, view, receiver.albedo, receiver.f0, receiver.f90, alpha);
   Vec3d sum{};
   for (std::size_t i = 0; i < map.count; ++i) {
     const Vec3d v = wide(map.position[i]) - p;
@@ -84,7 +84,7 @@ Vec3d sum_virtual_lights(const ShadowMap& map, const Surface& receiver, Vec3f vi
     const Vec3d l = v / std::sqrt(d2);
     const Vec3d at_eye = eye.local(l);
     if (!(at_eye.z > 0) || !(dot(wide(map.normal[i]), l) < 0)) continue;
-    End light(map.normal[i], map.incoming[i], map.albedo[i], map.f0[i], map.f90[i], map.alpha[i]);
+    LinkEnd light(map.normal[i], map.incoming[i], map.albedo[i], map.f0[i], map.f90[i], map.alpha[i]);
     const Vec3d at_light = light.local(-l);
     const bool by_pair = largest(map.f0[i]) < kFresnelByPair;
     Vec3d out = light.diffuse(at_light), in = eye.diffuse(at_eye);

@@ -12,8 +12,8 @@ constexpr int kSide = 8;
 constexpr float kAlpha = 0.05f;
 
 // A picture of 32 x 32 pixels whose normals turn by `step` [rad] a pixel to the right.
-FrameSurfaces bent(float step, float f0) {
-  FrameSurfaces s(Raster{32, 32});
+PictureSurfaces bent(float step, float f0) {
+  PictureSurfaces s(Raster{32, 32});
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 32; ++x) {
       const std::size_t i = s.raster.at(x, y);
@@ -25,7 +25,7 @@ FrameSurfaces bent(float step, float f0) {
 }
 
 float alpha_in_the_middle(float step, float f0) {
-  FrameSurfaces s = bent(step, f0);
+  PictureSurfaces s = bent(step, f0);
   widen_over_pattern(s, kSide);
   return s.alpha[s.raster.at(16, 16)];
 }

@@ -31,7 +31,7 @@ __attribute__((flatten)) void diffuse_on_packs(const PackLight& light, const Poi
 __attribute__((flatten)) void closed_form_on_packs(const PackLight& light, const Points& points, const PackLobe& lobe,
                                                    const LobeRadiance& result) {
   const Quality quality = lobe.options.quality;
-  integrals::Ggx<Pack> integral;  // one for all points: it keeps its memory
+  integrals::GgxIntegral<Pack> integral;  // one for all points: it keeps its memory
   integral.quality = quality;
   integrate_lobe(light, points, result, [&](std::size_t i, const PackVec3& n, const PackVec3& v) {
     PackKernels k;
@@ -42,18 +42,18 @@ __attribute__((flatten)) void closed_form_on_packs(const PackLight& light, const
     integral.alpha_y = load(points.alpha_y + i);
     const AboutLobe about = {k.phong_mirror(view), PackReal(2.0) * max(integral.alpha_x, integral.alpha_y),
                              quality == Quality::high ? 16 : 12};
-    return LobeHere<integrals::Ggx<Pack>&>{frame, view, about, integral};
+    return LobeHere<integrals::GgxIntegral<Pack>&>{frame, view, about, integral};
   });
 }
 
 __attribute__((flatten)) void sheen_on_packs(const PackLight& light, const Points& points, const PackLobe&, const LobeRadiance& result) {
-  integrals::Charlie<Pack> integral;  // as above
+  integrals::CharlieIntegral<Pack> integral;  // as above
   integrate_lobe(light, points, result, [&](std::size_t i, const PackVec3& n, const PackVec3& v) {
     const auto frame = PackKernels().frame_from_normal(n);
     integral.alpha = load(points.alpha_x + i);
     // About the normal, and wide: the lobe has no peak for a round light's corners to gather about.
     const AboutLobe about = {PackVec3(0.0, 0.0, 1.0), PackReal(1.0), 12};
-    return LobeHere<integrals::Charlie<Pack>&>{frame, transform_transposed(frame, v), about, integral};
+    return LobeHere<integrals::CharlieIntegral<Pack>&>{frame, transform_transposed(frame, v), about, integral};
   });
 }
 

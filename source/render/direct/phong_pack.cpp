@@ -22,7 +22,7 @@ struct CalledShare {
 template <class Share, class Walk>
 __attribute__((flatten, noinline)) void walk_points(const Share& share, const PackLight& light, const Points& points, const PackLobe& lobe,
                                                     const LobeRadiance& result, const Walk& walk) {
-  integrals::Phong<Pack, Share> integral(share, lobe.lobe.exponent, lobe.options);
+  integrals::PhongIntegral<Pack, Share> integral(share, lobe.lobe.exponent, lobe.options);
   for_each_pack(light, points, result, [&](std::size_t i, const PackVec3& p, const SeenLight& seen) {
     const PackVec3 n = load(points.normal, i), v = load(points.view, i);
     const auto frame = PackKernels().frame_from_normal(n);

@@ -18,7 +18,7 @@ struct SeenLight {
   PackKernels::mask lit, reversed;
 
   STERADIAN_INLINE SeenLight(const PackLight& l, const PackVec3& p, std::size_t first_point) : light(l), first(first_point) {
-    if (const auto* polygon = std::get_if<packed::Polygon>(&l.shape)) {
+    if (const auto* polygon = std::get_if<packed::FloatPolygon>(&l.shape)) {
       take(shapes::see<Pack>(*polygon, p));
     } else if (const auto* pieces = std::get_if<packed::Pieces>(&l.shape)) {
       lit = PackReal(0.0) < PackReal(first_point < pieces->point_count() ? 1.0 : 0.0);
@@ -38,20 +38,20 @@ struct SeenLight {
 // Properties of an outline's light that integrate reads (shapes/small_light.h). The elements are in a function of their own, called rarely.
 __attribute__((flatten, noinline)) inline PackKernels::LightElements elements_in(const SeenLight& light, const PackKernels::mat3& frame,
                                                                                  const PackVec3& p) {
-  if (const auto* polygon = std::get_if<packed::Polygon>(&light.light.shape)) return shapes::elements_in<Pack>(*polygon, frame, p);
+  if (const auto* polygon = std::get_if<packed::FloatPolygon>(&light.light.shape)) return shapes::elements_in<Pack>(*polygon, frame, p);
   PackKernels::LightElements e;
   light.light.with_round([&](const auto& shape) { e = shapes::elements_in<Pack>(shape, frame, p); });
   return e;
 }
 STERADIAN_INLINE PackReal deviation2_of(const PackLight& light) {
-  if (const auto* polygon = std::get_if<packed::Polygon>(&light.shape)) return shapes::deviation2<Pack>(*polygon);
+  if (const auto* polygon = std::get_if<packed::FloatPolygon>(&light.shape)) return shapes::deviation2<Pack>(*polygon);
   PackReal result(0.0);
   light.with_round([&](const auto& shape) { result = shapes::deviation2<Pack>(shape); });
   return result;
 }
 
 STERADIAN_INLINE PackReal distance2_of(const PackLight& light, const PackVec3& p) {
-  if (const auto* polygon = std::get_if<packed::Polygon>(&light.shape)) return shapes::distance2<Pack>(*polygon, p);
+  if (const auto* polygon = std::get_if<packed::FloatPolygon>(&light.shape)) return shapes::distance2<Pack>(*polygon, p);
   PackReal result(0.0);
   light.with_round([&](const auto& shape) { result = shapes::distance2<Pack>(shape, p); });
   return result;
@@ -68,7 +68,7 @@ struct PolygonEdges {
   STERADIAN_INLINE void walk(End end, Add add) const {
     shapes::contours_in<Pack>(polygon(), frame, p).walk(end, add);
   }
-  STERADIAN_INLINE const packed::Polygon& polygon() const { return *std::get_if<packed::Polygon>(&seen.light.shape); }
+  STERADIAN_INLINE const packed::FloatPolygon& polygon() const { return *std::get_if<packed::FloatPolygon>(&seen.light.shape); }
 };
 
 // The contours of any polygon.

@@ -7,7 +7,7 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-struct Lobe {
+struct TexturedLobe {
   PackKernels::mat3 frame;
   PackKernels::LtcMatrix matrix;
   int by_ggx;
@@ -23,7 +23,7 @@ STERADIAN_INLINE void run(const TexturedLight& light, const Points& points, cons
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     TextureMean<Pack> mean = {PackVec3(0.0, 0.0, 0.0), load(wanted + i) > PackReal(0.0)};
     if (any_lane(mean.found)) {
-      const Lobe lobe = lobe_at(i);
+      const TexturedLobe lobe = lobe_at(i);
       const auto turned = [&](const PackVec3& v) { return transform_transposed(lobe.frame, v); };
       const auto view = Kernels<Pack>().ltc_texture_cell_view(lobe.matrix, lobe.by_ggx, lobe.half_vectors,
                                                               turned(of(texture.origin()) - load(points.position, i)),
@@ -40,7 +40,7 @@ STERADIAN_INLINE void run(const TexturedLight& light, const Points& points, cons
 void diffuse(const TexturedLight& light, const Points& points, const float* wanted, const TexturedMeans& means) {
   run(light, points, wanted, means, [&](std::size_t i) {
     PackKernels k;
-    return Lobe{k.frame_from_normal(load(points.normal, i)), k.ltc_texture_diffuse(), 0, {}};
+    return TexturedLobe{k.frame_from_normal(load(points.normal, i)), k.ltc_texture_diffuse(), 0, {}};
   });
 }
 
@@ -54,8 +54,8 @@ void ggx(const TexturedLight& light, const Points& points, const LtcPackTables& 
     const PackVec3 to_eye(dot(frame.c0, v), PackReal(0.0), cosine);
     const auto at = k.ltc_coordinates(sqrt(width), cosine);
     const auto entry = look_up(tables.matrix.nodes.data(), tables.matrix.size, at.x, at.y);
-    if (!tables.compact) return Lobe{frame, k.ltc_from_classic(entry), 0, {}};
-    return Lobe{frame, k.ltc_from_compact(entry, width, to_eye), 1, k.ggx_view(to_eye, width, width)};
+    if (!tables.compact) return TexturedLobe{frame, k.ltc_from_classic(entry), 0, {}};
+    return TexturedLobe{frame, k.ltc_from_compact(entry, width, to_eye), 1, k.ggx_view(to_eye, width, width)};
   });
 }
 

@@ -92,7 +92,7 @@ Vec3d mean_around(const DirectionGrid& grid, const Spot& spot) {
 }
 
 // A convex part of a spot.
-struct Part {
+struct SpotPart {
   std::vector<Cell> cells;  // those that it covers in part are in its neighbour as well
   std::vector<Vec3d> cuts;  // great circles that bound it
   Vec3d around;             // radiance about the spot
@@ -130,7 +130,7 @@ void each_covered(const DirectionGrid& grid, const ConvexPatch& patch, Use use) 
 }
 
 // Finds the part's patch, radiance and error. A part without a patch is too wide for a plane.
-void fit(const DirectionGrid& grid, Part& part) {
+void fit(const DirectionGrid& grid, SpotPart& part) {
   Vec3d middle{};
   std::vector<Vec3d> corners;
   for (const Cell c : part.cells) {
@@ -163,7 +163,7 @@ void fit(const DirectionGrid& grid, Part& part) {
 
 // A part that is too wide for a plane is cut across the axis along which it is longest, among those that it has on both sides. A part of an
 // octant is not too wide.
-Vec3d cut_of_wide(const DirectionGrid& grid, const Part& part) {
+Vec3d cut_of_wide(const DirectionGrid& grid, const SpotPart& part) {
   const std::array<Vec3d, 3> axes = {Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Vec3d best = axes[0];
   double most = -1;
@@ -185,11 +185,11 @@ Vec3d cut_of_wide(const DirectionGrid& grid, const Part& part) {
   return best;
 }
 
-std::array<Part, 2> halves_of(const DirectionGrid& grid, const Part& part) {
+std::array<SpotPart, 2> halves_of(const DirectionGrid& grid, const SpotPart& part) {
   const Vec3d normal = part.patch ? best_cut(*part.patch, part.samples) : cut_of_wide(grid, part);
-  std::array<Part, 2> halves;
+  std::array<SpotPart, 2> halves;
   for (const int side : {0, 1}) {
-    Part& half = halves[static_cast<std::size_t>(side)];
+    SpotPart& half = halves[static_cast<std::size_t>(side)];
     const Vec3d inwards = side == 0 ? normal : -normal;
     half.around = part.around;
     half.cuts = part.cuts;
@@ -207,28 +207,28 @@ std::array<Part, 2> halves_of(const DirectionGrid& grid, const Part& part) {
 }
 
 // Cuts the spots into at most kMostLights parts. The part with the largest error is cut first.
-std::vector<Part> parts_of(const DirectionGrid& grid, const std::vector<Spot>& spots, double least_error) {
-  std::vector<Part> parts;
+std::vector<SpotPart> parts_of(const DirectionGrid& grid, const std::vector<Spot>& spots, double least_error) {
+  std::vector<SpotPart> parts;
   for (const Spot& spot : spots) {
-    Part part;
+    SpotPart part;
     part.cells = spot.cells;
     part.around = mean_around(grid, spot);
     fit(grid, part);
     parts.push_back(std::move(part));
   }
   while (!parts.empty() && parts.size() < kMostLights) {
-    const auto worst = std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.error < b.error; });
+    const auto worst = std::max_element(parts.begin(), parts.end(), [](const SpotPart& a, const SpotPart& b) { return a.error < b.error; });
     if (!(worst->error > least_error)) break;
-    std::array<Part, 2> halves = halves_of(grid, *worst);
+    std::array<SpotPart, 2> halves = halves_of(grid, *worst);
     *worst = std::move(halves[0]);
     parts.push_back(std::move(halves[1]));
   }
-  std::erase_if(parts, [](const Part& p) { return !p.patch || !p.patch->has_area() || !(luminance(p.radiance) > 0); });
+  std::erase_if(parts, [](const SpotPart& p) { return !p.patch || !p.patch->has_area() || !(luminance(p.radiance) > 0); });
   return parts;
 }
 
 // Takes the part's light out of the map, exactly as much as its polygon sends.
-void take_out(DirectionGrid& grid, const Part& part) {
+void take_out(DirectionGrid& grid, const SpotPart& part) {
   double sum = 0;
   for (const MapSample& s : part.samples) sum += s.solid_angle;
   const Vec3d radiance = part.radiance * (part.solid_angle / sum);
@@ -249,7 +249,7 @@ SplitMap split_bright_spots(const DirectionGrid& grid) {
   std::stable_sort(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.power > b.power; });
   if (spots.size() > kMostSpots) spots.resize(kMostSpots);
 
-  for (const Part& part : parts_of(grid, spots, kLeastError * power)) {
+  for (const SpotPart& part : parts_of(grid, spots, kLeastError * power)) {
     take_out(split.rest, part);
     split.share += luminance(part.radiance) * part.solid_angle / power;
     split.spots.push_back(part.patch->light(part.radiance));

@@ -21,21 +21,16 @@ void add(TileVector& to, std::size_t i, Vec3f r) {
 
 }  // namespace
 
-AllLight::AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
-                   const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct)
+AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, const FrameSurfaces& surfaces, const RenderOptions& options,
+                   radiosity::AddDirect add_direct)
     : width_(options.width),
       bounces_(options.bounces),
       reflections_(options.reflections),
       eye_(surfaces.camera().origin()),
-      patches_([&] {
-        const auto start = Clock::now();
-        radiosity::PatchLight light(scene, *parts.rays, *parts.maps, {options.bounces, options.quality}, add_to_patches, find_incident);
-        solve_ms_ = ms_since(start);
-        return light;
-      }()),
-      gather_(patches_, *parts.rays, options.quality, options.bounce_error, options.aa),
+      patches_(std::move(patches)),
+      gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), options.bounce_error, options.aa),
       mirror_image_(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
-                    kFar * static_cast<float>(parts.rays->reach())),
+                    kFar * static_cast<float>(surfaces.rays().reach())),
       surfaces_(surfaces),
       add_direct_(std::move(add_direct)) {}
 
@@ -140,7 +135,7 @@ void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVecto
   });
   add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);
   add_to_picture(error, area, shares, weight, picture.layers.at("bounce_error"), width_);
-  const float left_out = patches_.left_out().value_or(0);
+  const float left_out = patches_->left_out().value_or(0);
   TileVector bound{};
   for (std::size_t i = 0; i < kTilePixels; ++i)  // no surface reflects more than arrives
     if (tile.material[i] != nullptr) put(bound, i, {left_out, left_out, left_out});
@@ -152,11 +147,10 @@ void AllLight::finish(Picture& picture) {
 }
 
 void AllLight::report(int threads, RenderStats& stats, const Picture& picture) const {
-  stats.passes.push_back({"bounces: patches", solve_ms_});
   stats.passes.push_back(clock_.time(threads));
-  stats.patches = patches_.patches().side_count() / 2;
-  stats.bounce_iterations = patches_.iterations();
-  stats.bounce_left_out = static_cast<double>(patches_.left_out().value_or(-1));
+  stats.patches = patches_->patches().side_count() / 2;
+  stats.bounce_iterations = patches_->iterations();
+  stats.bounce_left_out = static_cast<double>(patches_->left_out().value_or(-1));
   double squares = 0, light = 0;
   for (const Vec3f& e : picture.layers.at("bounce_error")) squares += std::pow(luminance(static_cast<Vec3d>(e)), 2);
   for (const Vec3f& p : picture.pixels) light += luminance(static_cast<Vec3d>(p));

@@ -7,20 +7,17 @@
 #include "render/frame/frame_surfaces.h"
 #include "render/radiosity/gather.h"
 #include "render/radiosity/mirror_image.h"
-#include "render/radiosity/patch_light.h"
+#include "render/radiosity/patch_solver.h"
 #include "render/tile/pass_clock.h"
 
 namespace steradian {
 
 class AllLight {
  public:
-  using AddDirect = radiosity::PatchLight::AddDirect;
-
-  // Solves the light of all patches. add_to_patches and add_direct add the direct light of a tile's surfaces, the second also where other
-  // surfaces of the tile's pixels are being lit. find_incident: the same light by direction. Scene, parts and surfaces must outlive this
-  // object.
-  AllLight(const Scene& scene, const SceneParts& parts, const FrameSurfaces& surfaces, const RenderOptions& options,
-           const AddDirect& add_to_patches, const radiosity::PatchLight::FindIncident& find_incident, AddDirect add_direct);
+  // add_direct: adds the direct light of a tile's surfaces, also where other surfaces of the tile's pixels are being lit. Rays and surfaces
+  // must outlive this object.
+  AllLight(std::shared_ptr<const radiosity::PatchLight> patches, const FrameSurfaces& surfaces, const RenderOptions& options,
+           radiosity::AddDirect add_direct);
 
   // Makes the layers "indirect", "bounce_error" and "bounce_bound".
   static void begin(Picture& picture);
@@ -46,13 +43,12 @@ class AllLight {
 
   const int width_, bounces_, reflections_;
   const Vec3f eye_;
-  double solve_ms_ = 0;
   PassClock clock_{"bounces"};
-  const radiosity::PatchLight patches_;
+  const std::shared_ptr<const radiosity::PatchLight> patches_;
   const radiosity::Gather gather_;
   radiosity::MirrorImage mirror_image_;
   const FrameSurfaces& surfaces_;
-  const AddDirect add_direct_;
+  const radiosity::AddDirect add_direct_;
 };
 
 }  // namespace steradian

@@ -74,7 +74,7 @@ class FrameSurfaces {
   const std::unique_ptr<const environment::EnvironmentShadows> environment_shadows_;  // null without an environment or without shadows
   std::vector<environment::HalvesOfRays> halves_of_rays_;                             // by tile
   const std::shared_ptr<const MipMaps> maps_;
-  const Shading shading_;
+  const HitShading shading_;
   const PassedRays passed_;
   const int tiles_x_, tiles_y_;
   PassClock rays_clock_{"rays"}, gbuffer_clock_{"gbuffer"}, environment_clock_{"environment"};

@@ -22,6 +22,7 @@
 #include "render/frame/tile_lighting.h"
 #include "render/frame/timed_picture.h"
 #include "render/lights/solid_lights.h"
+#include "render/radiosity/kept_patches.h"
 #include "render/sampled/monte_carlo.h"
 #include "render/sampled/paths.h"
 #include "render/surface/gbuffer.h"
@@ -49,6 +50,7 @@ class Renderer {
         options_(options),
         threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
         method_(choose_method(scene, options)),
+        cache_(cache),
         parts_(cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted())),
         surfaces_(scene, options, parts_, method_.table.get()),
         lights_(own_lights()),
@@ -120,7 +122,10 @@ class Renderer {
       stats.environment_shadow_error = surfaces_.environment_shadow_error();
     }
     if (many_lights_) many_lights_->report(stats);
-    if (all_light_) all_light_->report(threads_, stats, picture);
+    if (all_light_) {
+      stats.passes.push_back({"bounces: patches", patches_ms_});
+      all_light_->report(threads_, stats, picture);
+    }
     if (lighting_.has_shadows()) {
       stats.passes.push_back(lighting_.shadow_time(threads_));
       stats.shadow_fallback = lighting_.shadow_fallback();
@@ -302,28 +307,48 @@ class Renderer {
   }
 
   // Adds the direct light of surfaces that are not those of the picture's tiles, whose bound it leaves as it is.
-  void light_directly(SurfaceTile& tile, Receiver receiver) {
+  void light_directly(SurfaceTile& tile, ReceiverKind receiver) {
     TileVector bound;
     if (many_lights_) bound = std::exchange(many_lights_->bound(), {});
-    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
+    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, radiosity::fineness_of(options_).shadow_rays}.add(tile, receiver,
+                                                                                                                  *estimates_.local());
     if (many_lights_) many_lights_->bound() = bound;
   }
 
-  // Solves the light between surfaces.
+  // Solves the light between surfaces, unless the cache holds it.
   void solve_bounces() {
-    steps_ += radiosity::PatchLight::direct_tiles(scene_, options_.quality);
-    arena_.execute([&] {
-      all_light_ = std::make_unique<AllLight>(
-          scene_, parts_, surfaces_, options_,
-          [this](SurfaceTile& tile) {
-            if (tile.any_surface) light_directly(tile, Receiver::patch);
-            if (options_.progress) options_.progress(++done_, steps_);
-          },
-          [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
-            find_incident_on_patch(*samplers_.local(), environment() != nullptr, surface, number, found);
-          },
-          [this](SurfaceTile& tile) { light_directly(tile, Receiver::asked); });
-    });
+    const auto start = Clock::now();
+    std::shared_ptr<const radiosity::PatchLight> patches = kept_patches();
+    if (patches == nullptr) {
+      steps_ += radiosity::patch_tiles(scene_, radiosity::fineness_of(options_));
+      arena_.execute([&] { patches = solve_patches(); });
+      if (keeps_patches() && !stopped()) cache_->parts().patches->keep(scene_, options_, patches);
+    }
+    patches_ms_ = ms_since(start);
+    all_light_ = std::make_unique<AllLight>(std::move(patches), surfaces_, options_,
+                                            [this](SurfaceTile& tile) { light_directly(tile, ReceiverKind::asked); });
+  }
+
+  // The sum of many lights depends on the camera.
+  bool keeps_patches() const { return cache_ != nullptr && !many_lights_; }
+
+  std::shared_ptr<const radiosity::PatchLight> kept_patches() const {
+    if (!keeps_patches()) return nullptr;
+    std::shared_ptr<radiosity::KeptPatches>& kept = cache_->parts().patches;
+    if (kept == nullptr) kept = std::make_shared<radiosity::KeptPatches>();
+    return kept->find(scene_, options_);
+  }
+
+  std::shared_ptr<const radiosity::PatchLight> solve_patches() {
+    return std::make_shared<const radiosity::PatchLight>(radiosity::solve_patches(
+        scene_, surfaces_.rays(), *parts_.maps, {options_.bounces, radiosity::fineness_of(options_), options_.stop},
+        [this](SurfaceTile& tile) {
+          if (tile.any_surface) light_directly(tile, ReceiverKind::patch);
+          if (options_.progress) options_.progress(++done_, steps_);
+        },
+        [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
+          find_incident_on_patch(*samplers_.local(), environment() != nullptr, surface, number, found);
+        }));
   }
 
   // True if the time is limited. Only shadows of direct light take much of it that something else can stand for.
@@ -442,6 +467,7 @@ class Renderer {
   const RenderOptions& options_;
   const int threads_;
   const DirectMethod method_;
+  RenderCache* const cache_;  // null: none
   const SceneParts parts_;
   FrameSurfaces surfaces_;
   const std::vector<PackLight> lights_;
@@ -455,7 +481,7 @@ class Renderer {
   tbb::task_arena arena_;
   std::optional<indirect::Pipeline> indirect_;
   std::unique_ptr<AllLight> all_light_;  // null: direct light only
-  double build_ms_ = 0;
+  double build_ms_ = 0, patches_ms_ = 0;
   PassClock sampling_clock_{"sampling"}, block_clock_{"block"}, capture_clock_{"indirect: surfaces"};
   std::atomic<std::uint64_t> done_{0};
   std::uint64_t steps_ = 0;

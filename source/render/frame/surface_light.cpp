@@ -39,30 +39,31 @@ SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, con
                                                around != nullptr ? &around->sampler() : nullptr, options_.terminator, method_.table.get());
       }) {
   if (options.bounces == 0) return;
-  patches_ = std::make_unique<const radiosity::PatchLight>(
-      scene, surfaces_.rays(), *parts_.maps, radiosity::PatchOptions{options.bounces, options.quality},
+  const radiosity::Fineness fineness = radiosity::fineness_of(options);
+  patches_ = std::make_unique<const radiosity::PatchLight>(radiosity::solve_patches(
+      scene, surfaces_.rays(), *parts_.maps, {options.bounces, fineness},
       [&](SurfaceTile& tile) {
-        if (tile.any_surface) add_direct(tile, Receiver::patch);
+        if (tile.any_surface) add_direct(tile, ReceiverKind::patch);
         if (solved) solved();
       },
       [&](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
         find_incident_on_patch(*samplers_.local(), surfaces_.environment() != nullptr, surface, number, found);
-      });
-  gather_ = std::make_unique<const radiosity::Gather>(*patches_, surfaces_.rays(), options.quality, options.bounce_error, 1);
+      }));
+  gather_ = std::make_unique<const radiosity::Gather>(*patches_, surfaces_.rays(), fineness, options.bounce_error, 1);
 }
 
 std::size_t SurfaceLight::solve_steps(const Scene& scene, const RenderOptions& options) {
-  return options.bounces == 0 ? 0 : radiosity::PatchLight::direct_tiles(scene, options.quality);
+  return options.bounces == 0 ? 0 : radiosity::patch_tiles(scene, radiosity::fineness_of(options));
 }
 
-void DirectLight::add(SurfaceTile& tile, Receiver receiver, EstimatedShadows& scratch) const {
+void DirectLight::add(SurfaceTile& tile, ReceiverKind receiver, EstimatedShadows& scratch) const {
   const auto reaching = lights_reaching(lights, tile);
   tinted.add(tile, lighting, [&](TileLighting& past) {
     if (!past.has_shadows()) {
       past.add(tile, reaching.lights);
-    } else if (receiver == Receiver::patch && quality != Quality::high) {
+    } else if (receiver == ReceiverKind::patch && shadow_rays > 0) {
       scratch.clear();
-      past.add_shadowed_by_rays(tile, reaching.lights, FewRays::kMost, 0, scratch);
+      past.add_shadowed_by_rays(tile, reaching.lights, shadow_rays, 0, scratch);
     } else {
       past.add_shadowed(tile, reaching.lights);
     }
@@ -73,7 +74,7 @@ void DirectLight::add(SurfaceTile& tile, Receiver receiver, EstimatedShadows& sc
 
 void SurfaceLight::find(SurfaceTile& tile, Direct direct, Irradiance& result) {
   for (TilePlane* plane : {&result.error.x, &result.error.y, &result.error.z}) plane->fill(0);
-  if (tile.any_surface && direct == Direct::on) add_direct(tile, Receiver::asked);
+  if (tile.any_surface && direct == Direct::on) add_direct(tile, ReceiverKind::asked);
   for (std::size_t i = 0; i < kTilePixels; ++i) put(result.value, i, get(tile.radiance, i) * std::numbers::pi_v<float>);
   if (!gather_) return;
   SixteenSurfaces some;

@@ -12,7 +12,7 @@
 #include "render/frame/tile_lighting.h"
 #include "render/frame/tinted_shadows.h"
 #include "render/radiosity/gather.h"
-#include "render/radiosity/patch_light.h"
+#include "render/radiosity/patch_solver.h"
 #include "render/sampled/monte_carlo.h"
 
 namespace steradian {
@@ -25,17 +25,16 @@ using radiosity::put_white;
 void find_incident_on_patch(DirectSampler& sampler, bool has_environment, const Surface& surface, std::uint64_t number,
                             std::vector<IncidentLight>& found);
 
-// Adds the direct light of surfaces that no camera needs to see, with the environment's. Shadows of patches are estimates but for the best
-// quality. scratch: of the caller's thread.
-enum class Receiver { patch, asked };
+// Adds the direct light of surfaces that no camera needs to see, with the environment's. scratch: of the caller's thread.
+enum class ReceiverKind { patch, asked };
 struct DirectLight {
   TileLighting& lighting;
   const TintedShadows& tinted;
   FrameSurfaces& surfaces;
   const std::vector<const PackLight*>& lights;
-  Quality quality;
+  std::size_t shadow_rays;  // of a patch to each light; 0: exact shadows
 
-  void add(SurfaceTile& tile, Receiver receiver, EstimatedShadows& scratch) const;
+  void add(SurfaceTile& tile, ReceiverKind receiver, EstimatedShadows& scratch) const;
 };
 
 class SurfaceLight {
@@ -61,8 +60,9 @@ class SurfaceLight {
   std::size_t patches() const { return patches_ ? patches_->patches().side_count() / 2 : 0; }
 
  private:
-  void add_direct(SurfaceTile& tile, Receiver receiver) {
-    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, options_.quality}.add(tile, receiver, *estimates_.local());
+  void add_direct(SurfaceTile& tile, ReceiverKind receiver) {
+    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, radiosity::fineness_of(options_).shadow_rays}.add(tile, receiver,
+                                                                                                                  *estimates_.local());
   }
 
   const RenderOptions& options_;

@@ -34,8 +34,8 @@ Interval<float> heights(const Box3f& box, Vec3f normal, Vec3f point) {
 }
 
 bool faces(const auto& flat, const Box3f& positions) { return flat.two_sided || heights(positions, flat.normal, flat.point).high > 0; }
-bool faces(const packed::Ellipsoid&, const Box3f&) { return true; }
-bool faces(const packed::Capsule&, const Box3f&) { return true; }
+bool faces(const packed::FloatEllipsoid&, const Box3f&) { return true; }
+bool faces(const packed::FloatCapsule&, const Box3f&) { return true; }
 bool faces(const packed::Punctual&, const Box3f&) { return true; }
 bool faces(const packed::Pieces&, const Box3f&) { return true; }
 
@@ -68,17 +68,17 @@ struct SeenWhole {
   const Box3f& positions;
   const Box3f& normals;
   float spread;
-  bool operator()(const packed::Polygon& p) const { return before(p, positions) && above(p, positions, normals); }
-  bool operator()(packed::Disk d) const {
+  bool operator()(const packed::FloatPolygon& p) const { return before(p, positions) && above(p, positions, normals); }
+  bool operator()(packed::FloatDisk d) const {
     d.x *= spread;
     d.y *= spread;
     return before(d, positions) && above(d, positions, normals);
   }
-  bool operator()(packed::Ellipsoid e) const {
+  bool operator()(packed::FloatEllipsoid e) const {
     for (Vec3f* axis : {&e.x, &e.y, &e.z}) *axis *= spread;
     return above(e, positions, normals);
   }
-  bool operator()(packed::Capsule c) const {
+  bool operator()(packed::FloatCapsule c) const {
     c.radius *= spread;
     return above(c, positions, normals);
   }

@@ -44,11 +44,11 @@ struct Looked {
 Looked look(const PackLight& light, Vec3f p, Vec3f n) {
   Looked looked;
   const auto add = [&](Vec3f v) { looked.least = std::min(looked.least, dot(v - p, n)); };
-  if (const auto* outline = std::get_if<packed::Polygon>(&light.shape)) {
+  if (const auto* outline = std::get_if<packed::FloatPolygon>(&light.shape)) {
     for (const Vec3f& v : outline->vertices) add(v);
     looked.lit = dot(p - outline->point, outline->normal) > 0;
   } else {
-    const auto& d = std::get<packed::Disk>(light.shape);
+    const auto& d = std::get<packed::FloatDisk>(light.shape);
     for (float t = 0; t < 6.3f; t += 0.1f) add(d.point + d.x * std::cos(t) + d.y * std::sin(t));
     looked.lit = dot(p - d.point, d.normal) > 0;
   }

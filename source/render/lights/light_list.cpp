@@ -12,7 +12,7 @@
 namespace steradian {
 namespace {
 
-struct Packed {
+struct PackedShape {
   const AreaLight& light;
   PackLight of(auto shape) const {
     PackLight result;
@@ -27,17 +27,17 @@ struct Packed {
 };
 
 PackLight from_area_light(const AreaLight& a) {
-  PackLight light = std::visit(Packed{a}, a.shape);
+  PackLight light = std::visit(PackedShape{a}, a.shape);
   light.radiance = static_cast<Vec3f>(a.radiance);
   light.area = &a;
   return light;
 }
 
 // True if the light has an area or a volume.
-bool has_extent(const packed::Polygon& light) { return !light.vertices.empty(); }
-bool has_extent(const packed::Disk& light) { return is_finite(light.normal); }
-bool has_extent(const packed::Ellipsoid& light) { return is_finite(light.inverse_x); }
-bool has_extent(const packed::Capsule& light) { return light.radius > 0; }
+bool has_extent(const packed::FloatPolygon& light) { return !light.vertices.empty(); }
+bool has_extent(const packed::FloatDisk& light) { return is_finite(light.normal); }
+bool has_extent(const packed::FloatEllipsoid& light) { return is_finite(light.inverse_x); }
+bool has_extent(const packed::FloatCapsule& light) { return light.radius > 0; }
 bool has_extent(const packed::Punctual&) { return true; }
 bool has_extent(const packed::Pieces&) { return true; }
 
@@ -107,7 +107,7 @@ std::vector<PackLight> prepare_lights(const Scene& scene, std::span<const AreaLi
   return lights;
 }
 
-std::optional<packed::Polygon> with_long_edges_cut(const PreparedPolygon& light, Vec3d center, double radius) {
+std::optional<packed::FloatPolygon> with_long_edges_cut(const PreparedPolygon& light, Vec3d center, double radius) {
   PreparedPolygon cut;  // stays empty up to the first long edge; most tiles have none
   std::size_t contour = 0;
   for (std::size_t i = 0; i < light.vertices.size(); ++i) {
@@ -143,7 +143,7 @@ ReachingLights lights_reaching(std::span<const PackLight* const> lights, const S
     if (!reaches(*light, surfaces)) continue;
     result.lights.push_back(light);
     if (!light->is_polygon()) continue;
-    std::optional<packed::Polygon> cut = with_long_edges_cut(light->polygon, box.center(), box.radius());
+    std::optional<packed::FloatPolygon> cut = with_long_edges_cut(light->polygon, box.center(), box.radius());
     if (!cut) continue;
     result.cut.push_back(std::make_unique<PackLight>(*light));
     result.cut.back()->shape = std::move(*cut);

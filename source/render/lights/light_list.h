@@ -23,7 +23,8 @@ class TexturedLight;
 struct SolidPackLight;
 
 struct PackLight {
-  std::variant<packed::Polygon, packed::Disk, packed::Ellipsoid, packed::Capsule, packed::Punctual, packed::Pieces> shape;
+  std::variant<packed::FloatPolygon, packed::FloatDisk, packed::FloatEllipsoid, packed::FloatCapsule, packed::Punctual, packed::Pieces>
+      shape;
   Vec3f radiance{};                               // punctual lights: intensity (illuminance for directional)
   const AreaLight* area = nullptr;                // source of this light; null for punctual lights
   std::size_t index = 0;                          // index among all lights of the scene
@@ -32,7 +33,7 @@ struct PackLight {
   std::shared_ptr<const ProfiledLight> profiled;  // null without an emission profile; radiance is then the mean
   std::shared_ptr<const SolidPackLight> solid;    // a closed mesh that shines evenly; its shape are pieces (solid_lights.h)
 
-  bool is_polygon() const { return std::holds_alternative<packed::Polygon>(shape); }
+  bool is_polygon() const { return std::holds_alternative<packed::FloatPolygon>(shape); }
   bool is_even() const { return textured == nullptr && profiled == nullptr; }  // one radiance everywhere
   bool is_area() const { return !std::holds_alternative<packed::Punctual>(shape); }
   bool is_pieces() const { return std::holds_alternative<packed::Pieces>(shape); }  // for the points of one tile (shadow/tile.h)
@@ -41,12 +42,12 @@ struct PackLight {
   // Calls use(shape) with the shape of a round light.
   template <class Use>
   STERADIAN_INLINE void with_round(Use use) const {
-    if (const auto* disk = std::get_if<packed::Disk>(&shape))
+    if (const auto* disk = std::get_if<packed::FloatDisk>(&shape))
       use(*disk);
-    else if (const auto* ellipsoid = std::get_if<packed::Ellipsoid>(&shape))
+    else if (const auto* ellipsoid = std::get_if<packed::FloatEllipsoid>(&shape))
       use(*ellipsoid);
     else
-      use(*std::get_if<packed::Capsule>(&shape));
+      use(*std::get_if<packed::FloatCapsule>(&shape));
   }
 };
 
@@ -72,6 +73,6 @@ ReachingLights lights_reaching(std::span<const PackLight* const> lights, const S
 
 // Adds corners to edges that points of the ball see under nearly half a turn. Single precision has no direction between ends that are
 // almost opposite. The outline stays the same. Returns nothing if no edge is that long.
-std::optional<packed::Polygon> with_long_edges_cut(const PreparedPolygon& light, Vec3d center, double radius);
+std::optional<packed::FloatPolygon> with_long_edges_cut(const PreparedPolygon& light, Vec3d center, double radius);
 
 }  // namespace steradian

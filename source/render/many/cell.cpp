@@ -54,8 +54,8 @@ constexpr std::size_t kWorthy = 64;  // smaller sets are not divided for the sak
 
 }  // namespace
 
-Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye) {
-  Cell cell;
+ReceiverCell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye) {
+  ReceiverCell cell;
   cell.axes = axes;
   cell.normal = mean_normal(points);
   cell.eye = eye;
@@ -78,7 +78,7 @@ Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye
   return cell;
 }
 
-Cell cell_about(ReceiverSpan points, Vec3f eye) {
+ReceiverCell cell_about(ReceiverSpan points, Vec3f eye) {
   const Vec3f normal = mean_normal(points), origin = points.front().position;
   const Vec3f aside = std::abs(normal.x) < 0.7f ? Vec3f{1, 0, 0} : Vec3f{0, 1, 0};
   const Vec3f x = normalized(cross(aside, normal)), y = cross(normal, x);
@@ -101,7 +101,7 @@ Cell cell_about(ReceiverSpan points, Vec3f eye) {
   return cell_about(points, {x * c + y * s, y * c - x * s, normal}, eye);
 }
 
-Disorder disorder_of(ReceiverSpan points, const Cell& cell) {
+Disorder disorder_of(ReceiverSpan points, const ReceiverCell& cell) {
   if (points.size() < kWorthy) return Disorder::none;
   if (cell.turn > kTurn && divided_by_normals(points).first.size() > 0) return Disorder::normals;
   if (cell.half.z > kThick * std::max(cell.half.x, cell.half.y)) return Disorder::places;
@@ -115,7 +115,7 @@ std::pair<ReceiverSpan, ReceiverSpan> divided_by_normals(ReceiverSpan points) {
   return divided(points, coordinate(normals.center(), axis), [&](const Receiver& q) { return coordinate(q.normal, axis); });
 }
 
-std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const Cell& cell) {
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const ReceiverCell& cell) {
   const Vec3f axis = cell.axes[static_cast<std::size_t>(longest_axis(cell.half))];
   return divided(points, 0, [&](const Receiver& q) { return dot(q.position - cell.center, axis); });
 }

@@ -56,7 +56,7 @@ struct NodeGrid {
 };
 
 // A box about receivers, with its own axes and the cone of the receivers' normals.
-struct Cell {
+struct ReceiverCell {
   Vec3f center, half;         // along the axes
   std::array<Vec3f, 3> axes;  // orthonormal
   Vec3f normal;               // unit: the cone's axis
@@ -99,8 +99,8 @@ inline constexpr float kRoundingsOfRound = 256;
 // Sums of many numbers take parts of this many, so that N numbers are rounded 64 + N / 64 times.
 inline constexpr std::size_t kPart = 64;
 
-struct Elements {
-  std::vector<Element> ones, balls;
+struct FarElements {
+  std::vector<FarElement> ones, balls;
   std::vector<FourElements> fours;
   void clear() {
     ones.clear();
@@ -119,7 +119,7 @@ struct Polynomial {
 };
 
 // The receivers of a cell side by side, padded to a multiple of 16 by copies of the last one.
-struct Receivers {
+struct CellReceivers {
   std::size_t count = 0, filled = 0;
   TileVector position, normal, view;
   alignas(64) TilePlane loss;
@@ -139,16 +139,18 @@ struct Receivers {
 struct CellTable {
   // Judges `count` lights with those numbers (null: all of `lights`, in order). The allowed error is `error` times the most that a light
   // can send. The result has capacity for a multiple of 16 entries.
-  void (*judge)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const Cell& cell, float error, Judged result);
+  void (*judge)(const FarLights& lights, const std::uint32_t* numbers, std::size_t count, const ReceiverCell& cell, float error,
+                Judged result);
   // Fits a polynomial, as factors, to the light that elements send to a cell's nodes, plus an outer polynomial. The outer one belongs to a
   // cell with the same axes and grid that contains this one (null: none). Losses add the weighted vectors.
-  void (*fit)(const Elements& elements, const Cell& cell, const Polynomial* outer, const Cell* outer_cell, Polynomial& result);
+  void (*fit)(const FarElements& elements, const ReceiverCell& cell, const Polynomial* outer, const ReceiverCell* outer_cell,
+              Polynomial& result);
   // Adds a polynomial to the irradiance of a cell's receivers.
-  void (*add_polynomial)(const Polynomial& polynomial, const Cell& cell, Receivers& receivers);
+  void (*add_polynomial)(const Polynomial& polynomial, const ReceiverCell& cell, CellReceivers& receivers);
   // Adds the light of one light by its outline, and the bound of its rounding. sent: its irradiance at every receiver for radiance 1.
-  void (*add_outline)(const FarLights& lights, std::uint32_t number, const float* sent, Receivers& receivers);
+  void (*add_outline)(const FarLights& lights, std::uint32_t number, const float* sent, CellReceivers& receivers);
   // Adds the light of elements at every receiver.
-  void (*add_elements)(const Elements& elements, Receivers& receivers);
+  void (*add_elements)(const FarElements& elements, CellReceivers& receivers);
 };
 
 // One axis with n nodes, n being 1, 2, 4 or 8: the nodes on [-1, 1], and the matrix from values there to factors. Factor i is the sum of
@@ -176,19 +178,19 @@ STERADIAN_DECLARE_PACK_TABLE(lights::CellTable, cell_table)
 namespace steradian::lights {
 
 // The tightest cell with the given axes about points, at least one.
-Cell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye);
+ReceiverCell cell_about(ReceiverSpan points, const std::array<Vec3f, 3>& axes, Vec3f eye);
 
 // A cell along the mean normal and the directions in which the points spread.
-Cell cell_about(ReceiverSpan points, Vec3f eye);
+ReceiverCell cell_about(ReceiverSpan points, Vec3f eye);
 
 // Detects points of more than one surface, or of one that turns too far for one cone. The value says by what to divide them first.
 enum class Disorder { none, normals, places };
-Disorder disorder_of(ReceiverSpan points, const Cell& cell);
+Disorder disorder_of(ReceiverSpan points, const ReceiverCell& cell);
 
 // Splits the points into a front and a back part: by the normals' most varied coordinate, or across the cell's longest axis. Neither part
 // is empty if the points differ in that coordinate.
 std::pair<ReceiverSpan, ReceiverSpan> divided_by_normals(ReceiverSpan points);
-std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const Cell& cell);
+std::pair<ReceiverSpan, ReceiverSpan> divided_by_place(ReceiverSpan points, const ReceiverCell& cell);
 
 // The nodes that a cell needs for lights at about that distance. The error is at most `error`, as far as 64 nodes allow.
 NodeGrid grid_for(Vec3f half, float distance, float error);

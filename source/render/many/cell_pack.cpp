@@ -36,14 +36,14 @@ struct Lanes {
 constexpr double kSky = 0.0283;
 
 // Values that all lights of a cell share.
-struct Judge {
-  const Cell& cell;
+struct CellJudge {
+  const ReceiverCell& cell;
   PackReal error;
   PackVec3 center, normal, axis_x, axis_y, axis_z, to_eye;
   PackReal half_x, half_y, half_z, size, rise, turn, magnitude, loss, eye_distance;
   double lebesgue_x, lebesgue_xy, lebesgue_xyz;
 
-  Judge(const Cell& c, float e)
+  CellJudge(const ReceiverCell& c, float e)
       : cell(c),
         error(broadcast(e)),
         center(broadcast(c.center)),
@@ -80,7 +80,7 @@ struct Verdict {
 
 STERADIAN_INLINE PackReal code(Share s) { return PackReal(static_cast<int>(s)); }
 
-STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const Judge& j) {
+STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const CellJudge& j) {
   K k;
   const PackReal zero(0.0), one(1.0);
   const PackVec3 d = of(far.center) - j.center, plane = of(far.normal);
@@ -177,9 +177,9 @@ STERADIAN_INLINE Verdict judge_pack(const FarLights& far, const Lanes& of, const
   return v;
 }
 
-__attribute__((flatten)) void judge(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const Cell& cell, float error,
-                                    Judged result) {
-  const Judge j(cell, error);
+__attribute__((flatten)) void judge(const FarLights& far, const std::uint32_t* numbers, std::size_t count, const ReceiverCell& cell,
+                                    float error, Judged result) {
+  const CellJudge j(cell, error);
   alignas(64) std::array<float, kLanes> share;
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Verdict v = judge_pack(far, Lanes(numbers, count, i), j);
@@ -221,10 +221,10 @@ STERADIAN_INLINE Sent from_four(const FourElements& e, const PackVec3& p) {
 
 // Sums over elements at a pack of nodes.
 template <bool with_grazing>
-struct Sums {
+struct ElementSums {
   PackReal plain[kParts], weighted[kParts];
 
-  STERADIAN_INLINE Sums() {
+  STERADIAN_INLINE ElementSums() {
     for (std::size_t k = 0; k < kParts; ++k) plain[k] = weighted[k] = PackReal(0.0);
   }
   STERADIAN_INLINE void add(const PackVec3& e, const PackReal& grazing, const Vec3f& radiance) {
@@ -260,7 +260,7 @@ struct Sums {
 };
 
 // Positions of a cell's nodes: kLanes of them from `first` on.
-STERADIAN_INLINE PackVec3 node_places(const Cell& cell, std::size_t first) {
+STERADIAN_INLINE PackVec3 node_places(const ReceiverCell& cell, std::size_t first) {
   alignas(64) std::array<std::array<float, kLanes>, 3> along;
   const std::array<const NodeRow*, 3> row = {&node_row(cell.grid.count[0]), &node_row(cell.grid.count[1]), &node_row(cell.grid.count[2])};
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -285,22 +285,22 @@ STERADIAN_INLINE void in_parts(const List& list, const Add& add, const Next& nex
 }
 
 template <bool with_grazing>
-STERADIAN_INLINE void add_to_nodes(const Elements& elements, const Cell& cell, Polynomial& values) {
+STERADIAN_INLINE void add_to_nodes(const FarElements& elements, const ReceiverCell& cell, Polynomial& values) {
   const PackVec3 eye = broadcast(cell.eye);
   for (std::size_t i = 0; i < cell.grid.size(); i += kLanes) {
     const PackVec3 p = node_places(cell, i);
     const PackVec3 to_eye = eye - p, view = to_eye * inversesqrt(max(dot(to_eye, to_eye), PackReal(1e-30)));
-    Sums<with_grazing> sums;
+    ElementSums<with_grazing> sums;
     const auto put = [&] {
       sums.put(values, i);
       sums = {};
     };
-    const auto add_one = [&](const Element& e) {
+    const auto add_one = [&](const FarElement& e) {
       const PackVec3 r = broadcast(e.center) - p;
       const Sent sent = from_flat(broadcast(e.area), r);
       sums.add(sent.vector, grazing_of(r, view, sent.inverse), e.radiance);
     };
-    const auto add_ball = [&](const Element& e) {
+    const auto add_ball = [&](const FarElement& e) {
       const PackVec3 r = broadcast(e.center) - p;
       const Sent sent = from_ball(broadcast(e.area.x), r);
       sums.add(sent.vector, grazing_of(r, view, sent.inverse), e.radiance);
@@ -350,8 +350,8 @@ STERADIAN_INLINE void copy_rows(const Polynomial& from, std::size_t count, Polyn
 }
 
 template <bool with_grazing>
-__attribute__((flatten)) void fit_with(const Elements& elements, const Cell& cell, const Polynomial* outer, const Cell* outer_cell,
-                                       Polynomial& result) {
+__attribute__((flatten)) void fit_with(const FarElements& elements, const ReceiverCell& cell, const Polynomial* outer,
+                                       const ReceiverCell* outer_cell, Polynomial& result) {
   constexpr std::size_t kWidth = with_grazing ? kRow : kWeighted;
   if (outer != nullptr) {
     copy_rows(*outer, cell.grid.size(), result);
@@ -377,7 +377,8 @@ __attribute__((flatten)) void fit_with(const Elements& elements, const Cell& cel
   for (std::size_t axis = 0; axis < 3; ++axis) combine<kWidth>(axis, cell.grid, node_row(cell.grid.count[axis]).to_factors, result);
 }
 
-void fit(const Elements& elements, const Cell& cell, const Polynomial* outer, const Cell* outer_cell, Polynomial& result) {
+void fit(const FarElements& elements, const ReceiverCell& cell, const Polynomial* outer, const ReceiverCell* outer_cell,
+         Polynomial& result) {
   // A part of receivers with losses may have none itself; its polynomial is still the whole one's.
   if (cell.loss > 0 || (outer_cell != nullptr && outer_cell->loss > 0))
     fit_with<true>(elements, cell, outer, outer_cell, result);
@@ -386,7 +387,7 @@ void fit(const Elements& elements, const Cell& cell, const Polynomial* outer, co
 }
 
 template <bool with_grazing>
-__attribute__((flatten)) void add_polynomial_with(const Polynomial& polynomial, const Cell& cell, Receivers& receivers) {
+__attribute__((flatten)) void add_polynomial_with(const Polynomial& polynomial, const ReceiverCell& cell, CellReceivers& receivers) {
   const VectorArrays positions = arrays_of(receivers.position), normals = arrays_of(receivers.normal);
   const PackVec3 center = broadcast(cell.center);
   const auto scale = [](float half) { return half > 0 ? 1 / half : 0.0f; };
@@ -427,14 +428,14 @@ __attribute__((flatten)) void add_polynomial_with(const Polynomial& polynomial, 
   }
 }
 
-void add_polynomial(const Polynomial& polynomial, const Cell& cell, Receivers& receivers) {
+void add_polynomial(const Polynomial& polynomial, const ReceiverCell& cell, CellReceivers& receivers) {
   if (cell.loss > 0)
     add_polynomial_with<true>(polynomial, cell, receivers);
   else
     add_polynomial_with<false>(polynomial, cell, receivers);
 }
 
-__attribute__((flatten)) void add_elements(const Elements& elements, Receivers& receivers) {
+__attribute__((flatten)) void add_elements(const FarElements& elements, CellReceivers& receivers) {
   K k;
   const Points points = receivers.points();
   for (std::size_t i = 0; i < receivers.filled; i += kLanes) {
@@ -456,12 +457,12 @@ __attribute__((flatten)) void add_elements(const Elements& elements, Receivers& 
       }
       sum = sum + broadcast(radiance) * e;
     };
-    const auto add_one = [&](const Element& e) {
+    const auto add_one = [&](const FarElement& e) {
       const PackVec3 r = broadcast(e.center) - p;
       add(from_flat(broadcast(e.area), r), r, e.radiance);
     };
     // Points may be as near as they like: their rounding is that of each receiver.
-    const auto add_ball = [&](const Element& e) {
+    const auto add_ball = [&](const FarElement& e) {
       const PackVec3 r = broadcast(e.center) - p;
       const Sent sent = from_ball(broadcast(e.area.x), r);
       add(sent, r, e.radiance);
@@ -487,7 +488,7 @@ __attribute__((flatten)) void add_elements(const Elements& elements, Receivers& 
 }
 
 // The receiver is at least as far away as the light's ball, and as its plane. No light sends more than pi.
-__attribute__((flatten)) void add_outline(const FarLights& far, std::uint32_t number, const float* sent, Receivers& receivers) {
+__attribute__((flatten)) void add_outline(const FarLights& far, std::uint32_t number, const float* sent, CellReceivers& receivers) {
   const auto at = [number](const Planes& planes) { return Vec3f{planes.x[number], planes.y[number], planes.z[number]}; };
   const Vec3f middle = at(far.center), radiance = at(far.radiance);
   const PackVec3 center = broadcast(middle), normal = broadcast(at(far.normal)), light = broadcast(radiance);
@@ -497,7 +498,7 @@ __attribute__((flatten)) void add_outline(const FarLights& far, std::uint32_t nu
   const PackReal of_places = PackReal(kRoundingsOfPlaces) * (places + radius);
   // Rounded corners tilt the light's plane; no edge subtends more than pi.
   const PackReal tilt = PackReal(kUnit) * of_places * outline / max(broadcast(far.area[number]), PackReal(1e-30));
-  const auto* polygon = std::get_if<packed::Polygon>(&far.lights[number]->shape);
+  const auto* polygon = std::get_if<packed::FloatPolygon>(&far.lights[number]->shape);
   const PackReal edges(3.14159265 * static_cast<double>(polygon != nullptr ? polygon->vertices.size() : 2));
   for (std::size_t i = 0; i < receivers.filled; i += kLanes) {
     const PackVec3 p = vector_at(arrays_of(receivers.position), i), from = p - center;

@@ -66,7 +66,7 @@ float mean_fourth(Vec3f x, Vec3f y, float s4, float s2t2) {
   return (xx * xx + yy * yy) * s4 + (2 * xx * yy + 4 * xy * xy) * s2t2;
 }
 
-std::optional<float> fourth_of_parallelogram(const packed::Polygon& p) {
+std::optional<float> fourth_of_parallelogram(const packed::FloatPolygon& p) {
   if (p.vertices.size() != 4 || p.contours.size() != 2) return std::nullopt;
   const Vec3f off = p.vertices[0] + p.vertices[2] - p.vertices[1] - p.vertices[3];
   if (dot(off, off) > 1e-8f * p.deviation2) return std::nullopt;
@@ -79,7 +79,7 @@ float of_round(const One& one) { return 2 * std::numbers::pi_v<float> * one.radi
 struct Prepare {
   One& one;
 
-  void operator()(const packed::Polygon& p) const {
+  void operator()(const packed::FloatPolygon& p) const {
     bound(p, one);
     one.two_sided = p.two_sided;
     float radius = 0;
@@ -89,7 +89,7 @@ struct Prepare {
         one.outline += length(p.vertices[i + 1 < p.contours[c + 1] ? i + 1 : p.contours[c]] - p.vertices[i]);
     take_flat(p.middle, p.normal, p.reach_a, p.reach_b, length(p.area), radius, fourth_of_parallelogram(p), one);
   }
-  void operator()(const packed::Disk& d) const {
+  void operator()(const packed::FloatDisk& d) const {
     bound(d, one);
     one.two_sided = d.two_sided;
     one.outline = of_round(one);
@@ -98,7 +98,7 @@ struct Prepare {
     take_flat(d.point, d.normal, d.x * to_reach, d.y * to_reach, std::numbers::pi_v<float> * length(cross(d.x, d.y)),
               std::sqrt(dot(d.x, d.x) + dot(d.y, d.y)), mean_fourth(d.x, d.y, 1.0f / 8, 1.0f / 24), one);
   }
-  void operator()(const packed::Ellipsoid& e) const {
+  void operator()(const packed::FloatEllipsoid& e) const {
     bound(e, one);
     one.outline = of_round(one);
     if (!(e.ball.radius > 0)) return;
@@ -106,7 +106,7 @@ struct Prepare {
     one.radius = e.ball.radius;
     one.area = std::numbers::pi_v<float> * e.ball.radius * e.ball.radius;
   }
-  void operator()(const packed::Capsule& c) const {
+  void operator()(const packed::FloatCapsule& c) const {
     bound(c, one);
     one.outline = of_round(one);
   }

@@ -17,7 +17,7 @@ struct Planes {
 };
 
 // One element and the light's radiance.
-struct Element {
+struct FarElement {
   Vec3f center, area;  // area: unit normal of the side that faces the viewer, times area; (area, 0, 0) for a ball
   Vec3f radiance;
 };
@@ -34,7 +34,7 @@ struct FarLights {
   Planes center, normal;                 // unit, to the lit side; zero if no plane bounds the lit region
   Planes reach_a, reach_b;               // offsets of the four elements
   Planes radiance;
-  std::vector<Element> elements;  // for the lit sides
+  std::vector<FarElement> elements;  // for the lit sides
   std::vector<FourElements> fours;
   Plane area;                           // area of the great circle for balls; 0: no element represents it
   Plane radius;                         // radius of a ball about the centre that contains the light; 0 for points

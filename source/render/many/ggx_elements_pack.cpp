@@ -24,7 +24,7 @@ struct GgxPoints {
     PackReal plain, fresnel, plain_error, fresnel_error;
     Mask serves;
   };
-  STERADIAN_INLINE Answer answer(const Light& light, const PackReal& allowed) const;
+  STERADIAN_INLINE Answer answer(const SpreadLight& light, const PackReal& allowed) const;
 
   struct Sum {
     RadianceSum plain, fresnel;
@@ -43,7 +43,7 @@ struct GgxPoints {
 
 STERADIAN_INLINE PackReal power5(const PackReal& x) { return x * x * (x * x) * x; }
 
-STERADIAN_INLINE GgxPoints::Answer GgxPoints::answer(const Light& light, const PackReal& allowed) const {
+STERADIAN_INLINE GgxPoints::Answer GgxPoints::answer(const SpreadLight& light, const PackReal& allowed) const {
   const PackReal zero(0.0), one(1.0);
   const PackVec3 r = light.center - position;
   const PackReal r2 = max(dot(r, r), PackReal(1e-12)), inverse = inversesqrt(r2), length = r2 * inverse;

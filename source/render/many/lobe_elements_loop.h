@@ -12,12 +12,12 @@ namespace {
 
 STERADIAN_INLINE PackVec3 vector_at(const VectorArrays& v, std::size_t i) { return {load(v.x + i), load(v.y + i), load(v.z + i)}; }
 
-struct Light {
+struct SpreadLight {
   PackVec3 center, normal, reach_a, reach_b;
   PackReal area, radius, spread, deviation2, third, fourth;
   bool symmetric, two_sided;
 
-  STERADIAN_INLINE Light(const lights::FarLights& far, std::size_t i) {
+  STERADIAN_INLINE SpreadLight(const lights::FarLights& far, std::size_t i) {
     const auto number = [i](const lights::Plane& plane) { return broadcast(plane.data()[i]); };
     const auto vector = [&](const lights::Planes& p) { return PackVec3(number(p.x), number(p.y), number(p.z)); };
     center = vector(far.center);
@@ -68,7 +68,7 @@ STERADIAN_INLINE void add_elements_of(const lights::FarLights& far, const std::u
     for (std::size_t k = 0; k < kPacks; ++k) any = any || any_lane(at[k].sees);
     if (!any) continue;
     for (std::size_t n = 0; n < count; ++n) {
-      const Light light(far, numbers[n]);
+      const SpreadLight light(far, numbers[n]);
       typename Lobe::Answer answers[kPacks];
       bool serves = true;
       for (std::size_t k = 0; k < kPacks; ++k) {

@@ -21,7 +21,7 @@ struct LobePoints {
     PackReal value, error;
     Mask serves;
   };
-  STERADIAN_INLINE Answer answer(const Light& light, const PackReal& allowed) const;
+  STERADIAN_INLINE Answer answer(const SpreadLight& light, const PackReal& allowed) const;
 
   struct Sum : RadianceSum {
     STERADIAN_INLINE void add(const PackVec3& radiance, const Answer& a) { RadianceSum::add(radiance, a.value, a.error); }
@@ -64,13 +64,13 @@ STERADIAN_INLINE LobePoints lobe_points(const Points& points, const LtcPackTable
 }
 
 // Clamped cosine of an element at r, over pi, for area 1.
-STERADIAN_INLINE PackReal element(const LobePoints& at, const Light& light, const PackVec3& r, const PackReal& side) {
+STERADIAN_INLINE PackReal element(const LobePoints& at, const SpreadLight& light, const PackVec3& r, const PackReal& side) {
   const PackVec3 y(dot(at.row_x, r), dot(at.row_y, r), dot(at.row_z, r));
   const PackReal inverse2 = PackReal(1.0) / max(dot(y, y), PackReal(1e-30));
   return (max(y.z, PackReal(0.0)) * inverse2) * (max(side * dot(light.normal, r), PackReal(0.0)) * inverse2);
 }
 
-STERADIAN_INLINE LobePoints::Answer LobePoints::answer(const Light& light, const PackReal& allowed) const {
+STERADIAN_INLINE LobePoints::Answer LobePoints::answer(const SpreadLight& light, const PackReal& allowed) const {
   K k;
   const LobePoints& at = *this;
   const PackReal zero(0.0), one(1.0);

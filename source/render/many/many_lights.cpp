@@ -30,7 +30,7 @@ struct ManyLights::Bound {
 
 // Results of the enclosing cells: the polynomial of the innermost one that has one, or null.
 struct ManyLights::Outer {
-  const Cell* cell = nullptr;
+  const ReceiverCell* cell = nullptr;
   const Polynomial* polynomial = nullptr;
   int fits = 0;  // the number of those that went into it
   Bound bound;
@@ -42,7 +42,7 @@ struct ManyLights::Work {
     std::vector<Share> share;
     std::vector<float> plain, grazing, most;
     std::vector<std::uint32_t> left, exact;
-    Elements elements;
+    FarElements elements;
     Polynomial polynomial;
   };
   std::deque<Level> levels;
@@ -50,7 +50,7 @@ struct ManyLights::Work {
   ReceiverSet of_tile;
   const Receiver* first = nullptr;  // first point of the set
   Received* received = nullptr;     // results of the set
-  Receivers receivers;
+  CellReceivers receivers;
   Counts counts;
 
   Level& level(std::size_t depth) {
@@ -100,7 +100,7 @@ void ManyLights::add_diffuse(ReceiverSet& set, Numbers numbers, Work& work) cons
 // Separates points of several surfaces first.
 void ManyLights::add_in_order(ReceiverSpan points, Numbers numbers, Work& work) const {
   if (points.empty()) return;
-  Cell cell = cell_about(points, eye_);
+  ReceiverCell cell = cell_about(points, eye_);
   const Disorder disorder = disorder_of(points, cell);
   if (disorder != Disorder::none) {
     const auto [front, back] = disorder == Disorder::normals ? divided_by_normals(points) : divided_by_place(points, cell);
@@ -115,7 +115,7 @@ void ManyLights::add_in_order(ReceiverSpan points, Numbers numbers, Work& work) 
 
 // Harmonic mean over some of the lights, weighted by the most they can send. The mean is halved, since most lights that count are half as
 // far away.
-float ManyLights::distance_of_lights(const Cell& cell, Numbers numbers) const {
+float ManyLights::distance_of_lights(const ReceiverCell& cell, Numbers numbers) const {
   constexpr std::size_t kSome = 128;
   const std::size_t step = std::max<std::size_t>(numbers.count / kSome, 1);
   float weights = 0, sum = 0;
@@ -129,7 +129,7 @@ float ManyLights::distance_of_lights(const Cell& cell, Numbers numbers) const {
 }
 
 // side: -1 for the light of the other side.
-void ManyLights::add_element(std::uint32_t i, bool four, float side, Elements& elements) const {
+void ManyLights::add_element(std::uint32_t i, bool four, float side, FarElements& elements) const {
   if (four) {
     elements.fours.push_back(far_.fours[i]);
     if (side < 0) elements.fours.back().area = -elements.fours.back().area;
@@ -141,7 +141,7 @@ void ManyLights::add_element(std::uint32_t i, bool four, float side, Elements& e
   }
 }
 
-void ManyLights::add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
+void ManyLights::add_to_cell(ReceiverSpan points, const ReceiverCell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
                              Work& work) const {
   Work::Level& level = work.level(depth);
   const std::size_t room = (numbers.count + 15) / 16 * 16;
@@ -184,7 +184,7 @@ void ManyLights::add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numb
     const auto [front, back] = divided_by_place(points, cell);
     if (!front.empty() && !back.empty()) {
       for (const ReceiverSpan part : {front, back}) {
-        Cell half = cell_about(part, cell.axes, eye_);
+        ReceiverCell half = cell_about(part, cell.axes, eye_);
         half.grid = cell.grid;
         add_to_cell(part, half, left, inner, depth + 1, work);
       }
@@ -194,7 +194,7 @@ void ManyLights::add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numb
   add_to_points(points, cell, numbers, inner, depth, work);
 }
 
-void ManyLights::add_to_points(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
+void ManyLights::add_to_points(ReceiverSpan points, const ReceiverCell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
                                Work& work) const {
   Work::Level& level = work.level(depth);
   Outer inner = outer;
@@ -217,9 +217,9 @@ void ManyLights::add_to_points(ReceiverSpan points, const Cell& cell, Numbers nu
 }
 
 // Adds light to at most as many points as a tile has.
-void ManyLights::add_to_some(ReceiverSpan points, const Cell& cell, Numbers exact, const Elements& elements, const Outer& outer,
+void ManyLights::add_to_some(ReceiverSpan points, const ReceiverCell& cell, Numbers exact, const FarElements& elements, const Outer& outer,
                              Work& work) const {
-  Receivers& receivers = work.receivers;
+  CellReceivers& receivers = work.receivers;
   receivers.count = points.size();
   receivers.filled = (points.size() + 15) / 16 * 16;
   for (std::size_t k = 0; k < receivers.filled; ++k) {
@@ -248,10 +248,10 @@ void ManyLights::add_to_some(ReceiverSpan points, const Cell& cell, Numbers exac
   }
 }
 
-void ManyLights::add_outline(std::uint32_t number, const Cell& cell, Receivers& receivers) const {
+void ManyLights::add_outline(std::uint32_t number, const ReceiverCell& cell, CellReceivers& receivers) const {
   const PackLight& light = *far_.lights[number];
   alignas(64) TilePlane sent;
-  std::optional<packed::Polygon> cut;
+  std::optional<packed::FloatPolygon> cut;
   if (light.is_polygon()) cut = with_long_edges_cut(light.polygon, static_cast<Vec3d>(cell.center), static_cast<double>(cell.radius));
   if (cut) {
     PackLight copy = light;

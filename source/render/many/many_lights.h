@@ -63,12 +63,14 @@ class ManyLights {
   struct Outer;
   void add_diffuse(ReceiverSet& set, Numbers numbers, Work& work) const;
   void add_in_order(ReceiverSpan points, Numbers numbers, Work& work) const;
-  void add_to_cell(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth, Work& work) const;
-  void add_to_points(ReceiverSpan points, const Cell& cell, Numbers numbers, const Outer& outer, std::size_t depth, Work& work) const;
-  void add_to_some(ReceiverSpan points, const Cell& cell, Numbers exact, const Elements& elements, const Outer& outer, Work& work) const;
-  void add_outline(std::uint32_t number, const Cell& cell, Receivers& receivers) const;
-  float distance_of_lights(const Cell& cell, Numbers numbers) const;
-  void add_element(std::uint32_t number, bool four, float side, Elements& elements) const;
+  void add_to_cell(ReceiverSpan points, const ReceiverCell& cell, Numbers numbers, const Outer& outer, std::size_t depth, Work& work) const;
+  void add_to_points(ReceiverSpan points, const ReceiverCell& cell, Numbers numbers, const Outer& outer, std::size_t depth,
+                     Work& work) const;
+  void add_to_some(ReceiverSpan points, const ReceiverCell& cell, Numbers exact, const FarElements& elements, const Outer& outer,
+                   Work& work) const;
+  void add_outline(std::uint32_t number, const ReceiverCell& cell, CellReceivers& receivers) const;
+  float distance_of_lights(const ReceiverCell& cell, Numbers numbers) const;
+  void add_element(std::uint32_t number, bool four, float side, FarElements& elements) const;
 
   const FarLights far_;
   const Vec3f eye_;

@@ -9,28 +9,18 @@
 
 #include "core/lattices.h"
 #include "lobes/lobe.h"
+#include "render/radiosity/bounce_rays.h"
 #include "render/environment/environment_light.h"  // mean_grazing
 #include "render/radiosity/mirrors.h"
 
 namespace steradian::radiosity {
 namespace {
 
-constexpr int kMostShifts = 16;        // of the grid; more primary samples repeat them
-constexpr std::size_t kLobeRays = 64;  // of a glossy lobe
+constexpr int kMostShifts = 16;  // of the grid; more primary samples repeat them
 
 // Place of each of 4 x 4 pixels in a cell of the grid, a number of 4 x 4. Neither coordinate of the place, nor its first waves, has a
 // component along those of the pixel: the linear fit would keep it.
 constexpr std::array<int, 16> kPlaces = {1, 14, 10, 5, 15, 8, 0, 7, 4, 3, 11, 12, 6, 9, 13, 2};
-
-// Number of rows of the grid over the sphere; it has twice as many columns.
-int rows_for(Quality quality) {
-  switch (quality) {
-    case Quality::draft: return 11;
-    case Quality::high: return 32;
-    case Quality::normal: break;
-  }
-  return 12;
-}
 
 // Quarter of the directions that one of the grid belongs to: every other row and column.
 std::size_t quarter_of(std::size_t direction, std::size_t count) {
@@ -154,9 +144,13 @@ class BlockFit {
 
 }  // namespace
 
-Gather::Gather(const PatchLight& light, const RayScene& rays, Quality quality, double error, int samples)
-    : light_(light), rays_(rays), samples_(std::min(samples, kMostShifts)), tolerance_(static_cast<float>(error * light.mean_radiance())) {
-  for (int level = 0; level <= (error > 0 ? kFinest : 0); ++level) add_grids(rows_for(quality) << level);
+Gather::Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, double error, int samples)
+    : light_(light),
+      rays_(rays),
+      samples_(std::min(samples, kMostShifts)),
+      lobe_rays_(fineness.lobe_rays),
+      tolerance_(static_cast<float>(error * light.mean_radiance())) {
+  for (int level = 0; level <= (error > 0 ? kFinest : 0); ++level) add_grids(fineness.rows << level);
   const auto rays_over_sphere = static_cast<float>(grids_[0][0].size());
   near_ = std::sqrt(kLanes * light.bright_area() * rays_over_sphere / (4 * std::numbers::pi_v<float>));
 }
@@ -274,7 +268,7 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
 // One glossy lobe of each surface that has one.
 Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
                               std::size_t level) const {
-  const std::size_t count = kLobeRays << (2 * level);
+  const std::size_t count = lobe_rays_ << (2 * level);
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;

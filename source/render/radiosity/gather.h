@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "render/radiosity/fineness.h"
 #include "render/radiosity/patch_light.h"
 #include "render/surface/gbuffer.h"
 
@@ -18,8 +19,8 @@ class Gather {
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
 
   // All must outlive this object. error: fraction of the scene's mean light; pixels with a larger estimated error take up to sixteen times
-  // as many directions; 0: all take as many as the quality says. samples: primary samples of a pixel, which shift the grid.
-  Gather(const PatchLight& light, const RayScene& rays, Quality quality, double error, int samples);
+  // as many directions; 0: all take as many as the fineness says. samples: primary samples of a pixel, which shift the grid.
+  Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, double error, int samples);
 
   // Radiance that each surface reflects to its view, and an estimate of its error.
   struct Result {
@@ -42,6 +43,7 @@ class Gather {
   const PatchLight& light_;
   const RayScene& rays_;
   const int samples_;
+  const std::size_t lobe_rays_;
   float near_ = 0;  // distance within which rays meet bright sides more often than places stand for them
   const float tolerance_;
   struct Cell {

@@ -1,26 +1,15 @@
-// PatchLight: the radiance that the sides of all patches reflect, after any number of bounces.
+// PatchLight: the radiance that the sides of all patches reflect, after any number of bounces. PatchSolver computes it.
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "core/mip_maps.h"
-#include "render/radiosity/bounce_rays.h"
 #include "render/radiosity/glossy_sides.h"
 #include "render/radiosity/patches.h"
-#include "render/tile/tile.h"
 
 namespace steradian::radiosity {
-
-struct PatchOptions {
-  int bounces = kAllBounces;  // of the light in the picture: the last one is that of the gather
-  Quality quality = Quality::normal;
-};
-
-// Stores a white diffuse surface in the place of another, so that the radiance that it reflects is its irradiance over pi.
-void put_white(SurfaceTile& tile, std::size_t slot, const Surface& surface);
 
 // A place that stands for an equal part of the light of all bright sides, which few directions of a gather would meet.
 struct BrightPlace {
@@ -31,19 +20,6 @@ struct BrightPlace {
 
 class PatchLight {
  public:
-  // Adds the direct light of a tile's surfaces to their radiance.
-  using AddDirect = std::function<void(SurfaceTile& tile)>;
-
-  // Appends the light that reaches a surface from directions. number: seed of the directions.
-  using FindIncident = std::function<void(const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found)>;
-
-  // Computes all radiances, on the threads of the caller's arena. The scene, its rays and its mip maps must outlive this object.
-  PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options, const AddDirect& add_direct,
-             const FindIncident& find_incident);
-
-  // Number of calls of add_direct, for progress.
-  static std::size_t direct_tiles(const Scene& scene, Quality quality);
-
   const Patches& patches() const { return patches_; }
   // Radiance at a place that is on a side. A side beside a border of light has a direct light for each part.
   Vec3f radiance(PatchPlace at) const {
@@ -65,32 +41,16 @@ class PatchLight {
   std::optional<float> left_out() const { return left_out_; }
 
  private:
-  Surface surface_of(std::uint32_t side) const;
-  Surface surface_at_site(std::uint32_t side, const Patches::Site& at) const;
-  void find_direct(const AddDirect& add_direct);
-  void refine_direct(const AddDirect& add_direct);
-  void find_glossy(const FindIncident& find_incident);
-  void find_links(std::size_t rays);
-  void iterate(int bounces);
-  void find_coarse();
-  void find_bright_sides();
-  float area_of(std::uint32_t side) const;
-  float turn_of(std::uint32_t side) const;
+  friend class PatchSolver;
+  explicit PatchLight(Patches patches) : patches_(std::move(patches)), glossy_(patches_.side_count()) {}
 
-  const Scene& scene_;
-  const RayScene& rays_;
-  const MipMaps& maps_;
-  const Patches patches_;
+  Patches patches_;
   GlossySides glossy_;
-  std::vector<Vec3f> reflectance_, direct_, radiance_;           // by side
-  std::vector<Vec3f> even_glossy_;                               // by side: mean radiance of its glossy lobe
-  std::vector<Vec3f> from_glossy_;                               // by side: mean radiance that glossy lobes of other sides send there
+  std::vector<Vec3f> radiance_;                                  // by side
   std::vector<Vec3f> coarse_;                                    // by side
   std::vector<std::uint32_t> parts_of_;                          // by side: index below, or kNoSide
   std::vector<std::array<Vec3f, kPatchParts>> change_in_parts_;  // from the side's mean
-  std::size_t links_per_side_ = 0;
-  std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
-  std::vector<std::uint8_t> bright_;  // by side; empty: none is
+  std::vector<std::uint8_t> bright_;                             // by side; empty: none is
   std::vector<BrightPlace> places_;
   float bright_area_ = 0;
   double mean_radiance_ = 0;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostEdges = 32768;  // a group that gathers more takes rays, unless exact is asked for
 
-bool is_disk(const PackLight& light) { return std::holds_alternative<packed::Disk>(light.shape); }
+bool is_disk(const PackLight& light) { return std::holds_alternative<packed::FloatDisk>(light.shape); }
 
 }  // namespace
 

@@ -238,7 +238,7 @@ void lift_off_lights(const Scene& scene, const TileHits& hits, SurfaceTile& tile
 
 }  // namespace
 
-void shade_tile(const Scene& scene, const Shading& shading, const TileHits& hits, SurfaceTile& tile) {
+void shade_tile(const Scene& scene, const HitShading& shading, const TileHits& hits, SurfaceTile& tile) {
   clear_kinds(tile);
   LastMesh last;
   const auto surface_of = [&](std::size_t i, Vec3f view) {

@@ -31,7 +31,7 @@ void trace_tile(const RayScene& rays, const CameraRays& camera, TileArea area, P
 struct SurfacePacks;
 
 // Settings for turning hits into surfaces.
-struct Shading {
+struct HitShading {
   const SurfacePacks& packs;
   Terminator terminator = Terminator::strict;
   const MipMaps* maps = nullptr;  // mip maps of the scene's images, for means over pixel footprints; null: textures at points
@@ -40,7 +40,7 @@ struct Shading {
 
 // Computes the surfaces that were hit, plain meshes on packs, at the positions that the terminator asks for. tile.radiance becomes the
 // emission.
-void shade_tile(const Scene& scene, const Shading& shading, const TileHits& hits, SurfaceTile& tile);
+void shade_tile(const Scene& scene, const HitShading& shading, const TileHits& hits, SurfaceTile& tile);
 
 // Clears the kinds of a tile. The functions below start from a tile without a surface in any slot.
 void clear_kinds(SurfaceTile& tile);

@@ -22,7 +22,7 @@ Vec3f front_of(const Mesh& mesh, unsigned triangle) {
 
 }  // namespace
 
-PassedRays::PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, Background background)
+PassedRays::PassedRays(const Scene& scene, const RayScene& rays, const HitShading& shading, Background background)
     : scene_(scene), rays_(rays), shading_(shading), background_(std::move(background)), pixel_(size_of_pixel(shading.steps)) {}
 
 void PassedRays::begin(const TilePlane& distances, Ways& ways) {

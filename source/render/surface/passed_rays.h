@@ -16,7 +16,7 @@ class PassedRays {
   // The radiance that rays of a unit direction show that leave the scene.
   using Background = std::function<Vec3f(Vec3f direction)>;
   // Scene, rays and shading must outlive this object. background: empty: black.
-  PassedRays(const Scene& scene, const RayScene& rays, const Shading& shading, Background background);
+  PassedRays(const Scene& scene, const RayScene& rays, const HitShading& shading, Background background);
 
   // Rays of one tile.
   struct Ways {
@@ -43,7 +43,7 @@ class PassedRays {
 
   const Scene& scene_;
   const RayScene& rays_;
-  const Shading& shading_;
+  const HitShading& shading_;
   const Background background_;
   const float pixel_;  // size of a pixel at distance 1
 };

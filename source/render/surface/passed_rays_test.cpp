@@ -51,7 +51,7 @@ struct Passed {
 Passed pass(const Scene& scene, Vec3f origin, Vec3f direction) {
   const RayScene rays(scene);
   const MipMaps maps(scene.images);
-  const Shading shading{surface_packs_for(active_simd()), Terminator::strict, &maps, {{1e-3f, 0, 0}, {0, 1e-3f, 0}, {0, 0, -1}}};
+  const HitShading shading{surface_packs_for(active_simd()), Terminator::strict, &maps, {{1e-3f, 0, 0}, {0, 1e-3f, 0}, {0, 0, -1}}};
   const PassedRays passed(scene, rays, shading, {});
   const auto ways = std::make_unique<PassedRays::Ways>();
   const auto tile = std::make_unique<SurfaceTile>();

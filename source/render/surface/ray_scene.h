@@ -108,6 +108,9 @@ namespace vulkan {
 struct KeptOnDevice;
 class SceneRays;
 }  // namespace vulkan
+namespace radiosity {
+class KeptPatches;
+}  // namespace radiosity
 
 // The edges that cast shadows, and the trees over them and their triangles.
 struct ShadowEdges {
@@ -143,6 +146,7 @@ struct RenderCache::Parts {
   MipMaps::Pyramids pyramids;
   std::pair<std::shared_ptr<vulkan::KeptOnDevice>, std::string> on_device;  // and the device's name in the options
   std::shared_ptr<const vulkan::SceneRays> device_rays;
+  std::shared_ptr<radiosity::KeptPatches> patches;  // null before the first picture with bounces
 };
 
 }  // namespace steradian

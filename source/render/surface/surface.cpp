@@ -19,12 +19,12 @@ Vec3f from_kernel(SurfaceKernels::vec3 v) { return {v.x.v, v.y.v, v.z.v}; }
 Vec3f color_of(Vec4f c) { return {c.x, c.y, c.z}; }
 
 // Interpolation of values at the corners of a triangle.
-struct Corner {
+struct TrianglePlace {
   std::uint32_t i0, i1, i2;
   float w0, u, v;
   SurfaceFootprint covered;
 
-  Corner(const Mesh& mesh, unsigned triangle, float u_, float v_, const SurfaceFootprint& footprint = {})
+  TrianglePlace(const Mesh& mesh, unsigned triangle, float u_, float v_, const SurfaceFootprint& footprint = {})
       : i0(mesh.indices[3 * std::size_t{triangle}]),
         i1(mesh.indices[3 * std::size_t{triangle} + 1]),
         i2(mesh.indices[3 * std::size_t{triangle} + 2]),
@@ -46,14 +46,14 @@ struct Corner {
   }
 };
 
-Vec4f texel(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use) {
+Vec4f texel(const Scene& scene, const Mesh& mesh, const TrianglePlace& at, const TextureUse& use) {
   if (!use.present()) return {1, 1, 1, 1};
   const auto& set = mesh.texcoords[use.texcoord];
   if (set.empty() || at.covered.maps == nullptr) return sample_texture(scene.images, use, set.empty() ? Vec2f{} : at(set));
   return sample_texture(*at.covered.maps, use, at(set), {at.change(set, at.covered.right), at.change(set, at.covered.down)});
 }
 
-Vec4f base_color(const Scene& scene, const Mesh& mesh, const Corner& at, const SurfaceMaterial& m) {
+Vec4f base_color(const Scene& scene, const Mesh& mesh, const TrianglePlace& at, const SurfaceMaterial& m) {
   Vec4f c = m.base_color;
   const auto multiply = [&](Vec4f t) { c = {c.x * t.x, c.y * t.y, c.z * t.z, c.w * t.w}; };
   if (m.base_color_texture.present()) multiply(texel(scene, mesh, at, m.base_color_texture));
@@ -74,7 +74,7 @@ Vec3f any_tangent(Vec3f n) {
 }
 
 // Normal from a normal map, on the front face, or the frame's own.
-SurfaceKernels::vec3 bent_normal(const Scene& scene, const Mesh& mesh, const Corner& at, const TextureUse& use,
+SurfaceKernels::vec3 bent_normal(const Scene& scene, const Mesh& mesh, const TrianglePlace& at, const TextureUse& use,
                                  const SurfaceKernels::SurfaceFrame& frame) {
   if (!use.present()) return frame.z;
   return SurfaceKernels().surface_bent_normal(frame, in_kernel(color_of(texel(scene, mesh, at, use))), in_kernel(use.scale));
@@ -149,7 +149,7 @@ SurfaceKind kind_of(const Scene& scene, const Mesh& mesh) {
 
 Vec4f base_color_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v) {
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
-  return base_color(scene, mesh, Corner(mesh, triangle, u, v), m);
+  return base_color(scene, mesh, TrianglePlace(mesh, triangle, u, v), m);
 }
 
 void keep_within(const Mesh& mesh, unsigned triangle, float distance, float& u, float& v) {
@@ -171,7 +171,7 @@ void keep_within(const Mesh& mesh, unsigned triangle, float distance, float& u, 
 }
 
 Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec3f outside) {
-  const Corner at(mesh, triangle, u, v);
+  const TrianglePlace at(mesh, triangle, u, v);
   const Vec3f hit = at(mesh.positions);
   Vec3f lift{};
   for (const auto& [i, weight] : {std::pair{at.i0, at.w0}, std::pair{at.i1, at.u}, std::pair{at.i2, at.v}})
@@ -182,7 +182,7 @@ Vec3f smooth_position(const Mesh& mesh, unsigned triangle, float u, float v, Vec
 
 SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned triangle, Vec3f direction, float distance,
                               const PixelSteps& steps) {
-  const Corner at(mesh, triangle, 0, 0);
+  const TrianglePlace at(mesh, triangle, 0, 0);
   const Vec3f &p = mesh.positions[at.i0], e1 = mesh.positions[at.i1] - p, e2 = mesh.positions[at.i2] - p, n = cross(e1, e2);
   const float facing = dot(n, direction), area2 = dot(n, n), depth = distance * dot(direction, steps.forward);
   SurfaceFootprint covered{&maps, {}, {}};
@@ -198,7 +198,7 @@ SurfaceFootprint footprint_on(const MipMaps& maps, const Mesh& mesh, unsigned tr
 
 Surface surface_at(const Scene& scene, const Mesh& mesh, unsigned triangle, float u, float v, Vec3f view,
                    const SurfaceFootprint& footprint) {
-  const Corner at(mesh, triangle, u, v, footprint);
+  const TrianglePlace at(mesh, triangle, u, v, footprint);
   const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
   Surface s;
   s.material = &m;

@@ -76,7 +76,7 @@ using Mask = PackKernels::mask;
 using Weights = PackKernels::SurfaceWeights;
 
 // Writes the lanes in `kept`.
-struct Writer {
+struct LaneWriter {
   std::size_t slot;
   Mask kept;
   bool all;
@@ -124,7 +124,7 @@ STERADIAN_INLINE Mask write_surfaces(const Mesh& mesh, const Hits& hits, const P
                                      SurfaceTile& tile) {
   alignas(64) std::array<float, kLanes> here;
   for (std::size_t k = 0; k < kLanes; ++k) here[k] = (hits.kept >> k & 1) != 0 ? 1.0f : 0.0f;
-  const Writer write = {slot, load(here.data()) > PackReal(0.5), hits.kept == (std::uint32_t{1} << kLanes) - 1};
+  const LaneWriter write = {slot, load(here.data()) > PackReal(0.5), hits.kept == (std::uint32_t{1} << kLanes) - 1};
   write(tile.position, hits.at(mesh.positions));
   write(tile.normal, normal);
   write(tile.geometric_normal, hits.geometric * hits.side);
@@ -167,7 +167,7 @@ __attribute__((flatten)) std::uint32_t fill_plain_pack(const Mesh& mesh, const S
 // The textures of a block.
 class Textures {
  public:
-  Textures(const Mesh& mesh, const Hits& hits, const Shading& shading, const TileHits& tile_hits, std::size_t slot)
+  Textures(const Mesh& mesh, const Hits& hits, const HitShading& shading, const TileHits& tile_hits, std::size_t slot)
       : mesh_(mesh), hits_(hits), maps_(*shading.maps) {
     // The same as footprint_on, lane by lane.
     const Corners& at = hits.at;
@@ -228,7 +228,7 @@ STERADIAN_INLINE PackKernels::vec4 tangents_of(const Mesh& mesh, const Hits& hit
   return {t.rgb.x, t.rgb.y, t.rgb.z, t.alpha};
 }
 
-__attribute__((flatten)) std::uint32_t fill_textured_pack(const Scene& scene, const Mesh& mesh, const Shading& shading,
+__attribute__((flatten)) std::uint32_t fill_textured_pack(const Scene& scene, const Mesh& mesh, const HitShading& shading,
                                                           const TileHits& tile_hits, std::size_t slot, std::uint32_t slots,
                                                           SurfaceTile& tile) {
   const Hits hits(mesh, tile_hits, slot, slots);
@@ -299,7 +299,7 @@ std::uint32_t fill_plain(const Mesh& mesh, const Surface& like, const TileHits& 
   return by_packs(first, slots, [&](std::size_t slot, std::uint32_t here) { return fill_plain_pack(mesh, like, hits, slot, here, tile); });
 }
 
-std::uint32_t fill_textured(const Scene& scene, const Mesh& mesh, const Shading& shading, const TileHits& hits, std::size_t first,
+std::uint32_t fill_textured(const Scene& scene, const Mesh& mesh, const HitShading& shading, const TileHits& hits, std::size_t first,
                             std::uint32_t slots, SurfaceTile& tile) {
   return by_packs(first, slots,
                   [&](std::size_t slot, std::uint32_t here) { return fill_textured_pack(scene, mesh, shading, hits, slot, here, tile); });

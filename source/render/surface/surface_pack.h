@@ -25,7 +25,7 @@ struct SurfacePacks {
   std::uint32_t (*fill_plain)(const Mesh& mesh, const Surface& like, const TileHits& hits, std::size_t first, std::uint32_t slots,
                               SurfaceTile& tile);
   // For a textured mesh; `shading` must have maps.
-  std::uint32_t (*fill_textured)(const Scene& scene, const Mesh& mesh, const Shading& shading, const TileHits& hits, std::size_t first,
+  std::uint32_t (*fill_textured)(const Scene& scene, const Mesh& mesh, const HitShading& shading, const TileHits& hits, std::size_t first,
                                  std::uint32_t slots, SurfaceTile& tile);
 };
 

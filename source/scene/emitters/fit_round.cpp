@@ -12,7 +12,7 @@ namespace steradian::scene {
 namespace {
 
 // Measures of a mesh that is symmetric about an axis. They give the axis whatever the triangulation.
-struct Surface {
+struct SymmetricMesh {
   double area = 0;
   Vec3d center;  // centroid of the area
   Vec3d axis;    // the direction that the fewest faces point to
@@ -20,8 +20,8 @@ struct Surface {
 
 Vec3d twice_area(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
-Surface measure(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part) {
-  Surface s;
+SymmetricMesh measure(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part) {
+  SymmetricMesh s;
   const Vec3d origin = triangles[part.front()][0];  // avoids cancellation for a part far from the world's origin
   SymmetricMatrix faces(3);
   for (const std::size_t index : part) {
@@ -46,7 +46,7 @@ double rounding(Vec3d v) { return 1e-7 * (std::fabs(v.x) + std::fabs(v.y) + std:
 
 std::optional<Capsule> fit_capsule(const std::vector<Triangle>& triangles, const std::vector<std::size_t>& part) {
   if (part.size() < 64) return {};  // no mesh with fewer faces comes as near as kNearestFace
-  const Surface s = measure(triangles, part);
+  const SymmetricMesh s = measure(triangles, part);
   double radius = 0, reach = 0;
   for (const std::size_t index : part)
     for (const Vec3d& v : triangles[index]) {

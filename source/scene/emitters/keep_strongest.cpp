@@ -14,21 +14,21 @@ namespace {
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 // A light's centre and the direction that it faces; zero: all directions.
-struct Place {
+struct LightPlace {
   Vec3d center, facing;
 };
 
 struct PlaceOf {
   bool two_sided;
 
-  Place operator()(const Polygon& p) const {
+  LightPlace operator()(const Polygon& p) const {
     const PreparedPolygon prepared = prepare_polygon({p.vertices, p.holes});
     return {prepared.centroid, two_sided ? Vec3d{} : prepared.normal};
   }
-  Place operator()(const Ellipse& e) const { return {e.center, two_sided ? Vec3d{} : cross(e.x, e.y)}; }
-  Place operator()(const Ellipsoid& e) const { return {e.center, {}}; }
-  Place operator()(const Capsule& c) const { return {(c.end_a + c.end_b) * 0.5, {}}; }
-  Place operator()(const Line& l) const { return {(l.end_a + l.end_b) * 0.5, {}}; }
+  LightPlace operator()(const Ellipse& e) const { return {e.center, two_sided ? Vec3d{} : cross(e.x, e.y)}; }
+  LightPlace operator()(const Ellipsoid& e) const { return {e.center, {}}; }
+  LightPlace operator()(const Capsule& c) const { return {(c.end_a + c.end_b) * 0.5, {}}; }
+  LightPlace operator()(const Line& l) const { return {(l.end_a + l.end_b) * 0.5, {}}; }
 };
 
 // The source of each light: the mesh that it comes from. Each light without a mesh is its own source.
@@ -98,17 +98,17 @@ std::vector<bool> choose(const std::vector<AreaLight>& lights, const std::vector
   return keep;
 }
 
-struct Candidate {
+struct LightCandidate {
   std::size_t light;
-  Place place;
+  LightPlace place;
 };
 
 // The candidate that takes over a light's power.
-std::size_t nearest(const Place& at, const std::vector<Candidate>& candidates) {
+std::size_t nearest(const LightPlace& at, const std::vector<LightCandidate>& candidates) {
   std::size_t best = kNone;
   bool best_faces = false;
   double best_distance = std::numeric_limits<double>::infinity();
-  for (const Candidate& c : candidates) {
+  for (const LightCandidate& c : candidates) {
     const bool faces = dot(at.facing, c.place.facing) >= 0;
     const Vec3d to = c.place.center - at.center;
     const double distance = dot(to, to);
@@ -132,7 +132,7 @@ void merge_into_kept(Scene& scene, const std::vector<std::size_t>& source, const
                      const std::vector<bool>& keep, Budget& budget, const std::string& path, KeptLights& result) {
   std::vector<AreaLight>& lights = scene.area_lights;
   const auto place_of = [&](std::size_t i) { return std::visit(PlaceOf{lights[i].two_sided}, lights[i].shape); };
-  std::vector<std::vector<Candidate>> kept(scene.meshes.size() + lights.size());
+  std::vector<std::vector<LightCandidate>> kept(scene.meshes.size() + lights.size());
   double all = 0;
   for (const std::size_t i : with_power) {
     all += lights[i].power;
@@ -145,7 +145,7 @@ void merge_into_kept(Scene& scene, const std::vector<std::size_t>& source, const
   std::vector<double> gained(lights.size(), 0.0);
   for (const std::size_t i : with_power) {
     if (keep[i]) continue;
-    const std::vector<Candidate>& candidates = kept[source[i]];
+    const std::vector<LightCandidate>& candidates = kept[source[i]];
     if (candidates.empty()) {
       ++result.dropped;
       result.dropped_share += lights[i].power / all;

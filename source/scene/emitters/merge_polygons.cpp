@@ -71,12 +71,12 @@ bool has_area(const Triangle& t) {
 }
 
 // A patch that grows from one triangle. The larger it is, the better its plane is known, whatever the rounding of one triangle's corners.
-struct Patch {
+struct GrowingPatch {
   Vec3d point, area;  // a point of the plane; the sum of the face vectors
   Vec3d low, high;    // bounds
   std::vector<std::size_t> triangles;
 
-  explicit Patch(Vec3d corner) : point(corner), low(corner), high(corner) {}
+  explicit GrowingPatch(Vec3d corner) : point(corner), low(corner), high(corner) {}
 
   void add(std::size_t index, const Triangle& t) {
     triangles.push_back(index);
@@ -207,7 +207,7 @@ MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std:
   for (const std::size_t seed : seeds) {
     if (taken[seed]) continue;
     taken[seed] = true;
-    Patch patch(triangles[seed][0]);
+    GrowingPatch patch(triangles[seed][0]);
     patch.add(seed, triangles[seed]);
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) {

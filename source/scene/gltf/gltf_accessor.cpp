@@ -44,7 +44,7 @@ struct Elements {
   std::size_t stride = 0;
 };
 
-struct Layout {
+struct AccessorLayout {
   std::size_t count = 0;
   int components = 0;
   int component = kFloat;
@@ -81,8 +81,8 @@ Elements checked_elements(const GltfDocument& document, const JsonCursor& owner,
   return {bytes.data() + offset, stride};
 }
 
-Layout layout_of(const JsonCursor& accessor) {
-  Layout layout;
+AccessorLayout layout_of(const JsonCursor& accessor) {
+  AccessorLayout layout;
   layout.count = static_cast<std::size_t>(accessor.at("count").as_integer(1, kMaxInteger));
   layout.components = components_of(accessor.at("type"));
   layout.component = component_type(accessor);
@@ -91,7 +91,7 @@ Layout layout_of(const JsonCursor& accessor) {
   return layout;
 }
 
-Elements dense_elements(const GltfDocument& document, const JsonCursor& accessor, const Layout& layout) {
+Elements dense_elements(const GltfDocument& document, const JsonCursor& accessor, const AccessorLayout& layout) {
   if (accessor.has("bufferView")) return checked_elements(document, accessor, layout.count, layout.element_bytes, true);
   if (layout.count > kMaxZeros)
     accessor.fail("count " + std::to_string(layout.count) + " without a bufferView, more than " + std::to_string(kMaxZeros) + " zeros");
@@ -105,7 +105,7 @@ T load(const std::uint8_t* p) {
   return value;
 }
 
-double component_value(const std::uint8_t* p, const Layout& layout) {
+double component_value(const std::uint8_t* p, const AccessorLayout& layout) {
   switch (layout.component) {
     case kByte: {
       const double x = load<std::int8_t>(p);
@@ -136,7 +136,7 @@ std::uint32_t unsigned_value(const std::uint8_t* p, int component) {
   return load<std::uint32_t>(p);
 }
 
-Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, const Layout& layout) {
+Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, const AccessorLayout& layout) {
   Sparse result;
   const auto sparse = accessor.find("sparse");
   if (!sparse) return result;
@@ -159,8 +159,8 @@ Sparse read_sparse(const GltfDocument& document, const JsonCursor& accessor, con
   return result;
 }
 
-Layout allowed_layout(const JsonCursor& accessor, std::string_view types) {
-  const Layout layout = layout_of(accessor);
+AccessorLayout allowed_layout(const JsonCursor& accessor, std::string_view types) {
+  const AccessorLayout layout = layout_of(accessor);
   const std::string type = accessor.at("type").as_text();
   if (!words::contains(types, type)) accessor.at("type").fail("is " + type + ", must be " + std::string(types));
   return layout;
@@ -170,7 +170,7 @@ Layout allowed_layout(const JsonCursor& accessor, std::string_view types) {
 
 std::size_t checked_count(const GltfDocument& document, int index) {
   const JsonCursor accessor = document.object("accessors", index);
-  const Layout layout = layout_of(accessor);
+  const AccessorLayout layout = layout_of(accessor);
   dense_elements(document, accessor, layout);
   return layout.count;
 }
@@ -179,7 +179,7 @@ namespace {
 
 FloatArray read_some_floats(const GltfDocument& document, int index, std::string_view types, NotFinite not_finite, std::size_t most) {
   const JsonCursor accessor = document.object("accessors", index);
-  const Layout layout = allowed_layout(accessor, types);
+  const AccessorLayout layout = allowed_layout(accessor, types);
   const Elements dense = dense_elements(document, accessor, layout);
   const Sparse sparse = read_sparse(document, accessor, layout);
 
@@ -215,7 +215,7 @@ FloatArray read_first_floats(const GltfDocument& document, int accessor, std::st
 
 std::vector<std::uint32_t> read_unsigned(const GltfDocument& document, int index, std::string_view types) {
   const JsonCursor accessor = document.object("accessors", index);
-  const Layout layout = allowed_layout(accessor, types);
+  const AccessorLayout layout = allowed_layout(accessor, types);
   if (layout.component != kUnsignedByte && layout.component != kUnsignedShort && layout.component != kUnsignedInt)
     accessor.at("componentType").fail("must be an unsigned integer type");
   const Elements dense = dense_elements(document, accessor, layout);

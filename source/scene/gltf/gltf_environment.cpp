@@ -8,11 +8,11 @@ namespace {
 
 constexpr std::size_t kFaces = 6;
 
-struct Turn {
+struct LightTurn {
   Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // the light's axes in the scene
 };
 
-Turn read_rotation(const JsonCursor& light) {
+LightTurn read_rotation(const JsonCursor& light) {
   const auto rotation = light.find("rotation");
   if (!rotation) return {};
   auto q = rotation->as_numbers<4>();
@@ -88,7 +88,7 @@ std::shared_ptr<const Environment> read_image_based_light(const GltfDocument& do
   const JsonElements lights = root ? root->elements("lights") : JsonElements{};
   const JsonCursor light = lights[static_cast<std::size_t>(reference->at("light").as_index(lights.size(), "light"))];
 
-  const Turn turn = read_rotation(light);
+  const LightTurn turn = read_rotation(light);
   const double intensity = light.number("intensity", 1, 0, 1e12);
   Environment environment;
   environment.name = light.text("name", "EXT_lights_image_based");

@@ -14,7 +14,7 @@ namespace steradian::scene {
 namespace {
 
 // Planes in the order of their angle, each with the number of the measured plane that it equals.
-struct Planes {
+struct MeasuredPlanes {
   std::vector<double> angles;
   std::vector<std::size_t> like;
   void add(double angle, std::size_t plane) {
@@ -35,7 +35,7 @@ bool goes_round(const std::vector<double>& planes) {
 
 void complete_circle(LightProfile& profile) {
   const std::vector<double> given = std::move(profile.horizontal);
-  Planes planes;
+  MeasuredPlanes planes;
   const std::size_t n = given.size();
   const double first = given.front(), last = given.back();
   if (n == 1) {

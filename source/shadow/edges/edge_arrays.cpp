@@ -41,7 +41,7 @@ Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.
 using K = Kernels<float>;
 
 // An end of an edge as seen from the point.
-struct End {
+struct SnappedEnd {
   K::vec3 homogeneous;
   std::int32_t x, y;  // in cells; valid if not outside
   int outside;
@@ -54,7 +54,7 @@ struct Clipped {
 };
 
 // Relies on `outside` for the ends, so that all edges of a vertex agree.
-bool clip(const End& a, const End& b, K::vec2 box, Clipped& result) {
+bool clip(const SnappedEnd& a, const SnappedEnd& b, K::vec2 box, Clipped& result) {
   if ((a.outside & b.outside & kBoxOut) != 0) return false;
   K k;
   result = {a.x, a.y, b.x, b.y, 0, 0};
@@ -73,7 +73,7 @@ bool clip(const End& a, const End& b, K::vec2 box, Clipped& result) {
   };
   constexpr int kBits[4] = {kLeftOut, kRightOut, kBottomOut, kTopOut};
   for (int side = 0; side < 4; ++side) {
-    const auto distance = [&](const End& e) {
+    const auto distance = [&](const SnappedEnd& e) {
       const K::real d = distances(e.homogeneous, kBits[side]);
       return (e.outside & kBits[side]) != 0 ? min(d, K::real(0.0)) : max(d, K::real(1e-30));
     };
@@ -95,7 +95,7 @@ bool clip(const End& a, const End& b, K::vec2 box, Clipped& result) {
 }
 
 // A vertex that no array holds: the cut of an edge by the light's plane.
-End end_at(const K::vec3& h, K::vec2 box) {
+SnappedEnd end_at(const K::vec3& h, K::vec2 box) {
   const K::vec2 c = K().shadow_cell(h, box, 0.0);
   const auto out = [](K::real d, int bit) { return d.v <= 0 ? bit : 0; };
   return {h, static_cast<std::int32_t>(c.x.v), static_cast<std::int32_t>(c.y.v),
@@ -202,7 +202,7 @@ void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std
     });
   };
   for (const std::uint32_t number : edges) {
-    const Edge& e = mesh.edges[number];
+    const MeshEdge& e = mesh.edges[number];
     const EdgeTriangle* t = &mesh.edge_triangles[e.first];
     std::uint32_t triangles = e.count;
     if (e.at_body) {
@@ -390,7 +390,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
 
   const K::vec3 eye_kernel(eye.x, eye.y, eye.z), shift_kernel(shift.x, shift.y, shift.z);
   const auto position = [&](std::size_t v) { return K::vec3(vertices.x[v], vertices.y[v], vertices.z[v]); };
-  const auto end_of = [&](std::size_t v) -> End {
+  const auto end_of = [&](std::size_t v) -> SnappedEnd {
     return {{homogeneous_.x[v], homogeneous_.y[v], homogeneous_.z[v]},
             static_cast<std::int32_t>(cell_x_[v]),
             static_cast<std::int32_t>(cell_y_[v]),
@@ -402,7 +402,7 @@ void EdgeArrays::collect(const ShadowTable& packs, const LightFrame& frame, cons
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t e = found_[i];
     const auto v0 = static_cast<std::size_t>(v0_[e]), v1 = static_cast<std::size_t>(v1_[e]);
-    End a = end_of(v0), b = end_of(v1);
+    SnappedEnd a = end_of(v0), b = end_of(v1);
     const bool above0 = (a.outside & kAbove) != 0, above1 = (b.outside & kAbove) != 0;
     if (above0) a = cut_between(v0, v1);
     if (above1) b = cut_between(v0, v1);

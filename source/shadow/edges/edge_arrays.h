@@ -44,7 +44,7 @@ class EdgeArrays {
   LaneEdges lane_edges() const;
   std::uint32_t edge_number(std::size_t row) const { return edge_[row]; }
   std::uint32_t vertex_number(std::size_t place) const { return vertex_[place]; }
-  Cell end_of(std::size_t row, int end, std::int32_t x, std::int32_t y) const {
+  SnappedVertex end_of(std::size_t row, int end, std::int32_t x, std::int32_t y) const {
     return vertex_cell(static_cast<std::size_t>(end == 0 ? v0_[row] : v1_[row]), x, y);
   }
 
@@ -68,7 +68,7 @@ class EdgeArrays {
     VectorSpan span() { return {x.data(), y.data(), z.data()}; }
     Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
   };
-  Cell vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return cell_of(vertex_[v], x, y); }
+  SnappedVertex vertex_cell(std::size_t v, std::int32_t x, std::int32_t y) const { return cell_of(vertex_[v], x, y); }
   void clear();
   void pad();
   void add_crossing(const EdgeMesh& mesh, CrossingTriangle triangle);

@@ -11,17 +11,17 @@ namespace steradian::shadow {
 namespace {
 
 // Key that orders positions by their bits; -0 and 0 are equal.
-struct Key {
+struct PositionKey {
   std::uint64_t x, y, z;
-  auto operator<=>(const Key&) const = default;
+  auto operator<=>(const PositionKey&) const = default;
 };
-Key key_of(Vec3d p) {
+PositionKey key_of(Vec3d p) {
   return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)};
 }
 
 // For every vertex i, the number of the first vertex at the same position.
 std::vector<std::uint32_t> welded(const std::vector<Vec3d>& positions) {
-  std::vector<std::pair<Key, std::uint32_t>> order(positions.size());
+  std::vector<std::pair<PositionKey, std::uint32_t>> order(positions.size());
   for (std::uint32_t i = 0; i < positions.size(); ++i) order[i] = {key_of(positions[i]), i};
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> result(positions.size());
@@ -47,13 +47,13 @@ void sort_into_leaves(EdgeMesh& mesh) {
     return Box3d{sum, sum};
   };
   const BoxTree<Box3d> tree(mesh.edges.size(), twice_the_middle, Halving{kLeafEdges});
-  std::vector<Edge> edges;
+  std::vector<MeshEdge> edges;
   std::vector<EdgeTriangle> triangles;
   edges.reserve(mesh.edges.size());
   triangles.reserve(mesh.edge_triangles.size());
   std::vector<std::uint32_t> place(mesh.edges.size());
   for (const std::uint32_t number : tree.order()) {
-    Edge e = mesh.edges[number];
+    MeshEdge e = mesh.edges[number];
     const auto begin = mesh.edge_triangles.begin() + e.first;
     place[number] = static_cast<std::uint32_t>(edges.size());
     e.first = static_cast<std::uint32_t>(triangles.size());
@@ -76,11 +76,11 @@ Around ball_around(const EdgeMesh& mesh) {
 // Triangles with the corners of an earlier one. They share all three edges.
 std::vector<CoincidentTriangle> coincident_triangles(const EdgeMesh& mesh) {
   std::vector<CoincidentTriangle> result;
-  const auto third = [&](std::uint32_t t, const Edge& e) {
+  const auto third = [&](std::uint32_t t, const MeshEdge& e) {
     const auto& c = mesh.triangles[t];
     return c[0] + c[1] + c[2] - e.v0 - e.v1;
   };
-  for (const Edge& e : mesh.edges)
+  for (const MeshEdge& e : mesh.edges)
     for (std::uint32_t i = e.first + 1; i < e.first + e.count; ++i) {
       const EdgeTriangle& t = mesh.edge_triangles[i];
       // Each triangle has three edges: the one between its two least corners reports it.

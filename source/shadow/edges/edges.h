@@ -26,7 +26,7 @@ struct EdgeTriangle {
 };
 
 // v0 < v1. Its `count` triangles start at edge_triangles[first]: one at a border, two inside a surface, any number where surfaces meet.
-struct Edge {
+struct MeshEdge {
   std::uint32_t v0 = 0, v1 = 0;
   std::uint32_t first = 0, count = 0;
   bool at_body = false;  // a triangle of it lies within a round light, and does not block that light
@@ -48,7 +48,7 @@ struct EdgeMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Plane> planes;                                 // planes of the triangles
-  std::vector<Edge> edges;                                   // in the order of EdgeTree's leaves: neighbours are stored together
+  std::vector<MeshEdge> edges;                               // in the order of EdgeTree's leaves: neighbours are stored together
   std::vector<EdgeTriangle> edge_triangles;                  // in the order of edges
   std::vector<std::array<std::uint32_t, 3>> triangle_edges;  // side i runs from corner i to corner i + 1
   std::vector<std::vector<std::uint32_t>> inside;            // for each body, the triangles inside it, ascending

@@ -136,7 +136,7 @@ EdgeTree::EdgeTree(const EdgeMesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.edges.size());
   if (count == 0) return;
   Box3d all;
-  for (const Edge& e : mesh.edges)
+  for (const MeshEdge& e : mesh.edges)
     for (const std::uint32_t v : {e.v0, e.v1}) all.add(mesh.vertices[v]);
   middle_ = all.center();
   for (std::uint32_t begin = 0; begin < count; begin += kLeafEdges)
@@ -160,7 +160,7 @@ EdgeLeaf EdgeTree::leaf_of(const EdgeMesh& mesh, std::uint32_t begin, std::uint3
     to[2][i] = static_cast<float>(v.z);
   };
   for (std::uint32_t number = begin; number < end; ++number) {
-    const Edge& e = mesh.edges[number];
+    const MeshEdge& e = mesh.edges[number];
     const std::size_t i = number - begin;
     leaf.valid |= 1u << i;
     put(leaf.a, i, mesh.vertices[e.v0] - middle_);

@@ -24,8 +24,8 @@ inline std::uint64_t clip_id(Source source, std::uint32_t index, int end) {
 }
 
 // Adds a segment, and an event for each end that the box's left side clipped.
-inline void add_cells(SegmentSet& result, const Cell& a, const Cell& b, bool from_left, bool to_left, std::int32_t weight, Source source,
-                      std::uint32_t index) {
+inline void add_cells(SegmentSet& result, const SnappedVertex& a, const SnappedVertex& b, bool from_left, bool to_left, std::int32_t weight,
+                      Source source, std::uint32_t index) {
   if (from_left) result.events.push_back({a.y, a.dy, weight});
   if (to_left) result.events.push_back({b.y, b.dy, -weight});
   result.segments.push_back({a, b, weight, source, index});

@@ -68,7 +68,7 @@ std::int32_t add_horizon(const LightFrame& frame, Vec3d eye, Vec3d normal, Sourc
   const double middle = normal.z * eye.z - normal.x * eye.x - normal.y * eye.y;
   for (int i = 0; i < 4; ++i) height[i] = (middle + normal.x * xs[i]) + normal.y * ys[i];
   int enters = -1, leaves = -1;
-  Cell cells[4];
+  SnappedVertex cells[4];
   for (int i = 0; i < 4; ++i) {
     const int j = (i + 1) % 4;
     const bool above_i = height[i] >= 0, above_j = height[j] >= 0;
@@ -93,7 +93,7 @@ void add_horizons(const LightFrame& frame, const Viewpoint& from, Vec3d point, S
     result.base += add_horizon(frame, down, frame.axes.to_local(*from.geometric_normal), Source::geometric_horizon, result);
 }
 
-Cell cell_of(std::uint64_t id, std::int32_t x, std::int32_t y) {
+SnappedVertex cell_of(std::uint64_t id, std::int32_t x, std::int32_t y) {
   const std::uint64_t h = hashed(id);
   return {x, y, odd(h), odd(h >> 32), id};
 }
@@ -123,7 +123,7 @@ bool crosses(const EdgeMesh& mesh, const LightFrame& frame, std::uint32_t triang
   return below == 1 || below == 2;
 }
 
-void add_incidences(const EdgeMesh& mesh, const Edge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to) {
+void add_incidences(const EdgeMesh& mesh, const MeshEdge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to) {
   const std::size_t before = to.size();
   for (std::uint32_t i = edge.first; i < edge.first + edge.count; ++i) {
     const EdgeTriangle& t = mesh.edge_triangles[i];
@@ -162,7 +162,7 @@ void LocalEdges<S>::assign(const EdgeMesh& mesh, const LightFrame& frame, const 
   move_to(mesh, frame);
   std::vector<EdgeTriangle> blocking;
   for (const std::uint32_t e : edges) {
-    const Edge& edge = mesh.edges[e];
+    const MeshEdge& edge = mesh.edges[e];
     blocking.clear();
     add_incidences(mesh, edge, inside, blocking);
     if (blocking.empty()) continue;

@@ -29,17 +29,17 @@ inline std::int32_t without_layers(std::int32_t count) {
 enum class Source : std::uint8_t { edge, section, outline, shading_horizon, geometric_horizon };
 
 // A vertex in cells, with the displacement that breaks ties: its position is (x, y) + e (dx, dy) for an infinitely small e > 0.
-struct Cell {
+struct SnappedVertex {
   std::int32_t x = 0, y = 0, dx = 0, dy = 0;
   std::uint64_t id = 0;  // equal ids: the same vertex. Equal cells prove nothing.
 };
 
 // Computes the displacement of a vertex from its id: two odd numbers below 2^20 in size.
-Cell cell_of(std::uint64_t id, std::int32_t x, std::int32_t y);
+SnappedVertex cell_of(std::uint64_t id, std::int32_t x, std::int32_t y);
 
 // weight: count on the left minus count on the right of the direction from a to b.
 struct Segment {
-  Cell a, b;
+  SnappedVertex a, b;
   std::int32_t weight = 0;
   Source source = Source::edge;
   std::uint32_t index = 0;  // index of the edge, triangle or corner
@@ -133,6 +133,6 @@ std::vector<std::uint32_t> crossing_triangles(const EdgeMesh& mesh, const LightF
 bool crosses(const EdgeMesh& mesh, const LightFrame& frame, std::uint32_t triangle);
 
 // The triangles of an edge that block a light: those that are not inside its body. Appends them; without any that matter, appends none.
-void add_incidences(const EdgeMesh& mesh, const Edge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to);
+void add_incidences(const EdgeMesh& mesh, const MeshEdge& edge, std::span<const std::uint32_t> inside, std::vector<EdgeTriangle>& to);
 
 }  // namespace steradian::shadow

@@ -10,10 +10,10 @@ namespace {
 using namespace shadow;
 
 // The counts of a segment's two sides.
-struct Sides {
+struct SideCounts {
   PackInt left, right;
 
-  STERADIAN_INLINE Sides(const PackInt& on_left, const PackInt& weight, bool layered)
+  STERADIAN_INLINE SideCounts(const PackInt& on_left, const PackInt& weight, bool layered)
       : left(comparable(on_left, layered)), right(comparable(on_left - weight, layered)) {}
   STERADIAN_INLINE PackInt lower() const { return lower_of(left, right); }
   STERADIAN_INLINE PackInt higher() const { return select(left < right, right, left); }
@@ -53,7 +53,7 @@ void find_levels(const LaneWork& work, const LaneInts& floor, LaneInts& level) {
   const PackInt none(INT_MAX);
   each_pack([&](std::size_t i) { put(level, i, none); });
   const auto low_of = [&](const PackInt& left, const PackInt& weight, std::size_t i) {
-    const PackInt low = Sides(left, weight, work.layered).lower();
+    const PackInt low = SideCounts(left, weight, work.layered).lower();
     return select(low > get(floor, i), low, none);
   };
   for (std::size_t s = 0; s < work.count; ++s) {
@@ -83,7 +83,7 @@ bool cut(LaneWork& work, std::uint32_t number, std::uint32_t lanes, const LaneIn
     const PackMask longer = to > from, inner = to < PackReal(1.0);
     const PackReal ax = get(e.ax, i), ay = get(e.ay, i), bx = get(e.bx, i), by = get(e.by, i);
     const PackReal next_x = select(inner, ax + to * (bx - ax), bx), next_y = select(inner, ay + to * (by - ay), by);
-    const std::uint32_t bounds = bits_of(longer) & Sides(left, get(e.weight, i), work.layered).bound(get(level, i)) & (lanes >> i);
+    const std::uint32_t bounds = bits_of(longer) & SideCounts(left, get(e.weight, i), work.layered).bound(get(level, i)) & (lanes >> i);
     if (bounds != 0) {
       LaneReals to_x, to_y;
       put(to_x, i, next_x);
@@ -114,7 +114,7 @@ __attribute__((flatten)) bool cut_in_lanes(LaneWork& work, LaneBits lanes, Regio
     SegmentLanes& e = work.segments[s];
     std::uint32_t bounds = 0, at_level = floored;
     each_pack([&](std::size_t i) {
-      bounds |= Sides(get(e.left, i), get(e.weight, i), work.layered).bound(get(result.level, i)) << i;
+      bounds |= SideCounts(get(e.left, i), get(e.weight, i), work.layered).bound(get(result.level, i)) << i;
       at_level |= bits_of(get(e.low, i) == get(result.level, i)) << i;
     });
     e.bounds = narrow(e.bounds & bounds & ~static_cast<std::uint32_t>(result.none));

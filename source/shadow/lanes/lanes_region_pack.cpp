@@ -164,7 +164,7 @@ void find_room(const LaneWork& work, const LaneView& view, const LaneInts& level
   });
 }
 
-struct Writer {
+struct RegionWriter {
   const LaneView& view;
   std::uint32_t lanes;
 
@@ -232,7 +232,7 @@ static std::size_t count_edges_in_lanes(const LaneWork& work, LaneBits lanes) {
 static __attribute__((flatten)) void write_edges_in_lanes(const LaneWork& work, const LaneView& view, const RegionLanes& region,
                                                           LaneBits lanes, float* to) {
   constexpr std::size_t kEdge = 6 * kPoints;
-  const Writer writer{view, lanes};
+  const RegionWriter writer{view, lanes};
   const auto write = [&](const PackReal& ax, const PackReal& ay, const PackReal& bx, const PackReal& by, std::size_t i, float* edge) {
     writer.corner(ax, ay, i, edge);
     writer.corner(bx, by, i, edge + 3 * kPoints);

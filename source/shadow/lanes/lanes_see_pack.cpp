@@ -15,9 +15,9 @@ struct Ends {
   std::uint32_t out[4];  // left, right, bottom, top
 };
 
-class View {
+class LaneSight {
  public:
-  STERADIAN_INLINE View(const LaneEdges& edges, const LaneView& view) : edges_(edges), view_(view) {}
+  STERADIAN_INLINE LaneSight(const LaneEdges& edges, const LaneView& view) : edges_(edges), view_(view) {}
 
   STERADIAN_INLINE PackVec3 place(std::size_t vertex, std::size_t i) const {
     const VectorView& v = edges_.vertices;
@@ -95,7 +95,7 @@ STERADIAN_INLINE void take(const VertexLanes& v, Ends& to) {
 
 // Clips by the box. It relies on `out` for the ends, so that all edges of a vertex agree (clip of edge_arrays.cpp). The cells are in `to`
 // already.
-__attribute__((flatten, noinline)) void clip(const View& view, const Ends& a, const Ends& b, SegmentLanes& to) {
+__attribute__((flatten, noinline)) void clip(const LaneSight& view, const Ends& a, const Ends& b, SegmentLanes& to) {
   K k;
   std::uint32_t lost = 0, clipped_a = 0, clipped_b = 0, left_a = 0, left_b = 0;
   each_pack([&](std::size_t i) {
@@ -160,7 +160,7 @@ STERADIAN_INLINE std::uint32_t beyond_a_side(const std::uint32_t a[4], const std
 
 // Writes the section of a triangle by the light's plane. It runs from where the triangle's outline leaves the space below the plane to
 // where it comes back. Returns false if no lane has one.
-bool see_section(const LaneEdges& edges, const LaneView& lane_view, const View& view, const CrossingTriangle& triangle,
+bool see_section(const LaneEdges& edges, const LaneView& lane_view, const LaneSight& view, const CrossingTriangle& triangle,
                  const VertexLanes* const corners[3], std::uint32_t front, SegmentLanes& to) {
   std::uint32_t leaving[3], returning[3], leaves = 0, returns = 0;
   for (int c = 0; c < 3; ++c) {
@@ -222,7 +222,7 @@ __attribute__((flatten)) SeenByLanes see_in_lanes(const LaneEdges& edges, const 
     front[p] = narrow(lane_bits([&](std::size_t i) { return k.shadow_facing(normal, offset, get(view.at, i)) > PackReal(0.0); }));
   }
   std::memset(place_of, -1, edges.vertex_count * sizeof *place_of);
-  const View by(edges, view);
+  const LaneSight by(edges, view);
   std::size_t n = 0, seen = 0, more = 0;
   const auto place = [&](std::int32_t v) {
     if (place_of[v] < 0) {

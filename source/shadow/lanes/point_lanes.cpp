@@ -165,7 +165,7 @@ ExactLanes PointLanes::exact() const {
   };
   result.event_below = [](const void* self, std::uint32_t e, std::uint32_t f, int end, std::size_t lane) {
     const Segment with_event = self_of(self).segment(f, lane);
-    const Cell& at = end == 0 ? with_event.a : with_event.b;
+    const SnappedVertex& at = end == 0 ? with_event.a : with_event.b;
     return lies_below_middle({at.y, at.dy, 0}, self_of(self).segment(e, lane));
   };
   result.runs_up = [](const void* self, std::uint32_t e, std::size_t lane) { return shadow::runs_up(self_of(self).segment(e, lane)); };

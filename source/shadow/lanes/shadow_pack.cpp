@@ -156,11 +156,11 @@ __attribute__((flatten)) std::uint32_t needed(const EdgeLeaf& leaf, const ShaftV
 // A product of cells' differences is off by 2^-24 of itself, and so is the difference of two products.
 STERADIAN_INLINE PackReal bound_of(PackReal p, PackReal q) { return PackReal(4e-7) * (abs(p) + abs(q)); }
 
-struct Sides {
+struct CertainSides {
   PackMask left, right;  // certain sides of the line
 };
 // Sides of the vertex p from f.a, with f along d.
-STERADIAN_INLINE Sides sides_of(PackReal dx, PackReal dy, PackReal px, PackReal py) {
+STERADIAN_INLINE CertainSides sides_of(PackReal dx, PackReal dy, PackReal px, PackReal py) {
   const PackReal p = dx * py, q = dy * px, d = p - q, bound = bound_of(p, q);
   return {d > bound, d < -bound};
 }
@@ -178,7 +178,7 @@ __attribute__((flatten)) LeftRay left_ray(const SegmentView& f, std::size_t e, s
     const PackReal start = two * fay, end = two * fby;
     const PackMask level = min(start, end) <= my && max(start, end) >= my && min(fax, fbx) <= rightmost;
     if (!any_lane(level)) continue;
-    const Sides middle = sides_of(fbx - fax, fby - fay, mx - two * fax, my - two * fay);
+    const CertainSides middle = sides_of(fbx - fax, fby - fay, mx - two * fax, my - two * fay);
     const PackMask rises = start < my && end > my, falls = start > my && end < my;
     const PackMask sure = (rises || falls) && (middle.left || middle.right);
     for_each_bit(bits_of(level) & ~bits_of(sure),
@@ -202,8 +202,8 @@ __attribute__((flatten)) std::size_t may_cross(const SegmentView& f, std::size_t
     const PackMask near = min(fay, fby) <= high_y && max(fay, fby) >= low_y && min(fax, fbx) <= high_x && max(fax, fbx) >= low_x;
     if (!any_lane(near)) continue;
     const PackReal dx = fbx - fax, dy = fby - fay, px = eax - fax, py = eay - fay;
-    const Sides ea = sides_of(dx, dy, px, py), eb = sides_of(dx, dy, px + ex, py + ey);
-    const Sides fa = sides_of(ex, ey, -px, -py), fb = sides_of(ex, ey, fbx - eax, fby - eay);
+    const CertainSides ea = sides_of(dx, dy, px, py), eb = sides_of(dx, dy, px + ex, py + ey);
+    const CertainSides fa = sides_of(ex, ey, -px, -py), fb = sides_of(ex, ey, fbx - eax, fby - eay);
     const PackMask misses = (ea.left && eb.left) || (ea.right && eb.right) || (fa.left && fb.left) || (fa.right && fb.right);
     std::uint32_t bits = bits_of(near) & ~bits_of(misses);
     if (i <= e) bits &= ~((2u << (e - i)) - 1u);

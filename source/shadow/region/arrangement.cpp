@@ -13,13 +13,13 @@ namespace {
 struct Doubled {
   std::int64_t x, y, dx, dy;
 };
-Doubled once(const Cell& c) { return {c.x, c.y, c.dx, c.dy}; }
+Doubled once(const SnappedVertex& c) { return {c.x, c.y, c.dx, c.dy}; }
 Doubled midpoint(const Segment& e) {
   return {std::int64_t{e.a.x} + e.b.x, std::int64_t{e.a.y} + e.b.y, std::int64_t{e.a.dx} + e.b.dx, std::int64_t{e.a.dy} + e.b.dy};
 }
 
 // Terms of order 0, 1 and 2 of (f.b - f.a) x (p - f.a) in the displacement's e.
-struct Side {
+struct DisplacedSide {
   std::int64_t d0, d1, d2;
   int sign() const {
     const std::int64_t d = d0 != 0 ? d0 : d1 != 0 ? d1 : d2;
@@ -27,7 +27,7 @@ struct Side {
   }
 };
 
-Side side(const Segment& f, const Doubled& p, int scale) {
+DisplacedSide side(const Segment& f, const Doubled& p, int scale) {
   const std::int64_t fx = f.b.x - f.a.x, fy = f.b.y - f.a.y, gx = f.b.dx - f.a.dx, gy = f.b.dy - f.a.dy;
   const std::int64_t px = p.x - std::int64_t{scale} * f.a.x, py = p.y - std::int64_t{scale} * f.a.y;
   const std::int64_t qx = p.dx - std::int64_t{scale} * f.a.dx, qy = p.dy - std::int64_t{scale} * f.a.dy;
@@ -35,7 +35,7 @@ Side side(const Segment& f, const Doubled& p, int scale) {
 }
 
 // Returns true if a vertex lies above twice a midpoint's height.
-bool above(const Cell& c, const Doubled& m) {
+bool above(const SnappedVertex& c, const Doubled& m) {
   const std::int64_t y = 2 * std::int64_t{c.y};
   return y > m.y || (y == m.y && 2 * std::int64_t{c.dy} > m.dy);
 }
@@ -82,7 +82,7 @@ class Neighbours {
   std::vector<std::uint32_t> found_;
 };
 
-double place_between(const Side& from, const Side& to) {
+double place_between(const DisplacedSide& from, const DisplacedSide& to) {
   const auto at = [](std::int64_t a, std::int64_t b) { return static_cast<double>(a) / static_cast<double>(a - b); };
   return std::clamp(from.d0 != to.d0 ? at(from.d0, to.d0) : from.d1 != to.d1 ? at(from.d1, to.d1) : 0.5, 0.0, 1.0);
 }
@@ -93,18 +93,18 @@ bool runs_up(const Segment& e) { return e.b.y > e.a.y || (e.b.y == e.a.y && e.b.
 
 bool cross(const Segment& e, const Segment& f, CrossingPair& result) {
   if (share_an_end(e, f) || apart(e, f)) return false;
-  const Side ea = side(f, once(e.a), 1), eb = side(f, once(e.b), 1);
+  const DisplacedSide ea = side(f, once(e.a), 1), eb = side(f, once(e.b), 1);
   if (ea.sign() == eb.sign()) return false;
-  const Side fa = side(e, once(f.a), 1), fb = side(e, once(f.b), 1);
+  const DisplacedSide fa = side(e, once(f.a), 1), fb = side(e, once(f.b), 1);
   if (fa.sign() == fb.sign()) return false;
-  const auto crossing = [](const Segment& g, const Segment& by, const Side& from, const Side& to) -> Crossing {
+  const auto crossing = [](const Segment& g, const Segment& by, const DisplacedSide& from, const DisplacedSide& to) -> Crossing {
     return {side(by, midpoint(g), 2).sign() != to.sign(), place_between(from, to), to.sign() > 0 ? by.weight : -by.weight};
   };
   result = {crossing(e, f, ea, eb), crossing(f, e, fa, fb)};
   return true;
 }
 
-int side_of(const Segment& f, const Cell& p) { return side(f, once(p), 1).sign(); }
+int side_of(const Segment& f, const SnappedVertex& p) { return side(f, once(p), 1).sign(); }
 int side_of_midpoint(const Segment& f, const Segment& e) { return side(f, midpoint(e), 2).sign(); }
 
 namespace {

@@ -21,7 +21,7 @@ struct Piece {
 };
 
 // Side of f's line on which a vertex lies: +1 left, -1 right, never 0.
-int side_of(const Segment& f, const Cell& p);
+int side_of(const Segment& f, const SnappedVertex& p);
 // The same for the midpoint of a segment.
 int side_of_midpoint(const Segment& f, const Segment& e);
 

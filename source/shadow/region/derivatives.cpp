@@ -73,7 +73,7 @@ std::size_t next_corner(const PreparedPolygon& light, std::size_t corner) {
 }
 
 // Position where an edge cuts the plane at which blockers end, and the heights of its ends above that plane.
-struct Cut {
+struct EdgeCut {
   std::uint32_t v0, v1;
   Vec3d place, along;
   double height0, height1;
@@ -91,7 +91,7 @@ class Boundaries {
       case Source::shading_horizon:
       case Source::geometric_horizon: break;
       case Source::edge: {
-        const Edge& e = mesh_.edges[segment.index];
+        const MeshEdge& e = mesh_.edges[segment.index];
         const Ends ends = move(mesh_.vertices[e.v0], mesh_.vertices[e.v1], along, moment);
         add(result_.occluders[e.v0], ends.a);
         add(result_.occluders[e.v1], ends.b);
@@ -128,14 +128,14 @@ class Boundaries {
   }
 
   double height(std::uint32_t v) const { return frame_.to_local(mesh_.vertices[v]).z + frame_.eta; }
-  Cut cut(std::uint32_t edge) const {
-    const Edge& e = mesh_.edges[edge];
+  EdgeCut cut(std::uint32_t edge) const {
+    const MeshEdge& e = mesh_.edges[edge];
     const double h0 = height(e.v0), h1 = height(e.v1);
     const Vec3d along = mesh_.vertices[e.v1] - mesh_.vertices[e.v0];
     return {e.v0, e.v1, mesh_.vertices[e.v0] + along * (h0 / (h0 - h1)), along, h0, h1};
   }
   // The cut also slides along its edge.
-  void add_cut(const Cut& c, const ByChannel& by_place) {
+  void add_cut(const EdgeCut& c, const ByChannel& by_place) {
     const double apart = c.height0 - c.height1, t = c.height0 / apart;
     const auto slide = [&](double change) {
       return each(by_place, [&](Vec3d g) { return frame_.axes.z * (dot(c.along, g) * change / (apart * apart)); });
@@ -153,8 +153,8 @@ class Boundaries {
       if (!here && there) returning = i;
     }
     if (leaving < 0 || returning < 0) return;
-    const Cut a = cut(mesh_.triangle_edges[triangle][static_cast<std::size_t>(leaving)]);
-    const Cut b = cut(mesh_.triangle_edges[triangle][static_cast<std::size_t>(returning)]);
+    const EdgeCut a = cut(mesh_.triangle_edges[triangle][static_cast<std::size_t>(leaving)]);
+    const EdgeCut b = cut(mesh_.triangle_edges[triangle][static_cast<std::size_t>(returning)]);
     const Ends ends = move(a.place, b.place, along, moment);
     add_cut(a, ends.a);
     add_cut(b, ends.b);

@@ -10,18 +10,18 @@ namespace {
 // A region narrower than this fraction of the light proves nothing by a ray, and counts for as little.
 constexpr double kThin = 1.0 / 4096;
 
-struct Place {
+struct RegionPoint {
   double x = 0, y = 0;
 };
 
 bool bounds(const Piece& p, std::int32_t level) { return p.low() <= level && level < p.high(); }
 
-struct Extent {
+struct RegionExtent {
   double area = 0, perimeter = 0;  // in half sides of the box
 };
 
-Extent extent_of(const std::vector<Piece>& pieces, std::int32_t level) {
-  Extent e;
+RegionExtent extent_of(const std::vector<Piece>& pieces, std::int32_t level) {
+  RegionExtent e;
   for (const Piece& p : pieces) {
     if (!bounds(p, level)) continue;
     const double area = 0.5 * (p.ax * p.by - p.ay * p.bx);
@@ -32,14 +32,14 @@ Extent extent_of(const std::vector<Piece>& pieces, std::int32_t level) {
   return {e.area / kCells / kCells, e.perimeter / kCells};
 }
 
-bool is_thin(const Extent& e) { return e.area < e.perimeter * kThin; }
+bool is_thin(const RegionExtent& e) { return e.area < e.perimeter * kThin; }
 
 // Queries on the segments that the search for a position makes, one by one.
 struct ByScalars {
   const SegmentSet& set;
 
   // Distance from a position to the nearest segment.
-  double clearance(Place q) const {
+  double clearance(RegionPoint q) const {
     double least2 = INFINITY;
     for (const Segment& s : set.segments) {
       const double fx = s.b.x - s.a.x, fy = s.b.y - s.a.y, x = q.x - s.a.x, y = q.y - s.a.y;
@@ -51,7 +51,7 @@ struct ByScalars {
     return std::sqrt(least2);
   }
   // Distance from a position along a direction to the next segment other than `but`.
-  double distance_to_next(Place from, Place direction, std::uint32_t but) const {
+  double distance_to_next(RegionPoint from, RegionPoint direction, std::uint32_t but) const {
     double nearest = INFINITY;
     for (std::uint32_t i = 0; i < set.segments.size(); ++i) {
       if (i == but) continue;
@@ -65,7 +65,7 @@ struct ByScalars {
     }
     return nearest;
   }
-  bool lies_within(Place q, std::int32_t level) const { return count_at(set, q.x, q.y) <= level; }
+  bool lies_within(RegionPoint q, std::int32_t level) const { return count_at(set, q.x, q.y) <= level; }
 };
 
 // The same queries on packs.
@@ -76,13 +76,13 @@ struct ByPacks {
   SegmentView view = arrays.view();
 
   static float single(double x) { return static_cast<float>(x); }
-  double clearance(Place q) const { return std::sqrt(static_cast<double>(packs.clearance2(view, single(q.x), single(q.y)))); }
-  double distance_to_next(Place from, Place direction, std::uint32_t but) const {
+  double clearance(RegionPoint q) const { return std::sqrt(static_cast<double>(packs.clearance2(view, single(q.x), single(q.y)))); }
+  double distance_to_next(RegionPoint from, RegionPoint direction, std::uint32_t but) const {
     const float d =
         packs.distance_to_next(view, single(from.x), single(from.y), single(direction.x), single(direction.y), arrays.place[but]);
     return d < 1e29f ? static_cast<double>(d) : std::numeric_limits<double>::infinity();
   }
-  bool lies_within(Place q, std::int32_t level) const {
+  bool lies_within(RegionPoint q, std::int32_t level) const {
     const float y = single(q.y);
     std::int32_t count = packs.count_at(view, single(q.x), y);
     if (count == kUncertain) return false;
@@ -96,7 +96,7 @@ struct ByPacks {
 // Finds a position well inside the region of a level: from the middles of its longest pieces along the normal, half way to the next
 // segment. Returns false if there is none, which happens to slivers only.
 template <class By>
-bool place_inside(const By& by, const std::vector<Piece>& pieces, std::int32_t level, Place& result) {
+bool place_inside(const By& by, const std::vector<Piece>& pieces, std::int32_t level, RegionPoint& result) {
   constexpr int kTrials = 4;
   constexpr double kRoomEnough = kCells / 32.0;
   thread_local std::vector<std::pair<double, const Piece*>> longest;
@@ -111,11 +111,11 @@ bool place_inside(const By& by, const std::vector<Piece>& pieces, std::int32_t l
   double best = 0;
   for (const auto& [length2, p] : longest) {
     const double scale = (p->left < p->right ? 1 : -1) / std::sqrt(length2);
-    const Place inward{-(p->by - p->ay) * scale, (p->bx - p->ax) * scale};
-    const Place middle{0.5 * (p->ax + p->bx), 0.5 * (p->ay + p->by)};
+    const RegionPoint inward{-(p->by - p->ay) * scale, (p->bx - p->ax) * scale};
+    const RegionPoint middle{0.5 * (p->ax + p->bx), 0.5 * (p->ay + p->by)};
     const double distance = by.distance_to_next(middle, inward, p->segment);
     if (!std::isfinite(distance)) continue;
-    const Place q{middle.x + 0.5 * distance * inward.x, middle.y + 0.5 * distance * inward.y};
+    const RegionPoint q{middle.x + 0.5 * distance * inward.x, middle.y + 0.5 * distance * inward.y};
     // Collinear edges of abutting faces can put it on the wrong side.
     if (!by.lies_within(q, level)) continue;
     const double room = by.clearance(q);
@@ -153,17 +153,17 @@ void find_in_pieces(const By& by, const LightFrame& frame, Vec3d from, const Blo
     if (p.low() < kHidden / 2 && std::find(levels.begin(), levels.end(), p.low()) == levels.end()) levels.push_back(p.low());
   std::sort(levels.begin(), levels.end());
 
-  const auto free = [&](Place q) {
+  const auto free = [&](RegionPoint q) {
     ++result.rays;
     const Vec3d there = frame.to_world({q.x / kCells * frame.box_x, q.y / kCells * frame.box_y, 0});
     return !blockers.between(from, from + frame.way(from, there));
   };
   bool thin = false;
   std::int32_t thin_level = 0;
-  Place thin_place;
+  RegionPoint thin_place;
   for (const std::int32_t level : levels) {
-    const Extent extent = extent_of(scratch.pieces, level);
-    Place q;
+    const RegionExtent extent = extent_of(scratch.pieces, level);
+    RegionPoint q;
     if (!(extent.area > 0) ||
         !(place_inside(by, scratch.pieces, level, q) || place_inside(ByScalars{scratch.set}, scratch.pieces, level, q)))
       continue;
@@ -193,8 +193,8 @@ void find_visible_on_packs(const ShadowTable& packs, const LightFrame& frame, Ve
 }
 
 Width width_of(const SegmentSet& set, const std::vector<Piece>& pieces, std::int32_t level, double& x, double& y) {
-  const Extent extent = extent_of(pieces, level);
-  Place q;
+  const RegionExtent extent = extent_of(pieces, level);
+  RegionPoint q;
   if (!(extent.area > 0) || !place_inside(ByScalars{set}, pieces, level, q)) return Width::none;
   x = q.x;
   y = q.y;

@@ -54,9 +54,9 @@ void make_round(const EventOutlines& from, float radius) {
 }
 
 // Positions of sixteen squares relative to lines.
-class Squares {
+class PackSquares {
  public:
-  explicit STERADIAN_INLINE Squares(const EventSquares& s) : reach_(broadcast(std::max(s.half_x, s.half_y) + s.slack)) {
+  explicit STERADIAN_INLINE PackSquares(const EventSquares& s) : reach_(broadcast(std::max(s.half_x, s.half_y) + s.slack)) {
     for (int g = 0; g < kGroups; ++g) {
       x_[g] = load(s.offset_x + g * static_cast<int>(kLanes)) + broadcast(s.x);
       y_[g] = load(s.offset_y + g * static_cast<int>(kLanes)) + broadcast(s.y);
@@ -123,7 +123,7 @@ STERADIAN_INLINE void fetch(const EventPair* pairs, const int* list, int i, int 
 
 __attribute__((flatten)) std::uint32_t split(const EventPair* pairs, const int* list, int count, const EventSquares& children,
                                              std::uint32_t wanted, EventLists& to) {
-  const Squares squares(children);
+  const PackSquares squares(children);
   wanted &= squares.in_range(children);
   for (int i = 0; i < count && wanted != 0; ++i) {
     fetch(pairs, list, i, count);
@@ -142,7 +142,7 @@ __attribute__((flatten)) std::uint32_t split(const EventPair* pairs, const int* 
 
 __attribute__((flatten)) void add_light(const EventLight& light, const int* list, int count, TileBuffer& tile, EventRest& rest,
                                         float* shares) {
-  const Squares squares(light.blocks);
+  const PackSquares squares(light.blocks);
   std::uint32_t lit = light.open & squares.in_range(light.blocks), general = 0, within = 0;
   rest.taken = rest.blocks = 0;
   rest.lit = lit != 0;
@@ -164,7 +164,7 @@ __attribute__((flatten)) void add_light(const EventLight& light, const int* list
       *last++ = static_cast<std::uint64_t>(touched) << 32 | static_cast<std::uint32_t>(list[i]);
       continue;
     }
-    const Squares::Sides sides = squares.sides(pair);
+    const PackSquares::Sides sides = squares.sides(pair);
     lit &= ~(sides.low & sides.high);
     const std::uint32_t open = touched & lit, low = open & sides.low, high = open & sides.high, rest_of = open & ~(low | high);
     if (low != 0) ends.raise_low(pair, low);

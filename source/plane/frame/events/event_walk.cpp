@@ -109,9 +109,9 @@ void make_event_pairs(FrameScene& frame, const Emitter& disk, const std::vector<
 namespace {
 
 // Sixteen squares of `side` pixels from (x, y) on: the data that does not depend on the light, and the set of those in the picture.
-class Squares {
+class PictureSquares {
  public:
-  Squares(const PixelGrid& grid, int x, int y, int side, float slack) {
+  PictureSquares(const PixelGrid& grid, int x, int y, int side, float slack) {
     // Only the centres of a square's pixels count.
     const Vec2d half = grid.step * (0.5 * (side - 1));
     first_ = grid.at(x, y) + half;
@@ -156,7 +156,7 @@ void EventWalk::leave_out(const std::vector<char>& elsewhere) {
   std::erase_if(disks_, [&](int e) { return elsewhere[static_cast<std::size_t>(e)] != 0; });
 }
 
-void EventWalk::enter_256(int x, int y, const TileArea& tile) {
+void EventWalk::enter_256(int x, int y, const TileRectangle& tile) {
   x_256_ = x;
   y_256_ = y;
   top_.clear();
@@ -217,7 +217,7 @@ void EventWalk::find_changed(int x, int y) {
 
 void EventWalk::split(const std::vector<Entry>& lights, const int* pairs, int x, int y, int side, const Wanted& wants, Children& to) const {
   for (int k = 0; k < 16; ++k) to.lights[k].clear(), to.used[k] = 0;
-  const Squares squares(grid_, x, y, side, slack_);
+  const PictureSquares squares(grid_, x, y, side, slack_);
   EventLists lists;
   for (const Entry& entry : lights) {
     const EventSquares seen = squares.from(frame_.emitters[static_cast<std::size_t>(entry.emitter)]);
@@ -240,7 +240,7 @@ void EventWalk::split(const std::vector<Entry>& lights, const int* pairs, int x,
 
 namespace {
 
-EventLight event_light(const FrameScene& frame, const TileArea& tile) {
+EventLight event_light(const FrameScene& frame, const TileRectangle& tile) {
   EventLight light{};
   light.tile_x = tile.center.x;
   light.tile_y = tile.center.y;
@@ -262,7 +262,7 @@ void set_emitter(EventLight& light, const FrameScene& frame, const Emitter& e) {
 
 }  // namespace
 
-void EventWalk::list_lights(int x, int y, const TileArea& tile, TileLists& lists, LeafBuilder& general) {
+void EventWalk::list_lights(int x, int y, const TileRectangle& tile, TileLists& lists, LeafBuilder& general) {
   const int child = child_of_64(x, y);
   EventLight light = event_light(frame_, tile);
   for (const Entry& entry : of_64_.lights[child]) {
@@ -281,9 +281,9 @@ void EventWalk::list_lights(int x, int y, const TileArea& tile, TileLists& lists
   }
 }
 
-void EventWalk::add_lights(int x, int y, const TileArea& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general) {
+void EventWalk::add_lights(int x, int y, const TileRectangle& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general) {
   const int child = child_of_64(x, y);
-  const Squares blocks(grid_, x, y, 4, slack_);
+  const PictureSquares blocks(grid_, x, y, 4, slack_);
   EventLight light = event_light(frame_, tile);
   light.open = open & blocks.in_picture;
   light.block = static_cast<float>(4 * std::max(grid_.step.x, grid_.step.y));
@@ -346,7 +346,7 @@ namespace {
 void mark_below(const FrameScene& frame, const PixelGrid& grid, const Emitter& disk, int pair, int x, int y, int side,
                 const std::function<void(int, int, int)>& mark) {
   const EventTable& table = event_table_for(active_simd());
-  const Squares squares(grid, x, y, side, slack_of(frame));
+  const PictureSquares squares(grid, x, y, side, slack_of(frame));
   const EventSquares seen = squares.from(disk);
   int touched[16][1];
   EventLists lists;

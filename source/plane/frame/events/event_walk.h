@@ -33,13 +33,13 @@ class EventWalk {
   void leave_out(const std::vector<char>& elsewhere);
 
   // Selects the 256 pixels from (x, y) on, then 64 of them, for the calls that follow.
-  void enter_256(int x, int y, const TileArea& tile);
+  void enter_256(int x, int y, const TileRectangle& tile);
   void enter_64(int x, int y);
   // Adds the light on the tile's blocks in `open`; `general` handles the cases for which there is no rule here.
-  void add_lights(int x, int y, const TileArea& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general);
+  void add_lights(int x, int y, const TileRectangle& tile, std::uint32_t open, TileBuffer& buffer, LeafBuilder& general);
 
   // Writes the same lights into lists.
-  void list_lights(int x, int y, const TileArea& tile, TileLists& lists, LeafBuilder& general);
+  void list_lights(int x, int y, const TileRectangle& tile, TileLists& lists, LeafBuilder& general);
 
   std::uint64_t tile_lights = 0, tile_blockers = 0;
 
@@ -69,7 +69,7 @@ class EventWalk {
   const PixelGrid& grid_;
   const EventTable& table_ = event_table_for(active_simd());
   const TileTable& tiles_ = tile_table_for(active_simd());
-  const CullTable& cull_ = cull_table_for(active_simd());
+  const BlockerCullTable& cull_ = cull_table_for(active_simd());
   const TileSet* only_;
   ShareStore* store_;
   float slack_;

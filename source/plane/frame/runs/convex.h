@@ -19,7 +19,7 @@ namespace steradian::plane {
 // The hull is relative to the origin, like a BlockerList. Its slanted sides are (half + t growth) over the cosine of their slope away from
 // the axis, and a circle's distance to them shrinks by that cosine too. If one circle nearly contains the other, it has the larger one's
 // width.
-inline HullOfCircles hull_of(const TileArea& tile, const Emitter& e, Vec2d origin) {
+inline HullOfCircles hull_of(const TileRectangle& tile, const Emitter& e, Vec2d origin) {
   const double half = tile.radius, bound = e.bound;
   const Vec2d axis = e.center - tile.center;
   const double length2 = dot(axis, axis), growth = bound - half;

@@ -13,17 +13,17 @@ namespace {
 using std::numbers::pi;
 
 // The normal in the plane of a line with this normal in the ellipse's unit space.
-Vec2d normal_from_unit(const Ellipse& e, Vec2d n) {
+Vec2d normal_from_unit(const PlaneEllipse& e, Vec2d n) {
   const Vec2d v{e.y.y * n.x - e.x.y * n.y, e.x.x * n.y - e.y.x * n.x};
   return v / length(v);
 }
 
-Vec2d from_unit(const Ellipse& e, Vec2d p) { return e.center + e.x * p.x + e.y * p.y; }
+Vec2d from_unit(const PlaneEllipse& e, Vec2d p) { return e.center + e.x * p.x + e.y * p.y; }
 
-Vec2d outward_normal(const Ellipse& e, Vec2d p) { return normal_from_unit(e, e.to_unit(p)); }
+Vec2d outward_normal(const PlaneEllipse& e, Vec2d p) { return normal_from_unit(e, e.to_unit(p)); }
 
 // The point of an ellipse nearest to the origin: the best of 64 places, then by thirds.
-Vec2d nearest_to_origin(const Ellipse& e) {
+Vec2d nearest_to_origin(const PlaneEllipse& e) {
   constexpr int kPlaces = 64;
   const auto distance2 = [&](double tau) {
     const Vec2d p = e.at(tau);
@@ -48,12 +48,12 @@ void add_crossing(Vec2d at, Vec2d light_normal, Vec2d blocker_normal, Lens& lens
 }
 
 // The line half way between the unit circle of `space` and a point p outside it, both in unit space.
-DividingLine line_to(const Ellipse& space, Vec2d p) {
+DividingLine line_to(const PlaneEllipse& space, Vec2d p) {
   const double d = length(p);
   return {normal_from_unit(space, p / d), from_unit(space, p * (0.5 * (1 + d) / d))};
 }
 
-Meeting meet_edge(const Emitter& e, const Ellipse& blocker) {
+Meeting meet_edge(const Emitter& e, const PlaneEllipse& blocker) {
   Meeting result;
   const Vec2d s = blocker.to_unit(e.a), t = blocker.to_unit(e.b), nearest = nearest_on_segment(s, t, {0, 0});
   if (length(nearest) >= 1 - kTouching) {
@@ -75,9 +75,11 @@ Meeting meet_edge(const Emitter& e, const Ellipse& blocker) {
 
 }  // namespace
 
-Ellipse ellipse_of(const Emitter& e) { return e.kind == Emitter::Kind::arc ? e.ellipse : Ellipse{e.a, {e.radius, 0}, {0, e.radius}}; }
+PlaneEllipse ellipse_of(const Emitter& e) {
+  return e.kind == Emitter::Kind::arc ? e.ellipse : PlaneEllipse{e.a, {e.radius, 0}, {0, e.radius}};
+}
 
-Meeting meet(const Emitter& e, const Ellipse& blocker) {
+Meeting meet(const Emitter& e, const PlaneEllipse& blocker) {
   if (e.kind == Emitter::Kind::edge) return meet_edge(e, blocker);
   Meeting result;
   Curve light, other;
@@ -92,7 +94,7 @@ Meeting meet(const Emitter& e, const Ellipse& blocker) {
       add_crossing(crossings.at[i], outward_normal(light.ellipse, crossings.at[i]), outward_normal(blocker, crossings.at[i]), result.lens);
     return result;
   }
-  const auto within = [](const Ellipse& outer, const Ellipse& inner) {
+  const auto within = [](const PlaneEllipse& outer, const PlaneEllipse& inner) {
     const Vec2d p = outer.to_unit(inner.at(0)), q = outer.to_unit(inner.center);
     return dot(p, p) < 1 && dot(q, q) < 1;
   };
@@ -102,8 +104,8 @@ Meeting meet(const Emitter& e, const Ellipse& blocker) {
     result.kind = Meeting::Kind::hides;
   } else {
     const Vec2d origin = light.ellipse.center;
-    const Ellipse seen{light.ellipse.to_unit(blocker.center), light.ellipse.to_unit(origin + blocker.x),
-                       light.ellipse.to_unit(origin + blocker.y)};
+    const PlaneEllipse seen{light.ellipse.to_unit(blocker.center), light.ellipse.to_unit(origin + blocker.x),
+                            light.ellipse.to_unit(origin + blocker.y)};
     result.line = line_to(light.ellipse, nearest_to_origin(seen));
   }
   return result;
@@ -111,7 +113,7 @@ Meeting meet(const Emitter& e, const Ellipse& blocker) {
 
 bool comes_within(double gap, const Emitter& e, const Vec2d* v, std::size_t count) {
   if (e.kind != Emitter::Kind::edge) {
-    const Ellipse space = ellipse_of(e);
+    const PlaneEllipse space = ellipse_of(e);
     double nearest = 1e300;
     bool inside = count > 2;
     for (std::size_t k = 0; k < count; ++k) {
@@ -126,7 +128,7 @@ bool comes_within(double gap, const Emitter& e, const Vec2d* v, std::size_t coun
   return gap_between(light, {v, count}, gap).width < gap;
 }
 
-SegmentParts parts_outside(const Ellipse& ellipse, Vec2d p, Vec2d q) {
+SegmentParts parts_outside(const PlaneEllipse& ellipse, Vec2d p, Vec2d q) {
   const Vec2d c = ellipse.to_unit(p), d = ellipse.to_unit(q) - c;
   const double a = dot(d, d), h = dot(c, d), k = dot(c, c) - 1, det = h * h - a * k;
   SegmentParts parts;

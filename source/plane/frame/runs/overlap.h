@@ -32,23 +32,23 @@ struct Meeting {
   Lens lens;          // cross
 };
 // The relation of a round or elliptic blocker to an emitter.
-Meeting meet(const Emitter& e, const Ellipse& blocker);
+Meeting meet(const Emitter& e, const PlaneEllipse& blocker);
 
 // The parts of a segment outside an ellipse.
 struct SegmentParts {
   int count = 0;
   Vec2d from[2], to[2];
 };
-SegmentParts parts_outside(const Ellipse& ellipse, Vec2d p, Vec2d q);
+SegmentParts parts_outside(const PlaneEllipse& ellipse, Vec2d p, Vec2d q);
 
 // The ellipse of a disk or an arc.
-Ellipse ellipse_of(const Emitter& e);
+PlaneEllipse ellipse_of(const Emitter& e);
 
 // Tests that an emitter is invisible from all of a tile, by its own shape or by one blocker alone.
 
 // Does the convex blocker occlude the emitter from all of the tile? Its chord between the vertices furthest to either side must separate
 // the two, and its ends must lie beyond every line from the tile to the light.
-inline bool hides(const Vec2d* v, std::size_t count, const Emitter& e, const TileArea& tile) {
+inline bool hides(const Vec2d* v, std::size_t count, const Emitter& e, const TileRectangle& tile) {
   const Vec2d axis = e.center - tile.center;
   Vec2d left = v[0], right = v[0];
   for (std::size_t k = 1; k < count; ++k) {
@@ -77,7 +77,7 @@ inline bool hides(const Vec2d* v, std::size_t count, const Emitter& e, const Til
 
 // Is the arc on the far side of its ellipse for all of the tile? Visible are the places n of the unit circle with n . p > 1. Some of an arc
 // is visible if one of its ends is; or, from its middle's side, other parts may be.
-inline bool faces_away(const Emitter& arc, const TileArea& tile) {
+inline bool faces_away(const Emitter& arc, const TileRectangle& tile) {
   const double det = cross(arc.ellipse.x, arc.ellipse.y);
   const Vec2d center = arc.ellipse.to_unit(tile.center);
   const auto most = [&](double tau) {

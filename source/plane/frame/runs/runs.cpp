@@ -116,9 +116,9 @@ void for_each_edge(const Emitter* run, F f) {
 
 // Edges of light in the order along outlines, with the body to the left: the next edge begins at the end of the last. If several do, as at
 // a crossing, the sharpest turn to the left leads around the same part of the body.
-class Walk {
+class OutlineWalk {
  public:
-  Walk(const World& world, const std::vector<Emitter>& emitters) : world_(world), emitters_(emitters), done_(emitters.size(), 0) {
+  OutlineWalk(const World& world, const std::vector<Emitter>& emitters) : world_(world), emitters_(emitters), done_(emitters.size(), 0) {
     for (std::size_t i = 0; i < emitters.size(); ++i)
       if (emitters[i].kind == Emitter::Kind::edge) by_begin_.push_back(i);
     by_end_ = by_begin_;
@@ -178,7 +178,7 @@ class Walk {
 
 std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& emitters) {
   std::vector<Emitter> result;
-  Walk walk(world, emitters);
+  OutlineWalk walk(world, emitters);
   for (std::size_t i = 0; i < emitters.size(); ++i) {
     if (emitters[i].kind != Emitter::Kind::edge) {
       result.push_back(emitters[i]);
@@ -196,7 +196,7 @@ std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& e
   return result;
 }
 
-RunView view_of(const Emitter& run, const TileArea& tile) {
+RunView view_of(const Emitter& run, const TileRectangle& tile) {
   RunView best{{}, -1e300};
   const auto look = [&](Vec2d axis) {
     double least = 1e300;
@@ -215,14 +215,14 @@ RunView view_of(const Emitter& run, const TileArea& tile) {
   return best;
 }
 
-Facing facing(const Emitter& edge, const TileArea& tile) {
+Facing facing(const Emitter& edge, const TileRectangle& tile) {
   const double height = dot(edge.normal, tile.center - edge.a),
                reach = std::fabs(edge.normal.x) * tile.half.x + std::fabs(edge.normal.y) * tile.half.y;
   if (height + reach <= 0) return Facing::none;
   return height - reach > kLeastHeight ? Facing::all : Facing::some;
 }
 
-Facing seen_as_one(const Emitter* run, const TileArea& tile) {
+Facing seen_as_one(const Emitter* run, const TileRectangle& tile) {
   const bool apart = view_of(*run, tile).least > kLeastHeight;
   switch (run->shape) {
     case RunShape::closed: return apart ? Facing::all : Facing::some;

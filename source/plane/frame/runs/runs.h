@@ -29,14 +29,14 @@ struct RunView {
   Vec2d axis;  // unit
   double least;
 };
-RunView view_of(const Emitter& run, const TileArea& tile);
+RunView view_of(const Emitter& run, const TileRectangle& tile);
 
 // Visibility of a line's lit side: from all of the tile, from some of it, or from none.
 enum class Facing { none, some, all };
-Facing facing(const Emitter& edge, const TileArea& tile);
+Facing facing(const Emitter& edge, const TileRectangle& tile);
 
 // Is a run visible as one from all of the tile, from some of it, or is all of it invisible?
-Facing seen_as_one(const Emitter* run, const TileArea& tile);
+Facing seen_as_one(const Emitter* run, const TileRectangle& tile);
 
 // Does an edge of the outline outside the run cross the run, its chord, or the region between them?
 bool crosses_run(const Emitter* run, Vec2d p, Vec2d q);

@@ -20,7 +20,7 @@ struct DepthLine {
 
 class ShadowEnds {
  public:
-  void enter(const TileArea& tile) { half_ = tile.half, radius_ = tile.radius; }
+  void enter(const TileRectangle& tile) { half_ = tile.half, radius_ = tile.radius; }
   // Begins another light. Silhouettes passed to `take` stay in `pool`.
   void clear(const std::vector<Silhouette>& pool, Vec2d to_light);
   // A convex blocker in front of the light for all of the tile. `ahead` marks the vertices that are ahead of all pixels; `from_low` and

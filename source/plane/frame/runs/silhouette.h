@@ -9,7 +9,7 @@
 
 namespace steradian::plane {
 
-struct TileArea {
+struct TileRectangle {
   Vec2d center, half;  // a rectangle that holds the tile's pixel centres
   double radius;       // half its diagonal
 };
@@ -43,7 +43,7 @@ struct HullSide {
   double least = -1e300;  // edges: a point ahead of them may lie behind the tile. For a disk it cannot
 };
 
-struct SeenLight {
+struct SeenEmitter {
   bool edge = false;
   Vec2d normal;        // edge: normal to the lit side
   Vec2d at;            // disk: centre
@@ -58,8 +58,8 @@ struct VertexMarks {
 
 struct SilhouetteTable {
   // Computes vertices, count, begins and ends.
-  void (*outline)(const PaddedOutline& from, const TileArea& tile, Silhouette& s);
-  VertexMarks (*mark)(const Silhouette& s, const SeenLight& light);
+  void (*outline)(const PaddedOutline& from, const TileRectangle& tile, Silhouette& s);
+  VertexMarks (*mark)(const Silhouette& s, const SeenEmitter& light);
 };
 
 STERADIAN_DECLARE_PACK_TABLE(SilhouetteTable, silhouette_table)

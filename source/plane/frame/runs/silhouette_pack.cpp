@@ -28,7 +28,7 @@ STERADIAN_INLINE unsigned bits_where(const Silhouette& s, Test test) {
   return bits;
 }
 
-void outline(const PaddedOutline& from, const TileArea& tile, Silhouette& s) {
+void outline(const PaddedOutline& from, const TileRectangle& tile, Silhouette& s) {
   // Visibility of the outer face of the edge that begins in a vertex: from all of the tile, from none, or from a part.
   unsigned seen = 0, unseen = 0;
   for (std::size_t i = 0; i < Silhouette::kMost; i += Doubles::size) {
@@ -56,7 +56,7 @@ void outline(const PaddedOutline& from, const TileArea& tile, Silhouette& s) {
   s.ends = static_cast<std::uint8_t>(~before(seen) & ~unseen & all);
 }
 
-VertexMarks mark(const Silhouette& s, const SeenLight& light) {
+VertexMarks mark(const Silhouette& s, const SeenEmitter& light) {
   const unsigned all = (1u << s.count) - 1;
   const auto past = [&](const HullSide& side) {
     return all & bits_where(s, [&](Doubles x, Doubles y, std::size_t) {

@@ -45,12 +45,12 @@ struct HullOfCircles {
   float base, growth, widen;
 };
 
-struct CullTable {
+struct BlockerCullTable {
   // Appends to `to` the blockers of from[begin, end) that touch the hull, and to `hiders` those of them whose core is wide enough to test.
   // Returns the number of hiders. `to` has capacity for end - begin more, and `hiders` for all.
   std::size_t (*cull)(const HullOfCircles& hull, const BlockerList& from, std::size_t begin, std::size_t end, BlockerList& to, int* hiders);
 };
 
-STERADIAN_DECLARE_PACK_TABLE(CullTable, cull_table)
+STERADIAN_DECLARE_PACK_TABLE(BlockerCullTable, cull_table)
 
 }  // namespace steradian::plane

@@ -63,8 +63,8 @@ __attribute__((flatten)) std::size_t cull(const HullOfCircles& hull, const Block
 
 }  // namespace
 
-const CullTable& cull_table() {
-  static constexpr CullTable table = {cull};
+const BlockerCullTable& cull_table() {
+  static constexpr BlockerCullTable table = {cull};
   return table;
 }
 

@@ -11,7 +11,7 @@ Filling::Filling(const FrameScene& frame, const PixelGrid& grid) : frame_(frame)
   std::fill(std::begin(inside_), std::end(inside_), kOutside);
 }
 
-void Filling::find(const std::vector<int>& bodies, int x0, int y0, const TileArea& tile) {
+void Filling::find(const std::vector<int>& bodies, int x0, int y0, const TileRectangle& tile) {
   for (int i : marked_) inside_[i] = kOutside;
   marked_.clear();
   on_own_outline_.reset();
@@ -67,7 +67,7 @@ void Filling::find_on_outlines(std::size_t body) {
     const Curve& curve = world_.curves[c];
     if (curve.kind == Curve::Kind::arc) {
       // A bound of the change of |unit|^2 over that breadth.
-      const Ellipse& e = curve.ellipse;
+      const PlaneEllipse& e = curve.ellipse;
       const double steepest = std::sqrt(dot(e.x, e.x) + dot(e.y, e.y)) / std::fabs(cross(e.x, e.y)), h = kHair * steepest;
       for (int i = 0; i < columns_ * rows_; ++i) {
         const Vec2d p = grid_.at(x0_ + i % columns_, y0_ + i / columns_), unit = e.to_unit(p);

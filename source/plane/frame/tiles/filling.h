@@ -17,7 +17,7 @@ class Filling {
   Filling(const FrameScene& frame, const PixelGrid& grid);
 
   // Finds the filled pixels of the tile from (x0, y0) on, among the bodies that come near it. It uses double, and the same test as a query.
-  void find(const std::vector<int>& bodies, int x0, int y0, const TileArea& tile);
+  void find(const std::vector<int>& bodies, int x0, int y0, const TileRectangle& tile);
   // Writes the light of the filled pixels.
   void draw(Picture& picture);
 
@@ -45,7 +45,7 @@ class Filling {
   const FrameScene& frame_;
   const World& world_;
   const PixelGrid& grid_;
-  TileArea tile_;
+  TileRectangle tile_;
   int x0_ = 0, y0_ = 0, columns_ = 0, rows_ = 0;
   int inside_[kTilePixels];                  // the body that fills each pixel, row by row
   std::bitset<kTilePixels> on_own_outline_;  // pixels within a light and near its outline

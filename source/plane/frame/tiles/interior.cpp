@@ -17,7 +17,7 @@ InnerDisk around(const Curve& c) {
   if (c.kind == Curve::Kind::segment) return {(c.a + c.b) * 0.5, 0.5 * length(c.b - c.a)};
   if (c.tau_span < std::numbers::pi) {
     // The disk around the chord, in the space where the ellipse is round, and from there in the plane.
-    const Ellipse& e = c.ellipse;
+    const PlaneEllipse& e = c.ellipse;
     const double longest = e.x == Vec2d{e.y.y, -e.y.x} ? length(e.x) : std::sqrt(dot(e.x, e.x) + dot(e.y, e.y));
     return {(e.at(c.tau0) + e.at(c.tau0 + c.tau_span)) * 0.5, longest * std::sin(0.5 * c.tau_span)};
   }
@@ -131,7 +131,7 @@ void keep_seen_from(const SeenWithin& all, Vec2d p, SeenWithin& seen) {
   std::copy_if(parts, all.curves.end(), std::back_inserter(seen.curves), [&](const Curve* part) { return faces(*part); });
 }
 
-std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circle) {
+std::optional<Curve> clipped_to_circle(const Curve& segment, const PlaneEllipse& circle) {
   const Vec2d d = segment.b - segment.a, c = segment.a - circle.center;
   const double a = dot(d, d), h = dot(c, d), k = dot(c, c) - dot(circle.x, circle.x), det = h * h - a * k;
   if (det <= 0) return {};
@@ -143,7 +143,7 @@ std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circ
   return part;
 }
 
-std::optional<Curve> circle_clipped_to_circle(const Curve& other, const Ellipse& circle) {
+std::optional<Curve> circle_clipped_to_circle(const Curve& other, const PlaneEllipse& circle) {
   const Vec2d to = circle.center - other.ellipse.center;
   const double d = length(to), r = length(circle.x), s = length(other.ellipse.x);
   if (d + s <= r) return other;

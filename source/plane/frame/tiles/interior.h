@@ -38,10 +38,10 @@ SeenWithin seen_within(const LightInterior& polygon, Vec2d center, double radius
 void keep_seen_from(const SeenWithin& all, Vec2d p, SeenWithin& seen);
 
 // The part of a segment inside a circle, if any.
-std::optional<Curve> clipped_to_circle(const Curve& segment, const Ellipse& circle);
+std::optional<Curve> clipped_to_circle(const Curve& segment, const PlaneEllipse& circle);
 
 // The same for a full circle.
-std::optional<Curve> circle_clipped_to_circle(const Curve& other, const Ellipse& circle);
+std::optional<Curve> circle_clipped_to_circle(const Curve& other, const PlaneEllipse& circle);
 
 // Fraction of the circle of directions that chords leave open, from a point among them.
 double open_share(const std::vector<Curve>& chords, Vec2d p);

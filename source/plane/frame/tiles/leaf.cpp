@@ -39,7 +39,7 @@ constexpr double kSmallParts = 6;
 
 DepthLine LeafBuilder::Depth::line() const { return {f(normal.x), f(normal.y), f(offset)}; }
 
-void LeafBuilder::enter(const TileArea& tile) {
+void LeafBuilder::enter(const TileRectangle& tile) {
   tile_ = tile;
   ++tile_number_;
   pool_count_ = 0;
@@ -49,8 +49,8 @@ void LeafBuilder::enter(const TileArea& tile) {
 double LeafBuilder::extent(Vec2d normal) const { return std::fabs(normal.x) * tile_.half.x + std::fabs(normal.y) * tile_.half.y; }
 
 // The hull of tile and emitter: lines that touch the circles around both, moved in to touch the rectangle and the emitter themselves.
-SeenLight LeafBuilder::see(const Emitter& e) const {
-  SeenLight seen;
+SeenEmitter LeafBuilder::see(const Emitter& e) const {
+  SeenEmitter seen;
   seen.edge = e.kind == Emitter::Kind::edge;
   seen.normal = is_run(e) ? -view_of(e, tile_).axis : e.normal;
   seen.at = light_.a;
@@ -113,7 +113,7 @@ bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
   };
   if (!seen_.edge) {
     // In the space where the light is the unit circle: the line through the blocker's nearest point.
-    const Ellipse& space = light_.ellipse;
+    const PlaneEllipse& space = light_.ellipse;
     Vec2d best;
     double best_d2 = 1e300;
     for (int k = 0; k < count; ++k) {
@@ -224,7 +224,7 @@ void LeafBuilder::add_convex(int blocker) {
   shadows_.take_front(slot, marks.ahead, from_low, to_high);
 }
 
-TileRound LeafBuilder::round_of(const Ellipse& e) const {
+TileRound LeafBuilder::round_of(const PlaneEllipse& e) const {
   TileRound r{};
   const double det = cross(e.x, e.y);
   r.cx = f(e.center.x);

@@ -16,7 +16,7 @@ class LeafBuilder {
   explicit LeafBuilder(const FrameScene& frame) : frame_(frame), slots_(frame.blockers.size(), {0, 0}) {}
 
   // Selects the tile for the calls that follow.
-  void enter(const TileArea& tile);
+  void enter(const TileRectangle& tile);
 
   // The emitter and those of `blockers` that may be in front of it; points into this object until the next call. `visible` is false if one
   // blocker, or several that follow each other, occlude the light from the whole tile.
@@ -37,13 +37,13 @@ class LeafBuilder {
   struct Light {
     Vec2d a, b, center;
     double radius = 0, bound = 0;
-    Ellipse ellipse;          // disk, arc
+    PlaneEllipse ellipse;     // disk, arc
     std::vector<Vec2d> hull;  // run
   };
 
   double extent(Vec2d normal) const;
   bool passes_by(Vec2d center, double radius) const;
-  SeenLight see(const Emitter& e) const;
+  SeenEmitter see(const Emitter& e) const;
   int silhouette(int blocker);
   Depth depth_of_round(const Blocker& b, Vec2d center) const;
   bool depth_of(const Silhouette& s, Depth& depth) const;
@@ -53,7 +53,7 @@ class LeafBuilder {
   void add_convex(int blocker);
   void add_round(int blocker);
   void add_lens(const Blocker& b);
-  TileRound round_of(const Ellipse& e) const;
+  TileRound round_of(const PlaneEllipse& e) const;
   TileLight light_of(const Emitter& e) const;
   TileArc arc_of(const Emitter& e) const;
   void look_at_edges(const Emitter& run);
@@ -62,13 +62,13 @@ class LeafBuilder {
 
   const FrameScene& frame_;
   const SilhouetteTable& table_ = silhouette_table_for(active_simd());
-  TileArea tile_;
+  TileRectangle tile_;
   std::vector<Silhouette> pool_;  // for this tile: the first pool_count_
   std::size_t pool_count_ = 0;
   std::vector<std::pair<int, int>> slots_;  // by blocker: a tile's number, and the index in its pool
   int tile_number_ = 0;
   Light light_;
-  SeenLight seen_;
+  SeenEmitter seen_;
   ShadowEnds shadows_;
   struct SeenEdge {
     const Emitter* edge;

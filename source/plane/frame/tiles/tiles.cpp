@@ -37,11 +37,11 @@ struct Level {
 };
 
 // One thread's work.
-class Worker {
+class TileWorker {
  public:
   // lists: null for the packs.
-  Worker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture, const TileSet* only, ShareStore* store,
-         TileLists* lists)
+  TileWorker(const FrameScene& frame, const PixelGrid& grid, const TileTable& table, Picture& picture, const TileSet* only,
+             ShareStore* store, TileLists* lists)
       : only_(only),
         lists_(lists),
         frame_(frame),
@@ -67,7 +67,7 @@ class Worker {
     top.blockers.clear();
     top.bodies.clear();
     top.general.clear();
-    const TileArea tile = area(x, y, kSides[0]);
+    const TileRectangle tile = area(x, y, kSides[0]);
     for (std::size_t i = 0; i < world_.boxes.size(); ++i) {
       if (touches(world_.boxes[i], tile)) top.bodies.push_back(static_cast<int>(i));
       if (frame_.general[i] != 0 && in_range(i, tile)) top.general.push_back(static_cast<int>(i));
@@ -86,12 +86,12 @@ class Worker {
   std::uint64_t tile_blockers() const { return tile_blockers_ + events_.tile_blockers; }
 
  private:
-  TileArea area(int x, int y, int side) const {
+  TileRectangle area(int x, int y, int side) const {
     return {grid_.at(x, y) + grid_.step * (0.5 * (side - 1)), grid_.step * (0.5 * side), 0.5 * side * length(grid_.step)};
   }
 
-  bool touches(const Box2d& box, const TileArea& t) const { return box.meets({t.center - t.half, t.center + t.half}); }
-  bool in_range(std::size_t body, const TileArea& t) const {
+  bool touches(const Box2d& box, const TileRectangle& t) const { return box.meets({t.center - t.half, t.center + t.half}); }
+  bool in_range(std::size_t body, const TileRectangle& t) const {
     const Box2d& b = world_.boxes[body];
     const Vec2d gap{std::max({b.low.x - t.center.x - t.half.x, 0.0, t.center.x - t.half.x - b.high.x}),
                     std::max({b.low.y - t.center.y - t.half.y, 0.0, t.center.y - t.half.y - b.high.y})};
@@ -99,7 +99,7 @@ class Worker {
   }
 
   // Appends an emitter; for a run that does not face all of the tile, also the emitters that it represents.
-  void take_first(std::size_t index, const TileArea& tile, Level& to) {
+  void take_first(std::size_t index, const TileRectangle& tile, Level& to) {
     const Emitter& e = frame_.emitters[index];
     const bool whole = frame_.whole_run[index] != 0;
     const Facing faces = is_run(e) ? seen_as_one(&e, tile) : Facing::all;
@@ -116,7 +116,7 @@ class Worker {
   }
 
   // The same for entries of the level above: the first one and the entries that it represents.
-  void take(const Level& from, std::size_t first, const TileArea& tile, Level& to) {
+  void take(const Level& from, std::size_t first, const TileRectangle& tile, Level& to) {
     const Entry& entry = from.entries[first];
     const Facing faces = entry.group > 1 ? seen_as_one(&frame_.emitters[static_cast<std::size_t>(entry.emitter)], tile) : Facing::all;
     if (faces == Facing::none) return;
@@ -136,7 +136,7 @@ class Worker {
   }
 
   // Appends the emitter with those of from[begin, end) that touch the hull of it and the tile. Returns false if it is invisible.
-  bool filter(int index, const BlockerList& from, std::size_t begin, std::size_t end, const TileArea& tile, Level& to) {
+  bool filter(int index, const BlockerList& from, std::size_t begin, std::size_t end, const TileRectangle& tile, Level& to) {
     const Emitter& e = frame_.emitters[static_cast<std::size_t>(index)];
     const double half = tile.radius, bound = e.bound;
     const Vec2d axis = e.center - tile.center;
@@ -157,7 +157,7 @@ class Worker {
     return true;
   }
 
-  bool hides(int blocker, const Emitter& e, const TileArea& tile) const {
+  bool hides(int blocker, const Emitter& e, const TileRectangle& tile) const {
     const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
     // Within a chain's hull, its edges decide on their own.
     if (b.edges != 0 && length(b.center - tile.center) < b.bound + tile.radius) return false;
@@ -189,7 +189,7 @@ class Worker {
     for (int dy = 0; dy < kSides[level] && y + dy < grid_.height; dy += side)
       for (int dx = 0; dx < kSides[level] && x + dx < grid_.width; dx += side) {
         if (only_ != nullptr && !only_->any(x + dx, y + dy, side)) continue;
-        const TileArea tile = area(x + dx, y + dy, side);
+        const TileRectangle tile = area(x + dx, y + dy, side);
         to.entries.clear();
         to.blockers.clear();
         to.bodies.clear();
@@ -206,7 +206,7 @@ class Worker {
   }
 
   void leaf(const Level& level, int x0, int y0) {
-    const TileArea tile = area(x0, y0, kTileSide);
+    const TileRectangle tile = area(x0, y0, kTileSide);
     std::fill(std::begin(buffer_.red), std::end(buffer_.red), 0.0f);
     std::fill(std::begin(buffer_.green), std::end(buffer_.green), 0.0f);
     std::fill(std::begin(buffer_.blue), std::end(buffer_.blue), 0.0f);
@@ -243,7 +243,7 @@ class Worker {
   }
 
   // Lights without a special rule, one by one: the envelope of the curves that touch the hull of tile and light.
-  void add_general(const Level& level, const TileArea& tile, int x0, int y0) {
+  void add_general(const Level& level, const TileRectangle& tile, int x0, int y0) {
     for (int light : level.general) {
       collect_general_curves(static_cast<std::size_t>(light), tile);
       for (int y = 0; y < kTileSide && y0 + y < grid_.height; ++y)
@@ -254,7 +254,7 @@ class Worker {
     }
   }
 
-  void collect_general_curves(std::size_t light, const TileArea& tile) {
+  void collect_general_curves(std::size_t light, const TileRectangle& tile) {
     const Vec2d to = world_.boxes[light].center() - tile.center;
     const double size = world_.boxes[light].radius(), wide = std::max(size, tile.radius), l2 = dot(to, to);
     general_curves_.clear();
@@ -278,7 +278,7 @@ class Worker {
   LeafBuilder leaf_;
   Filling filling_;
   EventWalk events_;
-  const CullTable& cull_ = cull_table_for(active_simd());
+  const BlockerCullTable& cull_ = cull_table_for(active_simd());
   std::vector<int> hiders_;
   Level levels_[kLevels];
   TileBuffer buffer_;
@@ -313,7 +313,7 @@ void work_on_squares(const FrameScene& frame, const PlaneFrameOptions& options, 
     if (only != nullptr && !only->any(x, y, kSides[0])) return;
     const FlushDenormals flush;
     TileLists* own = lists != nullptr ? &(*lists)(static_cast<std::size_t>(i)) : nullptr;
-    const auto worker = std::make_unique<Worker>(frame, grid, table, picture, only, store, own);
+    const auto worker = std::make_unique<TileWorker>(frame, grid, table, picture, only, store, own);
     worker->run(x, y);
     lights += worker->tile_lights();
     blockers += worker->tile_blockers();

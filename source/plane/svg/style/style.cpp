@@ -38,7 +38,7 @@ double font_size_of(std::string_view text, double parent) {
     Scanner scan(text.substr(0, text.size() - (root ? 3 : 2)));
     return scan.number().value_or(1) * (root ? 16 : parent);
   }
-  return std::max(Document::length_of(text, parent).value_or(parent), 0.0);
+  return std::max(SvgDocument::length_of(text, parent).value_or(parent), 0.0);
 }
 
 }  // namespace

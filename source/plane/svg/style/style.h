@@ -53,7 +53,7 @@ struct Style {
 class Styles {
  public:
   // `diagonal`: reference of percentages that belong to neither width nor height.
-  Styles(Document& document, double diagonal) : document_(document), diagonal_(diagonal) {}
+  Styles(SvgDocument& document, double diagonal) : document_(document), diagonal_(diagonal) {}
 
   // The style of an element within a parent of the given style. An element is read once however many <use> show it.
   Style inherit(pugi::xml_node n, Style style);
@@ -82,7 +82,7 @@ class Styles {
   std::optional<Vec3d> read_shares(pugi::xml_node n, const char* key) const;
   void read_sun(pugi::xml_node n, Declared& d) const;
 
-  Document& document_;
+  SvgDocument& document_;
   double diagonal_;
   std::unordered_map<const void*, Declared> declared_;
 };

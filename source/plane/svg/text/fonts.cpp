@@ -38,7 +38,7 @@ double Face::kerning(unsigned before, unsigned glyph) const {
 namespace {
 
 // State of a walk along an outline in the font's units, y upwards.
-struct Walk {
+struct FontWalk {
   Pen* pen;
   Vec2d at;
   double scale;
@@ -47,25 +47,25 @@ struct Walk {
 };
 
 int move_to(const FT_Vector* to, void* user) {
-  Walk& walk = *static_cast<Walk*>(user);
+  FontWalk& walk = *static_cast<FontWalk*>(user);
   if (walk.open) walk.pen->close();
   walk.open = true;
   walk.pen->move(walk.place(to));
   return 0;
 }
 int line_to(const FT_Vector* to, void* user) {
-  const Walk& walk = *static_cast<Walk*>(user);
+  const FontWalk& walk = *static_cast<FontWalk*>(user);
   walk.pen->line(walk.place(to));
   return 0;
 }
 int conic_to(const FT_Vector* control, const FT_Vector* to, void* user) {
-  const Walk& walk = *static_cast<Walk*>(user);
+  const FontWalk& walk = *static_cast<FontWalk*>(user);
   const Vec2d from = walk.pen->at(), c = walk.place(control), end = walk.place(to);
   walk.pen->cubic(from + (c - from) * (2.0 / 3), end + (c - end) * (2.0 / 3), end);
   return 0;
 }
 int cubic_to(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* user) {
-  const Walk& walk = *static_cast<Walk*>(user);
+  const FontWalk& walk = *static_cast<FontWalk*>(user);
   walk.pen->cubic(walk.place(first), walk.place(second), walk.place(to));
   return 0;
 }
@@ -77,7 +77,7 @@ void Face::draw(unsigned glyph, Vec2d at, double size, Pen& pen) const {
   if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE) != 0 || face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return;
   static const FT_Outline_Funcs steps = {move_to, line_to, conic_to, cubic_to, 0, 0};
   // The pen may throw if there is too much, and FreeType's own frames lie between: it must not see exceptions.
-  Walk walk{&pen, at, size / face->units_per_EM};
+  FontWalk walk{&pen, at, size / face->units_per_EM};
   FT_Outline_Decompose(&face->glyph->outline, &steps, &walk);
   if (walk.open) pen.close();
 }

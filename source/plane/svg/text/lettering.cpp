@@ -31,9 +31,9 @@ std::string lower(std::string text) {
   return text;
 }
 
-class Layout {
+class TextLayout {
  public:
-  Layout(Document& document, Styles& styles, Fonts& fonts, Vec2d whole, const std::function<void()>& spend)
+  TextLayout(SvgDocument& document, Styles& styles, Fonts& fonts, Vec2d whole, const std::function<void()>& spend)
       : document_(document), styles_(styles), fonts_(fonts), whole_(whole), spend_(spend) {}
 
   void walk(pugi::xml_node n, const Style& style, int depth) {
@@ -91,7 +91,7 @@ class Layout {
     std::string list = n.attribute(key).value();
     std::replace(list.begin(), list.end(), ',', ' ');
     for (const std::string& word : words(list)) {
-      const auto length = Document::length_of(word, whole);
+      const auto length = SvgDocument::length_of(word, whole);
       if (!length) document_.fail(n, std::string(key) + "=\"" + list + "\" is not a list of lengths", "write numbers");
       result.push_back(*length);
     }
@@ -139,7 +139,7 @@ class Layout {
     after_space_ = true;
   }
 
-  Document& document_;
+  SvgDocument& document_;
   Styles& styles_;
   Fonts& fonts_;
   Vec2d whole_, at_;
@@ -154,9 +154,9 @@ class Layout {
 
 }  // namespace
 
-std::vector<TextRun> lay_out_text(Document& document, Styles& styles, Fonts& fonts, pugi::xml_node text, const Style& style, Vec2d whole,
+std::vector<TextRun> lay_out_text(SvgDocument& document, Styles& styles, Fonts& fonts, pugi::xml_node text, const Style& style, Vec2d whole,
                                   const std::function<void()>& spend) {
-  Layout layout(document, styles, fonts, whole, spend);
+  TextLayout layout(document, styles, fonts, whole, spend);
   layout.walk(text, style, 0);
   return layout.finish();
 }

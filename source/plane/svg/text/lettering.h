@@ -23,7 +23,7 @@ struct TextRun {
 
 // The runs of a <text> of the given style, letters from left to right by their advances and kerning pairs. x, y, dx and dy may be lists;
 // text-anchor applies to each line. The document's warnings name unsupported features. `spend` is called for every letter.
-std::vector<TextRun> lay_out_text(Document& document, Styles& styles, Fonts& fonts, pugi::xml_node text, const Style& style, Vec2d whole,
+std::vector<TextRun> lay_out_text(SvgDocument& document, Styles& styles, Fonts& fonts, pugi::xml_node text, const Style& style, Vec2d whole,
                                   const std::function<void()>& spend);
 
 }  // namespace steradian::plane::svg

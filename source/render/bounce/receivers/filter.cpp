@@ -29,20 +29,20 @@ FilterWeights filter_weights(int stride) {
   return w;
 }
 
-Light filter(const FrameSurfaces& surfaces, const FloatArray& width, int stride, const Light& light) {
+IncomingLight filter(const PictureSurfaces& surfaces, const FloatArray& width, int stride, const IncomingLight& light) {
   const Raster& raster = surfaces.raster;
   const FilterGeometry geometry{surfaces.position, surfaces.normal, width.data()};
   const FilterWeights weights = filter_weights(stride);
   const FilterTable& table = filter_table_for(active_simd());
-  Light rows, result;
-  for (Light* l : {&rows, &result}) {
+  IncomingLight rows, result;
+  for (IncomingLight* l : {&rows, &result}) {
     l->diffuse.resize(raster.size());
     l->glossy.resize(raster.size());
   }
   // Strips are so narrow that all rows that a tap can reach stay in the cache.
   constexpr int kStrip = 128, kRows = 64;
   const int across = (raster.width + kStrip - 1) / kStrip, down = (raster.height + kRows - 1) / kRows;
-  const auto pass = [&](FilterAxis axis, const Light& from, Light& to) {
+  const auto pass = [&](FilterAxis axis, const IncomingLight& from, IncomingLight& to) {
     tbb::parallel_for(0, across * down, [&](int i) {
       const FlushDenormals flush;
       const int x = i % across * kStrip, y = i / across * kRows;

@@ -28,10 +28,10 @@ enum class FilterAxis { x, y };
 struct FilterTable {
   // Filters rows [first, last) of columns [begin, end) along one axis; begin is a multiple of 16.
   void (*run)(const FilterGeometry& geometry, const Raster& raster, const FilterWeights& weights, FilterAxis axis, int begin, int end,
-              int first, int last, const Light& from, Light& to);
+              int first, int last, const IncomingLight& from, IncomingLight& to);
 };
 
-Light filter(const FrameSurfaces& surfaces, const FloatArray& width, int stride, const Light& light);
+IncomingLight filter(const PictureSurfaces& surfaces, const FloatArray& width, int stride, const IncomingLight& light);
 
 }  // namespace steradian::indirect
 

@@ -11,7 +11,7 @@ using indirect::kFilterReach;
 using indirect::VectorArray;
 using K = PackKernels;
 
-struct Sums {
+struct FilterSums {
   PackVec3 diffuse{0.0, 0.0, 0.0}, shine{0.0, 0.0, 0.0};
   PackReal diffuse_weight{0.0}, shine_weight{0.0};
 };
@@ -20,7 +20,7 @@ struct Sums {
 struct Taps {
   const indirect::FilterGeometry& g;
   const indirect::FilterWeights& weights;
-  const indirect::Light& from;
+  const indirect::IncomingLight& from;
   std::size_t i;
   std::ptrdiff_t step;
   int first, last;
@@ -29,9 +29,9 @@ struct Taps {
   K::mask sharp;
   bool any_glossy;
 
-  STERADIAN_INLINE Sums gather(const K::IndirectLikeness& like) const {
+  STERADIAN_INLINE FilterSums gather(const K::IndirectLikeness& like) const {
     const PackReal none(0.0), widths = width * like.widths;
-    Sums s;
+    FilterSums s;
     for (int k = first; k <= last; ++k) {
       const float wd = weights.diffuse[k + kFilterReach];
       const std::size_t j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k * step);
@@ -50,8 +50,8 @@ struct Taps {
 };
 
 __attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indirect::Raster& raster, const indirect::FilterWeights& weights,
-                                  indirect::FilterAxis axis, int begin, int end, int first, int last, const indirect::Light& from,
-                                  indirect::Light& to) {
+                                  indirect::FilterAxis axis, int begin, int end, int first, int last, const indirect::IncomingLight& from,
+                                  indirect::IncomingLight& to) {
   const bool along_x = axis == indirect::FilterAxis::x;
   int reach_low = -kFilterReach, reach_high = kFilterReach;  // the diffuse taps are the widest
   while (weights.diffuse[reach_low + kFilterReach] == 0) ++reach_low;
@@ -80,10 +80,10 @@ __attribute__((flatten)) void run(const indirect::FilterGeometry& g, const indir
                       width,
                       glossy && width < k.indirect_sharp(),
                       any_lane(glossy)};
-      const Sums same = taps.gather(k.indirect_alike());
+      const FilterSums same = taps.gather(k.indirect_alike());
       PackVec3 diffuse = k.indirect_over(same.diffuse, same.diffuse_weight), shine = k.indirect_over(same.shine, same.shine_weight);
       if (any_lane(there && (same.diffuse_weight < enough || (glossy && same.shine_weight < enough)))) {
-        const Sums loose = taps.gather(k.indirect_alike_loosely());
+        const FilterSums loose = taps.gather(k.indirect_alike_loosely());
         diffuse = k.indirect_filtered(same.diffuse, same.diffuse_weight, loose.diffuse, loose.diffuse_weight);
         shine = k.indirect_filtered(same.shine, same.shine_weight, loose.shine, loose.shine_weight);
       }

@@ -34,8 +34,8 @@ struct Nanoseconds {
 // the same and the ratio is the fraction of rays that arrive.
 //
 // Source: Heitz, Hill, McGuire, "Combining analytic direct illumination and stochastic shadows", 2018.
-void shadow_block(const LightSet& set, const TileLists& lists, std::size_t block, const Receivers& receivers, std::size_t first,
-                  const LtcPackTables& tables, const LightingOptions& options, Light& light) {
+void shadow_block(const LightSet& set, const BlockLists& lists, std::size_t block, const Receivers& receivers, std::size_t first,
+                  const LtcPackTables& tables, const LightingOptions& options, IncomingLight& light) {
   alignas(64) float shares[kBlockReceivers], diffuse[kBlockReceivers], glossy[kBlockReceivers];
   int diffuse_seen[kBlockReceivers] = {}, glossy_seen[kBlockReceivers] = {};
   const LightingTable& table = lighting_table_for(active_simd());
@@ -71,21 +71,21 @@ void shadow_block(const LightSet& set, const TileLists& lists, std::size_t block
 LightingResult light_receivers(const std::vector<LightSet>& sets, const Receivers& receivers, const Layout& layout,
                                const LtcPackTables& tables, const LightingOptions& options) {
   LightingResult result;
-  Light& light = result.light;
+  IncomingLight& light = result.light;
   light.diffuse.resize(layout.size());
   light.glossy.resize(layout.size());
-  const CullTable& culling = cull_table_for(active_simd());
+  const LightCullTable& culling = cull_table_for(active_simd());
   const LightingTable& lighting = lighting_table_for(active_simd());
   const auto shade = options.mode == IndirectMode::ggx ? lighting.ggx : lighting.ltc;
   Nanoseconds cull_time, light_time, shadow_time;
   std::atomic<std::int64_t> pairs{0};
-  tbb::enumerable_thread_specific<TileLists> all_lists;
+  tbb::enumerable_thread_specific<BlockLists> all_lists;
   // Sets run one after another, so that a set's lights stay in the cache.
   tbb::parallel_for(0, layout.sets() * layout.tiles(), [&](int job) {
     const FlushDenormals flush;
     const LightSet& set = sets[static_cast<std::size_t>(job / layout.tiles())];
     const std::size_t first = layout.tile_begin(job / layout.tiles(), job % layout.tiles());
-    TileLists& lists = all_lists.local();
+    BlockLists& lists = all_lists.local();
     cull_time.time([&] { lists.cull(culling, set, receivers, first); });
     std::int64_t count = 0;
     light_time.time([&] {

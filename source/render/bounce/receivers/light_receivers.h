@@ -24,7 +24,7 @@ struct LightingWork {
 };
 
 struct LightingResult {
-  Light light;
+  IncomingLight light;
   LightingWork work;
 };
 

@@ -36,7 +36,7 @@ void copy(VectorArray& to, std::size_t i, const VectorArray& from, std::size_t k
 
 }  // namespace
 
-void widen_over_pattern(FrameSurfaces& s, int side) {
+void widen_over_pattern(PictureSurfaces& s, int side) {
   constexpr float kMean = 1.0f / 3;     // of the squares from the middle of the pattern to its side, over that of the side
   constexpr float kSameSurface = 0.8f;  // cosine: beyond 37 degrees it is another surface, or an edge
   const FloatArray before = s.alpha;
@@ -57,7 +57,7 @@ void widen_over_pattern(FrameSurfaces& s, int side) {
   });
 }
 
-Receivers interleave(const FrameSurfaces& s, const Layout& layout, IndirectMode mode) {
+Receivers interleave(const PictureSurfaces& s, const Layout& layout, IndirectMode mode) {
   Receivers r;
   const std::size_t n = layout.size();
   r.position.resize(n);
@@ -83,8 +83,8 @@ Receivers interleave(const FrameSurfaces& s, const Layout& layout, IndirectMode 
   return r;
 }
 
-Light deinterleave(const Light& light, const Layout& layout) {
-  Light result;
+IncomingLight deinterleave(const IncomingLight& light, const Layout& layout) {
+  IncomingLight result;
   const std::size_t n = Raster{layout.width, layout.height}.size();
   result.diffuse.resize(n);
   result.glossy.resize(n);

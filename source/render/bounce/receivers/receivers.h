@@ -18,12 +18,12 @@ struct Raster {
 };
 
 // Surfaces in the picture's order. A normal of zero marks a pixel without a surface that takes light, and the margins.
-struct FrameSurfaces {
+struct PictureSurfaces {
   Raster raster;
   VectorArray position, normal, view, albedo, f0, f90;
   FloatArray alpha;
 
-  explicit FrameSurfaces(Raster r)
+  explicit PictureSurfaces(Raster r)
       : raster(r), position(r.size()), normal(r.size()), view(r.size()), albedo(r.size()), f0(r.size()), f90(r.size()), alpha(r.size()) {}
 };
 
@@ -67,19 +67,19 @@ struct Receivers {
 };
 
 // Incoming light, demodulated: `diffuse` times albedo / pi and `glossy` times the mean reflectance is radiance.
-struct Light {
+struct IncomingLight {
   VectorArray diffuse, glossy;
 };
 
 // Widens glossy lobes by the angle through which their surface turns within a pattern, in the mean square. The pixels of a pattern share
 // the virtual lights. On metal that bends within the pattern, a lobe narrower than that would show a light in one pixel only, and the
 // filter would make a block of it.
-void widen_over_pattern(FrameSurfaces& surfaces, int side);
+void widen_over_pattern(PictureSurfaces& surfaces, int side);
 
-Receivers interleave(const FrameSurfaces& surfaces, const Layout& layout, IndirectMode mode);
+Receivers interleave(const PictureSurfaces& surfaces, const Layout& layout, IndirectMode mode);
 
 // Restores the picture's order, as planes of a raster.
-Light deinterleave(const Light& light, const Layout& layout);
+IncomingLight deinterleave(const IncomingLight& light, const Layout& layout);
 
 // Bounds of the surfaces among `count` receivers, and of their normals; empty if there are none.
 struct ReceiverBounds {

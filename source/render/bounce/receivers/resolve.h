@@ -9,7 +9,8 @@ namespace steradian::indirect {
 
 struct ResolveTable {
   // Rows [first, last): radiance = diffuse albedo / pi + glossy times Fresnel's mean over the lobe.
-  void (*run)(const FrameSurfaces& surfaces, const Light& light, const LtcPackTables& tables, int first, int last, VectorArray& radiance);
+  void (*run)(const PictureSurfaces& surfaces, const IncomingLight& light, const LtcPackTables& tables, int first, int last,
+              VectorArray& radiance);
 };
 
 }  // namespace steradian::indirect

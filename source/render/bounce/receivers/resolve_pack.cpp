@@ -6,8 +6,8 @@
 STERADIAN_BEGIN_ISA
 namespace {
 
-__attribute__((flatten)) void run(const indirect::FrameSurfaces& s, const indirect::Light& light, const LtcPackTables& tables, int first,
-                                  int last, indirect::VectorArray& radiance) {
+__attribute__((flatten)) void run(const indirect::PictureSurfaces& s, const indirect::IncomingLight& light, const LtcPackTables& tables,
+                                  int first, int last, indirect::VectorArray& radiance) {
   for (int y = first; y < last; ++y)
     for (int x = 0; x < s.raster.width; x += static_cast<int>(kLanes)) {
       const std::size_t i = s.raster.at(x, y);

@@ -1,4 +1,4 @@
-#include "render/radiosity/patch_light.h"
+#include "render/radiosity/patch_solver.h"
 
 #include <tbb/parallel_for.h>
 
@@ -22,21 +22,8 @@ constexpr float kSmallChange = 1e-4f;                     // of the largest radi
 constexpr float kNoChange = 1e-6f;                        // the same where the factor from bounce to bounce is not yet below 1
 constexpr int kMostIterations = 500;
 
-struct PatchSize {
-  std::size_t patches, rays;  // rays of each side
-};
-
-PatchSize size_for(Quality quality) {
-  switch (quality) {
-    case Quality::draft: return {8'000, 64};
-    case Quality::high: return {120'000, 256};
-    case Quality::normal: break;
-  }
-  return {40'000, 128};
-}
-
-Patches patches_for(const Scene& scene, const RayScene& rays, Quality quality) {
-  Patches patches(scene, size_for(quality).patches);
+Patches patches_for(const Scene& scene, const RayScene& rays, std::size_t wanted) {
+  Patches patches(scene, wanted);
   patches.split(scene, rays);
   return patches;
 }
@@ -64,15 +51,49 @@ Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
 std::size_t tiles_for(std::size_t patches) { return (patches + kTilePatches - 1) / kTilePatches; }
 
-template <class Work>
-void each(std::size_t count, Work work) {
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const FlushDenormals flush;
-    work(i);
-  });
-}
-
 }  // namespace
+
+class PatchSolver {
+ public:
+  PatchSolver(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options)
+      : scene_(scene), rays_(rays), maps_(maps), options_(options), light_(patches_for(scene, rays, options.fineness.patches)) {}
+
+  PatchLight solve(const AddDirect& add_direct, const FindIncident& find_incident);
+
+ private:
+  const Patches& patches() const { return light_.patches_; }
+  bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
+  template <class Work>
+  void each(std::size_t count, Work work) const {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      if (stopped()) return;
+      const FlushDenormals flush;
+      work(i);
+    });
+  }
+  Surface surface_of(std::uint32_t side) const;
+  Surface surface_at_site(std::uint32_t side, const Patches::Site& at) const;
+  void find_direct(const AddDirect& add_direct);
+  void refine_direct(const AddDirect& add_direct);
+  void find_glossy(const FindIncident& find_incident);
+  void find_links(std::size_t rays);
+  void iterate();
+  void find_coarse();
+  void find_bright_sides();
+  float area_of(std::uint32_t side) const;
+  float turn_of(std::uint32_t side) const;
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const MipMaps& maps_;
+  const PatchOptions options_;
+  PatchLight light_;
+  std::vector<Vec3f> reflectance_, direct_;  // by side
+  std::vector<Vec3f> even_glossy_;           // by side: mean radiance of its glossy lobe
+  std::vector<Vec3f> from_glossy_;           // by side: mean radiance that glossy lobes of other sides send there
+  std::size_t links_per_side_ = 0;
+  std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
+};
 
 void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
   static const SurfaceMaterial plain;
@@ -86,34 +107,39 @@ void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
   put_surface(tile, slot, white, s.geometric_normal);
 }
 
-PatchLight::PatchLight(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
-                       const AddDirect& add_direct, const FindIncident& find_incident)
-    : scene_(scene), rays_(rays), maps_(maps), patches_(patches_for(scene, rays, options.quality)), glossy_(patches_.side_count()) {
-  const std::size_t sides = patches_.side_count();
+PatchLight PatchSolver::solve(const AddDirect& add_direct, const FindIncident& find_incident) {
+  const std::size_t sides = patches().side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
-  parts_of_.assign(sides, kNoSide);
+  light_.parts_of_.assign(sides, kNoSide);
   find_direct(add_direct);
   refine_direct(add_direct);
   find_glossy(find_incident);
-  radiance_ = direct_;
-  if (sides == 0) return;
-  if (options.bounces != 1) {
-    find_links(std::clamp(kMostLinks / sides, std::size_t{16}, size_for(options.quality).rays) / BounceRays::kLanes * BounceRays::kLanes);
-    iterate(options.bounces);
+  light_.radiance_ = direct_;
+  if (sides == 0) return std::move(light_);
+  if (options_.bounces != 1) {
+    const std::size_t rays = std::clamp(kMostLinks / sides, std::size_t{16}, options_.fineness.rays);
+    find_links(rays / BounceRays::kLanes * BounceRays::kLanes);
+    iterate();
   }
   find_coarse();
   find_bright_sides();
+  return std::move(light_);
 }
 
-std::size_t PatchLight::direct_tiles(const Scene& scene, Quality quality) {
-  return tiles_for(Patches(scene, size_for(quality).patches).side_count() / 2);
+PatchLight solve_patches(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
+                         const AddDirect& add_direct, const FindIncident& find_incident) {
+  return PatchSolver(scene, rays, maps, options).solve(add_direct, find_incident);
 }
 
-Surface PatchLight::surface_of(std::uint32_t side) const { return surface_at_site(side, patches_.site(side)); }
+std::size_t patch_tiles(const Scene& scene, const Fineness& fineness) {
+  return tiles_for(Patches(scene, fineness.patches).side_count() / 2);
+}
+
+Surface PatchSolver::surface_of(std::uint32_t side) const { return surface_at_site(side, patches().site(side)); }
 
 // The surface at a place of a side, as a ray sees it that comes along the normal.
-Surface PatchLight::surface_at_site(std::uint32_t side, const Patches::Site& at) const {
+Surface PatchSolver::surface_at_site(std::uint32_t side, const Patches::Site& at) const {
   const Mesh& mesh = scene_.meshes[at.mesh];
   const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
   const Vec3f across = cross(corner(1) - corner(0), corner(2) - corner(0));
@@ -124,16 +150,16 @@ Surface PatchLight::surface_at_site(std::uint32_t side, const Patches::Site& at)
 }
 
 // Finds the direct light of the sides, a tile of sides at a time: the fronts of its patches, and then their backs.
-void PatchLight::find_direct(const AddDirect& add_direct) {
-  const std::size_t patches = patches_.side_count() / 2;
-  each(tiles_for(patches), [&](std::size_t number) {
+void PatchSolver::find_direct(const AddDirect& add_direct) {
+  const std::size_t count = patches().side_count() / 2;
+  each(tiles_for(count), [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
     clear_kinds(*tile);
     tile->seed = number;
     // The side in a slot, or kNoSide.
     const auto side_of = [&](std::size_t slot) {
       const std::size_t patch = number * kTilePatches + slot % kTilePatches;
-      return patch < patches ? static_cast<std::uint32_t>(2 * patch + slot / kTilePatches) : kNoSide;
+      return patch < count ? static_cast<std::uint32_t>(2 * patch + slot / kTilePatches) : kNoSide;
     };
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const std::uint32_t side = side_of(i);
@@ -151,10 +177,10 @@ void PatchLight::find_direct(const AddDirect& add_direct) {
 }
 
 // Sides beside which the direct light changes a lot get a light for each part, and its mean: a border of light or shadow crosses them.
-void PatchLight::refine_direct(const AddDirect& add_direct) {
+void PatchSolver::refine_direct(const AddDirect& add_direct) {
   constexpr double kChange = 0.1;  // of the mean light of the sides
   constexpr std::size_t kTileSides = kTilePixels / kPatchParts;
-  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  const auto sides = static_cast<std::uint32_t>(patches().side_count());
   const auto light = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(direct_[side])); };
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
@@ -165,17 +191,17 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
   if (!(least > 0)) return;
   std::vector<std::uint32_t> refined;
   for (std::uint32_t side = 0; side < sides; ++side) {
-    const Patches::Site& at = patches_.site(side);
+    const Patches::Site& at = patches().site(side);
     const auto changes_to = [&](float u, float v) {
       if (!(u > 0) || !(v > 0) || !(u + v < 1)) return false;
-      return std::fabs(light(patches_.place_at(at.mesh, at.triangle, u, v, Patches::is_front(side)).side) - light(side)) > least;
+      return std::fabs(light(patches().place_at(at.mesh, at.triangle, u, v, Patches::is_front(side)).side) - light(side)) > least;
     };
     if (changes_to(at.u + at.step, at.v) || changes_to(at.u - at.step, at.v) || changes_to(at.u, at.v + at.step) ||
         changes_to(at.u, at.v - at.step))
       refined.push_back(side);
   }
-  change_in_parts_.resize(refined.size());
-  for (std::uint32_t k = 0; k < refined.size(); ++k) parts_of_[refined[k]] = k;
+  light_.change_in_parts_.resize(refined.size());
+  for (std::uint32_t k = 0; k < refined.size(); ++k) light_.parts_of_[refined[k]] = k;
   const std::size_t tiles = (refined.size() + kTileSides - 1) / kTileSides;
   each(tiles, [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
@@ -185,32 +211,32 @@ void PatchLight::refine_direct(const AddDirect& add_direct) {
       put_nothing(*tile, i);
       const std::size_t k = number * kTileSides + i / kPatchParts;
       if (k >= refined.size()) continue;
-      put_white(*tile, i, surface_at_site(refined[k], patches_.site({refined[k], static_cast<std::uint32_t>(i % kPatchParts)})));
+      put_white(*tile, i, surface_at_site(refined[k], patches().site({refined[k], static_cast<std::uint32_t>(i % kPatchParts)})));
     }
     add_direct(*tile);
     for (std::size_t k = 0; k < kTileSides && number * kTileSides + k < refined.size(); ++k) {
       const std::uint32_t side = refined[number * kTileSides + k];
-      std::array<Vec3f, kPatchParts>& parts = change_in_parts_[parts_of_[side]];
+      std::array<Vec3f, kPatchParts>& parts = light_.change_in_parts_[light_.parts_of_[side]];
       Vec3f sum{};
       float held = 0;
       for (std::uint32_t i = 0; i < kPatchParts; ++i) {
         parts[i] = get(tile->radiance, k * kPatchParts + i) * reflectance_[side];
-        if (!patches_.holds({side, i})) continue;
+        if (!patches().holds({side, i})) continue;
         sum += parts[i];
         held += 1;
       }
       const Vec3f mean = held > 0 ? sum * (1 / held) : Vec3f{};
       direct_[side] = mean;
-      for (std::uint32_t i = 0; i < kPatchParts; ++i) parts[i] = patches_.holds({side, i}) ? parts[i] - mean : Vec3f{};
+      for (std::uint32_t i = 0; i < kPatchParts; ++i) parts[i] = patches().holds({side, i}) ? parts[i] - mean : Vec3f{};
     }
   });
 }
 
 // Takes the light that glossy lobes send on out of the sides' even radiance, and keeps it by direction.
-void PatchLight::find_glossy(const FindIncident& find_incident) {
+void PatchSolver::find_glossy(const FindIncident& find_incident) {
   constexpr double kLeast = 0.02;  // of the mean direct radiance: less light goes on as if the side were diffuse
   constexpr std::size_t kBatch = 4096;
-  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+  const auto sides = static_cast<std::uint32_t>(patches().side_count());
   even_glossy_.resize(sides);
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
@@ -244,26 +270,26 @@ void PatchLight::find_glossy(const FindIncident& find_incident) {
       const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
       const Vec3f irradiance =
           Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} * std::numbers::pi_v<float>;
-      if (found[k].incident.empty() || !glossy_.keep(side, found[k].surface, found[k].incident, irradiance, turn_of(side))) continue;
+      if (found[k].incident.empty() || !light_.glossy_.keep(side, found[k].surface, found[k].incident, irradiance, turn_of(side))) continue;
       const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
       even_glossy_[side] = direct_[side] * found[k].share;
       direct_[side] = direct_[side] * rest;
-      if (parts_of_[side] == kNoSide) continue;
-      for (Vec3f& part : change_in_parts_[parts_of_[side]]) part = part * rest;
+      if (light_.parts_of_[side] == kNoSide) continue;
+      for (Vec3f& part : light_.change_in_parts_[light_.parts_of_[side]]) part = part * rest;
     }
   }
 }
 
-void PatchLight::find_links(std::size_t rays) {
+void PatchSolver::find_links(std::size_t rays) {
   links_per_side_ = rays;
-  links_.resize(rays * patches_.side_count());
-  from_glossy_.resize(patches_.side_count());
-  each(patches_.side_count(), [&](std::size_t side) {
+  links_.resize(rays * patches().side_count());
+  from_glossy_.resize(patches().side_count());
+  each(patches().side_count(), [&](std::size_t side) {
     const Surface surface = surface_of(static_cast<std::uint32_t>(side));
     const Frame frame = Frame::from_normal(normalized(static_cast<Vec3d>(surface.geometric_normal)));
     reference::Random random(side);
     const double turn = random.uniform();
-    BounceRays bounce(rays_, patches_);
+    BounceRays bounce(rays_, patches());
     for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
       std::array<Vec3f, BounceRays::kLanes> to;
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
@@ -273,7 +299,7 @@ void PatchLight::find_links(std::size_t rays) {
       const auto met = bounce.trace();
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
         links_[side * rays + k + i] = met[i].side;
-        if (met[i].side != kNoSide) from_glossy_[side] += glossy_.radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
+        if (met[i].side != kNoSide) from_glossy_[side] += light_.glossy_.radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
       }
     }
   });
@@ -283,13 +309,14 @@ void PatchLight::find_links(std::size_t rays) {
 //
 // Every bounce is the same positive linear map of the one before. So if it is nowhere more than a factor f of the one before, all that
 // follow are within f / (1 - f) of it.
-void PatchLight::iterate(int bounces) {
-  const std::size_t sides = patches_.side_count();
+void PatchSolver::iterate() {
+  const int bounces = options_.bounces;
+  const std::size_t sides = patches().side_count();
   const float over_links = 1.0f / static_cast<float>(links_per_side_);
-  std::vector<Vec3f> bounce = radiance_, next(sides);  // radiance after exactly so many bounces
+  std::vector<Vec3f> bounce = light_.radiance_, next(sides);  // radiance after exactly so many bounces
   const auto largest_of = [](Vec3f v) { return std::max({v.x, v.y, v.z}); };
   const int most = bounces == kAllBounces ? kMostIterations : bounces - 1;
-  for (iterations_ = 0; iterations_ < most;) {
+  for (light_.iterations_ = 0; light_.iterations_ < most && !stopped();) {
     each(sides, [&](std::size_t side) {
       Vec3f sum{};
       for (std::size_t k = 0; k < links_per_side_; ++k) {
@@ -297,54 +324,54 @@ void PatchLight::iterate(int bounces) {
         if (met != kNoSide) sum += bounce[met];
       }
       // Light from glossy lobes of other sides is direct light that has bounced once.
-      next[side] = reflectance_[side] * (sum * over_links + (iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
+      next[side] = reflectance_[side] * (sum * over_links + (light_.iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
     });
     float factor = 0, largest_bounce = 0, largest = 0;
     const auto grows = [](float from, float to) { return to > 0 ? (from > 0 ? to / from : std::numeric_limits<float>::infinity()) : 0.0f; };
     for (std::size_t side = 0; side < sides; ++side) {
       const Vec3f a = bounce[side], b = next[side];
-      radiance_[side] += b;
+      light_.radiance_[side] += b;
       factor = std::max({factor, grows(a.x, b.x), grows(a.y, b.y), grows(a.z, b.z)});
       largest_bounce = std::max(largest_bounce, largest_of(b));
-      largest = std::max(largest, largest_of(radiance_[side]));
+      largest = std::max(largest, largest_of(light_.radiance_[side]));
     }
     bounce.swap(next);
-    ++iterations_;
+    ++light_.iterations_;
     if (bounces != kAllBounces) continue;
     // The first bounce holds light of glossy lobes that the direct light does not.
-    left_out_.reset();
-    if (iterations_ > 1 && factor < 1) left_out_ = largest_bounce * factor / (1 - factor);
-    if (largest_bounce <= kNoChange * largest || (left_out_ && *left_out_ <= kSmallChange * largest)) break;
+    light_.left_out_.reset();
+    if (light_.iterations_ > 1 && factor < 1) light_.left_out_ = largest_bounce * factor / (1 - factor);
+    if (largest_bounce <= kNoChange * largest || (light_.left_out_ && *light_.left_out_ <= kSmallChange * largest)) break;
   }
 }
 
 // Joins the sides of each group, whose patches have equal areas.
-void PatchLight::find_coarse() {
-  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
+void PatchSolver::find_coarse() {
+  const auto sides = static_cast<std::uint32_t>(patches().side_count());
   std::vector<Vec3f> sum(sides);
   std::vector<float> count(sides);
   for (std::uint32_t side = 0; side < sides; ++side) {
-    const std::uint32_t group = patches_.group_of(side);
-    sum[group] += radiance_[side];
+    const std::uint32_t group = patches().group_of(side);
+    sum[group] += light_.radiance_[side];
     count[group] += 1;
   }
-  coarse_.resize(sides);
+  light_.coarse_.resize(sides);
   for (std::uint32_t side = 0; side < sides; ++side) {
-    const std::uint32_t group = patches_.group_of(side);
-    coarse_[side] = sum[group] * (1 / count[group]);
+    const std::uint32_t group = patches().group_of(side);
+    light_.coarse_[side] = sum[group] * (1 / count[group]);
   }
 }
 
-float PatchLight::area_of(std::uint32_t side) const {
-  const Patches::Site& at = patches_.site(side);
+float PatchSolver::area_of(std::uint32_t side) const {
+  const Patches::Site& at = patches().site(side);
   const Mesh& mesh = scene_.meshes[at.mesh];
   const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
-  return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * patches_.area(side);
+  return 0.5f * length(cross(corner(1) - corner(0), corner(2) - corner(0))) * patches().area(side);
 }
 
 // Largest angle between the normals at a patch's middle and its corners, where vertices have normals.
-float PatchLight::turn_of(std::uint32_t side) const {
-  const Patches::Site& at = patches_.site(side);
+float PatchSolver::turn_of(std::uint32_t side) const {
+  const Patches::Site& at = patches().site(side);
   const Mesh& mesh = scene_.meshes[at.mesh];
   if (mesh.normals.empty()) return 0;
   const auto corner = [&](std::size_t i) { return mesh.normals[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
@@ -353,19 +380,19 @@ float PatchLight::turn_of(std::uint32_t side) const {
 }
 
 // Spreads places over the bright sides in proportion to their light.
-void PatchLight::find_bright_sides() {
+void PatchSolver::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
   constexpr std::size_t kPlaces = 1024;
-  const auto sides = static_cast<std::uint32_t>(patches_.side_count());
-  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance_[side] + even_glossy_[side])); };
+  const auto sides = static_cast<std::uint32_t>(patches().side_count());
+  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(light_.radiance_[side] + even_glossy_[side])); };
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (!(brightness(side) > 0)) continue;
     power += brightness(side) * static_cast<double>(area_of(side));
     area += static_cast<double>(area_of(side));
   }
-  mean_radiance_ = area > 0 ? power / area : 0;
-  const double least = kBright * mean_radiance_;
+  light_.mean_radiance_ = area > 0 ? power / area : 0;
+  const double least = kBright * light_.mean_radiance_;
   std::vector<std::uint8_t> bright(sides);
   double bright_power = 0, bright_area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
@@ -379,13 +406,13 @@ void PatchLight::find_bright_sides() {
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (bright[side] == 0) continue;
     before += brightness(side) * static_cast<double>(area_of(side));
-    while (places_.size() < kPlaces && (static_cast<double>(places_.size()) + 0.5) * bright_power < before * kPlaces) {
+    while (light_.places_.size() < kPlaces && (static_cast<double>(light_.places_.size()) + 0.5) * bright_power < before * kPlaces) {
       const Surface s = surface_of(side);
-      places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
+      light_.places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
     }
   }
-  bright_ = std::move(bright);
-  bright_area_ = static_cast<float>(bright_area / kPlaces);
+  light_.bright_ = std::move(bright);
+  light_.bright_area_ = static_cast<float>(bright_area / kPlaces);
 }
 
 }  // namespace steradian::radiosity

@@ -1,0 +1,98 @@
+// A cache keeps the light of all patches from picture to picture, and no picture differs by it.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+
+#include "paths.h"
+#include "steradian/load_scene.h"
+#include "steradian/render.h"
+#include "steradian/render_cache.h"
+
+namespace steradian::kept_patches_test {
+namespace {
+
+RenderOptions tiny() {
+  RenderOptions options;
+  options.width = 48;
+  options.height = 27;
+  options.shadows = Shadows::on;
+  options.quality = Quality::draft;
+  options.bounces = kAllBounces;
+  return options;
+}
+
+// Renders, and counts the steps of its work. The light of patches takes steps of its own.
+struct Counted {
+  Picture picture;
+  std::uint64_t steps = 0;
+};
+Counted counted(const Scene& scene, RenderOptions options, RenderCache& cache) {
+  std::atomic<std::uint64_t> steps{0};
+  options.progress = [&](std::uint64_t, std::uint64_t) { ++steps; };
+  Counted result{render(scene, options, cache)};
+  result.steps = steps;
+  return result;
+}
+
+void expect_same(const Picture& a, const Picture& b) {
+  EXPECT_EQ(a.pixels, b.pixels);
+  for (const char* layer : {"indirect", "bounce_error", "bounce_bound"}) EXPECT_EQ(a.layers.at(layer), b.layers.at(layer)) << layer;
+}
+
+}  // namespace
+
+TEST(KeptPatches, ServeAnotherCameraAndNoOtherLight) {
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/cornell.glb").scene;
+  const RenderOptions options = tiny();
+  RenderCache cache;
+  counted(scene, options, cache);
+  const std::uint64_t with_kept = counted(scene, options, cache).steps;  // of the picture's tiles alone
+  const auto check = [&](const char* name, bool kept, const std::function<void(Scene&, RenderOptions&)>& change) {
+    SCOPED_TRACE(name);
+    Scene changed = scene;
+    RenderOptions changed_options = options;
+    change(changed, changed_options);
+    const Counted with = counted(changed, changed_options, cache);
+    EXPECT_EQ(with.steps == with_kept, kept);
+    expect_same(with.picture, render(changed, changed_options));
+    counted(scene, options, cache);  // the light of the first scene again
+  };
+  check("the same", true, [](Scene&, RenderOptions&) {});
+  check("the camera", true, [](Scene& s, RenderOptions&) { s.cameras.front().position.x += 0.1; });
+  check("the size", true, [](Scene&, RenderOptions& o) { o.width = 50; });
+  check("a preview", false, [](Scene&, RenderOptions& o) { o.bounce_preview = true; });
+  check("the bounces", false, [](Scene&, RenderOptions& o) { o.bounces = 2; });
+  check("the shadows", false, [](Scene&, RenderOptions& o) { o.shadows = Shadows::off; });
+  check("a light", false, [](Scene& s, RenderOptions&) { s.area_lights.front().radiance.x *= 2; });
+  check("a material", false, [](Scene& s, RenderOptions&) { s.materials.front().base_color.x *= 0.5f; });
+  check("a mesh", false, [](Scene& s, RenderOptions&) { s.meshes.back().positions.front().y += 0.01f; });
+}
+
+// A preview is kept beside the picture's own light.
+TEST(KeptPatches, HoldAPreviewToo) {
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/cornell.glb").scene;
+  RenderOptions options = tiny(), preview = tiny();
+  preview.bounce_preview = true;
+  RenderCache cache;
+  const std::uint64_t first = counted(scene, options, cache).steps, first_preview = counted(scene, preview, cache).steps;
+  EXPECT_LT(first_preview, first) << "it has fewer patches";
+  EXPECT_LT(counted(scene, options, cache).steps, first);
+  EXPECT_LT(counted(scene, preview, cache).steps, first_preview);
+}
+
+// A picture that is stopped while its patches are lit leaves nothing unfinished behind.
+TEST(KeptPatches, HoldNothingOfAStoppedPicture) {
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/cornell.glb").scene;
+  RenderOptions options = tiny();
+  RenderCache cache;
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.progress = [&](std::uint64_t done, std::uint64_t) { stop = done >= 3; };
+  RenderState state;
+  render(scene, options, cache, nullptr, &state);
+  EXPECT_FALSE(state.complete);
+  expect_same(render(scene, tiny(), cache), render(scene, tiny()));
+}
+
+}  // namespace steradian::kept_patches_test

@@ -1,0 +1,38 @@
+// PatchSolver: computes the light of all patches (PatchLight).
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+#include "core/mip_maps.h"
+#include "render/radiosity/bounce_rays.h"
+#include "render/radiosity/fineness.h"
+#include "render/radiosity/patch_light.h"
+#include "render/tile/tile.h"
+
+namespace steradian::radiosity {
+
+struct PatchOptions {
+  int bounces = kAllBounces;  // of the light in the picture: the last one is that of the gather
+  Fineness fineness = fineness_of(Quality::normal);
+  const std::atomic<bool>* stop = nullptr;  // once true, the result is unfinished
+};
+
+// Stores a white diffuse surface in the place of another, so that the radiance that it reflects is its irradiance over pi.
+void put_white(SurfaceTile& tile, std::size_t slot, const Surface& surface);
+
+// Adds the direct light of a tile's surfaces to their radiance.
+using AddDirect = std::function<void(SurfaceTile& tile)>;
+
+// Appends the light that reaches a surface from directions. number: seed of the directions.
+using FindIncident = std::function<void(const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found)>;
+
+// Computes all radiances, on the threads of the caller's arena.
+PatchLight solve_patches(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
+                         const AddDirect& add_direct, const FindIncident& find_incident);
+
+// Number of calls of add_direct, for progress.
+std::size_t patch_tiles(const Scene& scene, const Fineness& fineness);
+
+}  // namespace steradian::radiosity
