@@ -243,7 +243,7 @@ def check(program, cases, thorough):
             truth = (16 * second - first) / 15
             got = derivative(answer, key, place, channel)
             assert math.isfinite(got), (key, query)
-            # What the judge's values may be off, over the step: 1e-9 of quadrature, 1e-10 of the lobe by `exact`, 1e-14 by rounding.
+            # The judge's own error, over the step: 1e-9 of quadrature, 1e-10 of the lobe by `exact`, 1e-14 by rounding.
             off = {"reference": 1e-9 * abs(f[0]), "exact": 1e-14 * abs(f[0]) if lobe == "lambert" else 1e-10 * RADIANCE[channel]}
             rounding = off.get(values[6 * i]["method"], 1e-14 * abs(f[0])) / step
             uncertain = abs(truth - second) + 0.1 * abs(second - first) + rounding

@@ -55,8 +55,7 @@ double narrowest_width(const Material& m, const ShadingPoint& at) {
 
 LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPoint& at, const Material& m, const Row& row,
                                          const RadianceOptions& options) {
-  if (row.density == nullptr)
-    throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by " + row.name, "use auto");
+  if (row.density == nullptr) throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by " + row.name, "use auto");
   if (light.emission) throw Error("derivatives", "there are none of a light with a profile", "leave the key out");
   if (std::holds_alternative<Line>(light.shape)) throw Error("derivatives", "a line has no outline", "give the capsule a radius");
   LightDerivativesOfLobe result;
@@ -85,12 +84,12 @@ LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPo
   in_double.quality = fine.quality;
   const PreparedPolygon outline = fixed_outline(light, at, lobe);
   const auto value = [&](Vec3d normal, Vec3d view) {
-    return !outline.vertices.empty() && dot(normal, view) > 0 ? smooth.polygon(outline, {{}, normal, view}, m, in_double).radiance : Vec3d{};
+    return !outline.vertices.empty() && dot(normal, view) > 0 ? smooth.polygon(outline, {{}, normal, view}, m, in_double).radiance
+                                                              : Vec3d{};
   };
   const double step = kStep * narrowest_width(m, at);
   result.view = by_direction(at.view, step, [&](Vec3d view) { return value(at.normal, view); });
-  if (!by_vertices)
-    result.normal = by_direction(at.normal, step, [&](Vec3d normal) { return value(normal, at.view); });
+  if (!by_vertices) result.normal = by_direction(at.normal, step, [&](Vec3d normal) { return value(normal, at.view); });
   return result;
 }
 

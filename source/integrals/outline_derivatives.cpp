@@ -25,22 +25,20 @@ struct Linear {
   T constant{}, by_first{}, by_second{};
 };
 
-// A piece of the outline: p = constant + by_first u + by_second w, relative to the point, in walk order. An arc has u = cos t and w = sin t.
-// A straight piece runs from by_first to by_second and has no constant.
+// A piece of the outline: p = constant + by_first u + by_second w, relative to the point, in walk order. An arc has u = cos t and w = sin
+// t. A straight piece runs from by_first to by_second and has no constant.
 struct Piece {
   Linear<Vec3d> place;
   bool is_arc = false;
   double begin = 0, end = 0;  // of t
 };
 
-// Integrals of the density times p x dp / |p|^3 along a piece, and the same times its two coordinates. The derivative by a vector that moves
-// the piece in proportion to a coordinate is that moment.
+// Integrals of the density times p x dp / |p|^3 along a piece, and the same times its two coordinates. The derivative by a vector that
+// moves the piece in proportion to a coordinate is that moment.
 struct Moments {
   ByChannel constant{}, first{}, second{};
 
-  friend Moments operator+(const Moments& a, const Moments& b) {
-    return {a.constant + b.constant, a.first + b.first, a.second + b.second};
-  }
+  friend Moments operator+(const Moments& a, const Moments& b) { return {a.constant + b.constant, a.first + b.first, a.second + b.second}; }
   friend Moments operator*(const Moments& a, double s) { return {a.constant * s, a.first * s, a.second * s}; }
   double largest() const {
     double result = 0;
@@ -102,12 +100,8 @@ class PieceMoments {
     double error;
   };
 
-  Vec3d place(double t) const {
-    return piece_.place.constant + piece_.place.by_first * std::cos(t) + piece_.place.by_second * std::sin(t);
-  }
-  Vec3d direction(double t) const {
-    return piece_.is_arc ? normalized(place(t)) : along_a_ * std::cos(t) + aside_ * std::sin(t);
-  }
+  Vec3d place(double t) const { return piece_.place.constant + piece_.place.by_first * std::cos(t) + piece_.place.by_second * std::sin(t); }
+  Vec3d direction(double t) const { return piece_.is_arc ? normalized(place(t)) : along_a_ * std::cos(t) + aside_ * std::sin(t); }
 
   // In ascending order.
   std::vector<double> crossings_of_the_horizon() const {

@@ -55,7 +55,8 @@ template <class Member>
 ByChannel by_vector(const Query& query, double step, const Member& member) {
   ByChannel result{};
   for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
-    const Vec3d slope = methods::by_number(step, [&](double by) { return radiance_after(query, [&](Query& q) { member(q).*axis += by; }); });
+    const Vec3d slope =
+        methods::by_number(step, [&](double by) { return radiance_after(query, [&](Query& q) { member(q).*axis += by; }); });
     result[0].*axis = slope.x;
     result[1].*axis = slope.y;
     result[2].*axis = slope.z;
@@ -72,9 +73,7 @@ ByChannel by_direction(const Query& query, double step, const Member& member) {
 // derivative is off by 2e-4 of the light. Without a geometric normal, the normal also is that of the query's triangle.
 constexpr double kTurnPastOccluders = 1e-3;
 
-double turn_of(const Query& query) {
-  return query.occluders != nullptr ? kTurnPastOccluders : methods::kStep * narrowest_width(query);
-}
+double turn_of(const Query& query) { return query.occluders != nullptr ? kTurnPastOccluders : methods::kStep * narrowest_width(query); }
 
 // Lights without an outline: points, parallel light and lines.
 void add_differences(std::vector<Derivative>& result, const Query& query) {
@@ -104,8 +103,8 @@ void add_differences(std::vector<Derivative>& result, const Query& query) {
   }
   result.push_back({"d_normal", Form::vector, {by_direction(query, turn_of(query), &Query::normal)}});
   if (query.view) {
-    const ByChannel by_view = methods::by_direction(
-        *query.view, turn_of(query), [&](Vec3d v) { return radiance_after(query, [&](Query& q) { q.view = v; }); });
+    const ByChannel by_view =
+        methods::by_direction(*query.view, turn_of(query), [&](Vec3d v) { return radiance_after(query, [&](Query& q) { q.view = v; }); });
     result.push_back({"d_view", Form::vector, {by_view}});
   }
 }
