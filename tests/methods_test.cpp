@@ -76,7 +76,7 @@ std::string text_of(const std::string& path) {
 // A row of the manual's table.
 std::string manual_row(const Row& row) {
   return std::string("| `") + row.name + "` | " + row.lobes + " | " + (row.in_float ? "double, float" : "double") + " | " + row.qualities +
-         " | " + (row.derivatives != nullptr ? "yes" : "") + " | " + row.error + " | " + row.time + " |";
+         " | " + (row.density != nullptr ? "yes" : "") + " | " + row.error + " | " + row.time + " |";
 }
 
 }  // namespace

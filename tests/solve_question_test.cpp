@@ -53,4 +53,22 @@ TEST(SolveQuestion, MistakesGiveErrors) {
   EXPECT_GT(read, 20);
 }
 
+TEST(SolveQuestion, KnowsItsWords) {
+  Scene scene = scene::closed_box(0.5f, true);
+  for (AreaLight& light : scene.area_lights) light.name = "lamp", light.power = 4;
+  for (const char* part : {"all", "diffuse", "specular", "shiny"}) {
+    app::SolveJobReader reader(scene, {}, {});
+    reader.add_text(
+        R"({"fit": [{"light": "lamp*", "power": true}], "targets": [{"picture": "missing.exr", "part": ")" + std::string(part) + R"("}]})",
+        "question", "");
+    try {
+      reader.finish();
+      FAIL() << "the picture is missing";
+    } catch (const Error& e) {
+      const bool refused = std::string_view(e.what()).find("'shiny' is not known") != std::string_view::npos;
+      EXPECT_EQ(refused, std::string_view(part) == "shiny") << e.what();
+    }
+  }
+}
+
 }  // namespace steradian::solve_question_test

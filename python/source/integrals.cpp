@@ -171,28 +171,26 @@ py::dict derivatives(const std::string& json, const Array<T>& position, const Ar
     result[key] = array;
   };
   add("radiance", {3}, [](const eval::Answer& a, T* to) { put(to, a.radiance); });
-  const auto any = std::find_if(found.begin(), found.end(), [](const auto& a) { return a && a->derivatives; });
+  // Every point has the same keys.
+  const auto any = std::find_if(found.begin(), found.end(), [](const auto& a) { return a && !a->derivatives.empty(); });
   if (any == found.end()) return result;
-  const auto by_channel = [](const std::array<Vec3d, 3>& v, T* to) {
-    for (std::size_t c = 0; c < 3; ++c) put(to + 3 * c, v[c]);
-  };
-  const auto by_channel_and_vertex = [](const std::vector<std::array<Vec3d, 3>>& v, T* to) {
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t k = 0; k < v.size(); ++k) put(to + 3 * (c * v.size() + k), v[k][c]);
-  };
-  const auto vertices = static_cast<py::ssize_t>((*any)->derivatives->vertices.size());
-  add("d_vertices", {3, vertices, 3}, [&](const eval::Answer& a, T* to) { by_channel_and_vertex(a.derivatives->vertices, to); });
-  add("d_position", {3, 3}, [&](const eval::Answer& a, T* to) { by_channel(a.by_position, to); });
-  add("d_normal", {3, 3}, [&](const eval::Answer& a, T* to) { by_channel(a.derivatives->normal, to); });
-  if (!(*any)->by_occluders.empty())
-    add("d_occluders", {3, static_cast<py::ssize_t>((*any)->by_occluders.size()), 3},
-        [&](const eval::Answer& a, T* to) { by_channel_and_vertex(a.by_occluders, to); });
-  const auto add_parameter = [&](const char* key, std::optional<Vec3d> eval::ParameterDerivatives::*which) {
-    if ((*any)->parameters.*which) add(key, {3}, [which](const eval::Answer& a, T* to) { put(to, *(a.parameters.*which)); });
-  };
-  add_parameter("d_radiance", &eval::ParameterDerivatives::radiance);
-  add_parameter("d_f0", &eval::ParameterDerivatives::f0);
-  add_parameter("d_roughness", &eval::ParameterDerivatives::roughness);
+  for (std::size_t which = 0; which < (*any)->derivatives.size(); ++which) {
+    const eval::Derivative& like = (*any)->derivatives[which];
+    const auto count_of_vectors = static_cast<py::ssize_t>(like.values.size());
+    std::vector<py::ssize_t> shape = {3};
+    if (like.form == eval::Derivative::Form::vectors) shape.push_back(count_of_vectors);
+    if (like.form != eval::Derivative::Form::number) shape.push_back(3);
+    add(like.key, shape, [which, like](const eval::Answer& a, T* to) {
+      const auto& values = a.derivatives[which].values;
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < values.size(); ++k) {
+          if (like.form == eval::Derivative::Form::number)
+            to[c] = static_cast<T>(values[k][c].x);
+          else
+            put(to + 3 * (c * values.size() + k), values[k][c]);
+        }
+    });
+  }
   return result;
 }
 

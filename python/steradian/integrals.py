@@ -29,13 +29,33 @@ class Derivatives(NamedTuple):
     """A result and how it changes. `channel` counts red, green, blue; arrays are float64. None: there is none of it."""
 
     value: Array  # (..., 3): the radiance or irradiance
-    d_vertices: Optional[Array]  # (..., channel, vertex, xyz): by the light's vertices, the outline's first, then the holes'
-    d_position: Optional[Array]  # (..., channel, xyz): by the point, normal and view as they are
-    d_normal: Optional[Array]  # (..., channel, xyz): by the normal as a direction, perpendicular to it
-    d_radiance: Optional[Array]  # (..., channel): by the light's radiance in the same channel
-    d_f0: Optional[Array]  # (..., channel): by F0 of a single GGX lobe
-    d_roughness: Optional[Array]  # (..., channel): by the perceptual roughness of a single isotropic lobe
-    d_occluders: Optional[Array]  # (..., channel, position, xyz): by the occluders' positions
+    # by the light
+    d_vertices: Optional[Array] = None  # (..., channel, vertex, xyz): of a polygon or rect, the outline's first, then the holes'
+    d_center: Optional[Array] = None  # (..., channel, xyz)
+    d_x: Optional[Array] = None  # (..., channel, xyz): by the half axes
+    d_y: Optional[Array] = None
+    d_z: Optional[Array] = None
+    d_ends: Optional[Array] = None  # (..., channel, end, xyz): of a capsule
+    d_radius: Optional[Array] = None  # (..., channel): of a sphere or capsule
+    d_light_position: Optional[Array] = None  # (..., channel, xyz): of a point light
+    d_direction: Optional[Array] = None  # (..., channel, xyz): of parallel light
+    d_radiance: Optional[Array] = None  # (..., channel): by the light's radiance in the same channel
+    d_intensity: Optional[Array] = None  # likewise, of a point light
+    d_illuminance: Optional[Array] = None  # likewise, of parallel light
+    # by the surface
+    d_position: Optional[Array] = None  # (..., channel, xyz): by the point, normal and view as they are
+    d_normal: Optional[Array] = None  # (..., channel, xyz): by the normal as a direction, perpendicular to it
+    d_view: Optional[Array] = None  # (..., channel, xyz): likewise by the view
+    # by a single lobe
+    d_albedo: Optional[Array] = None  # (..., channel)
+    d_f0: Optional[Array] = None  # (..., channel)
+    d_f90: Optional[Array] = None  # (..., channel)
+    d_roughness: Optional[Array] = None  # (..., channel): by the perceptual roughness of an isotropic lobe
+    d_alpha_x: Optional[Array] = None  # (..., channel): by the widths of an anisotropic lobe
+    d_alpha_y: Optional[Array] = None
+    d_exponent: Optional[Array] = None  # (..., channel)
+    d_axis_exponent: Optional[Array] = None  # (..., channel)
+    d_occluders: Optional[Array] = None  # (..., channel, position, xyz): by the occluders' positions
 
 
 _LAMBERT = {"brdf": "lambert"}
@@ -118,7 +138,7 @@ def _derivatives(light: Lights, material: Materials, keys: Dict[str, Any], posit
         shape, (p, n, v) = _points("double", position=position, normal=normal, view=view)
     found = _core.derivatives(_query(light, material, view is not None, {**keys, "derivatives": True}), p, n, v)
     found = {key: a.reshape(*shape, *a.shape[1:]) for key, a in found.items()}
-    return Derivatives(found["radiance"], *(found.get(key) for key in Derivatives._fields[1:]))
+    return Derivatives(found.pop("radiance"), **found)
 
 
 def radiance(light: Lights, position: ArrayLike, normal: ArrayLike, view: Optional[ArrayLike] = None,
@@ -139,7 +159,7 @@ def radiance(light: Lights, position: ArrayLike, normal: ArrayLike, view: Option
     table      with "ltc": a file of fit() in place of the shipped table of GGX
     occluders  what blocks the light: (T, 3, 3) triangles, {"positions", "indices"}, or the name of a scene
     geometric_normal  with occluders: the normal of the triangle that all positions lie on
-    derivatives  True: a Derivatives, in double, for one polygon or rect
+    derivatives  True: a Derivatives, in double, for one light
 
     The arrays are broadcast against each other. Returns (..., 3), linear RGB; NaN where a number given is not finite.
     Raises Error where something is wrong with what was given, with its place, the problem and a hint.
@@ -161,7 +181,7 @@ def irradiance(light: Lights, position: ArrayLike, normal: ArrayLike, *, precisi
     # As an albedo of 1 over the kernel's factor: pi is in the light's colour, not in a second pass over the result.
     white = {"brdf": "lambert", "albedo": math.pi}
     if derivatives:
-        return _derivatives(light, white, keys, position, normal, None)
+        return _derivatives(light, white, keys, position, normal, None)._replace(d_albedo=None)
     return _evaluate(light, white, precision, keys, position, normal, None)[0]
 
 

@@ -34,7 +34,7 @@ class Errors(unittest.TestCase):
         self.refused("position, normal", QUAD, np.zeros((2, 3)), np.zeros((5, 3)))
         self.refused("position", QUAD, "here", UP)
         self.refused("occluders", QUAD, origin, UP, occluders=np.zeros((2, 3)))
-        self.refused("derivatives", {"type": "sphere", "center": [0, 2, 0], "radius": 1}, origin, UP, derivatives=True)
+        self.refused("derivatives", [{"type": "sphere", "center": [0, 2, 0], "radius": 1}] * 2, origin, UP, derivatives=True)
         self.refused("fit", "x.json", function=steradian.fit)
 
     def test_of_a_light_that_bends(self):

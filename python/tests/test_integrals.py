@@ -195,11 +195,19 @@ class DerivativesOfLight(unittest.TestCase):
         normal, view = np.abs(normal), np.abs(view)
         got = steradian.radiance(QUAD, position, normal, view, MATERIALS[1], derivatives=True)
         for i, want in enumerate(evaluated(QUAD, position, normal, view, MATERIALS[1], derivatives=True)):
-            for key in ("d_vertices", "d_position", "d_normal", "d_radiance", "d_f0", "d_roughness"):
+            for key in ("d_vertices", "d_position", "d_normal", "d_view", "d_radiance", "d_f0", "d_f90", "d_roughness"):
                 np.testing.assert_allclose(getattr(got, key)[i], want[key], rtol=1e-12, atol=1e-15)
             np.testing.assert_allclose(got.value[i], want["radiance"], rtol=1e-12)
         self.assertEqual(got.d_vertices.shape, (8, 3, 4, 3))
         self.assertIsNone(got.d_occluders)
+
+    def test_are_those_of_round_lights(self):
+        position, normal, view = points(4)
+        tube = {"type": "capsule", "ends": [[-1, 2, 0], [1, 2, 0.5]], "radius": 0.1}
+        got = steradian.radiance(tube, position, np.abs(normal), np.abs(view), {"brdf": "phong", "exponent": 9}, derivatives=True)
+        self.assertEqual(got.d_ends.shape, (4, 3, 2, 3))
+        self.assertEqual(got.d_radius.shape, got.d_exponent.shape, (4, 3))
+        self.assertIsNone(got.d_vertices)
 
     def test_irradiance_moves_as_they_say(self):
         at, step = np.array([0.3, 0.1, 0.2]), 1e-5

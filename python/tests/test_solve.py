@@ -54,6 +54,18 @@ class SolveTest(unittest.TestCase):
             # Truncation: the step over the distance, squared; rounding of floats over the step.
             np.testing.assert_allclose(jacobian[:, i], difference, rtol=1e-3, atol=2e-3 * np.abs(jacobian).max())
 
+    def test_scipy_finds_the_powers(self):
+        """The snippet of docs/solve-questions.md."""
+        try:
+            from scipy.optimize import least_squares
+        except ImportError:
+            self.skipTest("SciPy is not installed (python3-scipy)")
+        model = steradian.LightModel(OFFICE, {"fit": [{"light": "panel*", "power": True}], "targets": [DESK]})
+        found = least_squares(lambda x: model.values(x) - 500, model.start, model.jacobian, bounds=(model.low, model.high))
+        self.assertTrue(found.success)
+        # Twelve powers cannot give exactly 500 lux at 32 points. The sum of squares has no slope where no bound is reached.
+        self.assertLess(np.abs(model.values(found.x) - 500).max(), 25)
+
     def test_errors_name_the_place(self):
         with self.assertRaisesRegex(steradian.Error, "no light is named 'pannel'"):
             steradian.solve(OFFICE, {"fit": [{"light": "pannel", "power": True}], "targets": [DESK]})

@@ -23,8 +23,11 @@ struct OptionWord {
   const char* name;
 };
 
+// An enumeration without a table does not compile.
 template <class Value>
-inline constexpr std::array<OptionWord<Value>, 0> kTable{};
+struct HasNoWords;
+template <class Value>
+inline constexpr auto kTable = HasNoWords<Value>::kWords;
 template <>
 inline constexpr auto kTable<bool> = std::to_array<OptionWord<bool>>({{true, "on"}, {false, "off"}});
 template <>
@@ -75,6 +78,9 @@ inline constexpr auto kTable<ResidualSpace> = std::to_array<OptionWord<ResidualS
 template <>
 inline constexpr auto kTable<ResidualLoss> = std::to_array<OptionWord<ResidualLoss>>({{ResidualLoss::squares, "squares"},
                                                                                       {ResidualLoss::cauchy, "cauchy"}});
+template <>
+inline constexpr auto kTable<LightPart> =
+    std::to_array<OptionWord<LightPart>>({{LightPart::all, "all"}, {LightPart::diffuse, "diffuse"}, {LightPart::specular, "specular"}});
 
 template <class Value>
 constexpr const char* name_of(Value value) {

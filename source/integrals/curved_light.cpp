@@ -45,27 +45,6 @@ void each_length(Line& l, Vec3d position, auto use) {
 double largest_of(Vec3d v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 double largest_of(double x) { return std::fabs(x); }
 
-// The light relative to the point, in units in which its largest number is 1: no square leaves the range of double. A line's radiance times
-// width is per unit of length, too.
-AreaLight seen_from(const AreaLight& light, Vec3d position) {
-  AreaLight seen = light;
-  double largest = 0;
-  bool finite = true;
-  std::visit(
-      [&](auto& shape) {
-        each_length(shape, position, [&](const auto& x) {
-          finite &= std::isfinite(largest_of(x));
-          largest = std::max(largest, largest_of(x));
-        });
-      },
-      seen.shape);
-  if (!finite) throw Error("light", "is not finite as seen from the position", "scale the query down");
-  if (!(largest > 0)) return seen;
-  std::visit([&](auto& shape) { each_length(shape, {}, [&](auto& x) { x = x / largest; }); }, seen.shape);
-  if (std::holds_alternative<Line>(seen.shape)) seen.radiance = light.radiance / largest;
-  return seen;
-}
-
 bool is_exact_lambert(const Material& m, const Row& entry) { return m.brdf == Brdf::lambert && entry.method == Method::exact; }
 
 double in_precision(const RadianceOptions& options, auto in_double, auto in_float) {
@@ -200,6 +179,26 @@ struct AnswerOfShape {
 };
 
 }  // namespace
+
+AreaLight seen_from(const AreaLight& light, Vec3d position, double* unit) {
+  AreaLight seen = light;
+  double largest = 0;
+  bool finite = true;
+  std::visit(
+      [&](auto& shape) {
+        each_length(shape, position, [&](const auto& x) {
+          finite &= std::isfinite(largest_of(x));
+          largest = std::max(largest, largest_of(x));
+        });
+      },
+      seen.shape);
+  if (!finite) throw Error("light", "is not finite as seen from the position", "scale the query down");
+  if (!(largest > 0)) return seen;
+  if (unit != nullptr) *unit = largest;
+  std::visit([&](auto& shape) { each_length(shape, {}, [&](auto& x) { x = x / largest; }); }, seen.shape);
+  if (std::holds_alternative<Line>(seen.shape)) seen.radiance = light.radiance / largest;
+  return seen;
+}
 
 RadianceResult curved_light_answer(const AreaLight& light, const ShadingPoint& there, const Material& m, const Row& entry,
                                    const RadianceOptions& options) {

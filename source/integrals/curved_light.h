@@ -7,6 +7,12 @@
 
 namespace steradian::methods {
 
+// The light relative to the point, in units in which its largest number is 1: no square leaves the range of double. A line's radiance times
+// width is per unit of length, too. Throws Error if a number is then not finite.
+//
+//   unit  receives the unit, if it is not 1
+AreaLight seen_from(const AreaLight& light, Vec3d position, double* unit = nullptr);
+
 // Radiance that one lobe sends to the view, by a method of the table.
 //
 // lambert by `exact` has a closed form. Other methods walk a polygon of 32 vertices (quality high: 48) that gather about the lobe. `exact`

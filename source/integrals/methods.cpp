@@ -134,21 +134,7 @@ RadianceResult sampled(const PreparedPolygon& light, const ShadingPoint& at, con
   return {r.radiance, std::nullopt, r.standard_error, Method::sampled};
 }
 
-void refuse_all_but_lambert(const Material& m) {
-  if (m.brdf != Brdf::lambert) throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by exact", "use auto");
-}
-
-RadianceDerivatives exact_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality quality) {
-  refuse_all_but_lambert(m);
-  return radiance_derivatives(light, at, m, quality);
-}
-
 LobeDensity any_density(const ShadingPoint& at, const Material& m, Quality) { return lobe_density(at, m); }
-
-LobeDensity exact_density(const ShadingPoint& at, const Material& m, Quality) {
-  refuse_all_but_lambert(m);
-  return lobe_density(at, m);
-}
 
 template <Method method>
 RadianceDerivatives ltc_derivatives(const PolygonLight& light, const ShadingPoint& at, const Material& m, Quality quality) {
@@ -165,11 +151,11 @@ constexpr const char* kNoQualities = "";
 // A new method is a row here and a name in include/steradian/method.h.
 constexpr Row kMethods[] = {
     {Method::series, "series", "phong", phong_lobes, true, "normal, high", "1.3e-3; high: 4.5e-4", "constant an edge",
-     Procedure::phong_lobe, phong<Method::series>, radiance_derivatives, any_density},
+     Procedure::phong_lobe, phong<Method::series>, nullptr, any_density},
     {Method::exact, "exact", "lambert; phong; ggx without shadowing and with f0 = f90", exact_lobes, true, kNoQualities,
-     "rounding; phong: 1e-10", "phong: quadrature", Procedure::diffuse, exact, exact_derivatives, exact_density},
+     "rounding; phong: 1e-10", "phong: quadrature", Procedure::diffuse, exact, radiance_derivatives, any_density},
     {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities, "rounding",
-     "grows with exponent", Procedure::phong_lobe, phong<Method::arvo>},
+     "grows with exponent", Procedure::phong_lobe, phong<Method::arvo>, nullptr, any_density},
     {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
      Procedure::phong_lobe, phong<Method::lorentzian>},
     {Method::pearson, "pearson", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
@@ -189,15 +175,15 @@ constexpr Row kMethods[] = {
     {Method::representative_point, "representative-point", "ggx, isotropic, with shadowing", ltc_lobes<Method::representative_point>, true,
      kNoQualities, "no bound; for comparison", "constant", Procedure::representative_point, ltc<Method::representative_point>},
     {Method::half_vector, "half-vector", "blinn-phong; beckmann; ggx", half_vector_lobes, true, "draft, normal, high",
-     "0.02 %; ggx: closed-form's", "3, 4 or 8 arcs", Procedure::half_vector, half_vector},
+     "0.02 %; ggx: closed-form's", "3, 4 or 8 arcs", Procedure::half_vector, half_vector, nullptr, any_density},
     {Method::matched_lobe, "matched-lobe", "lobe-product", products, true, "normal, high", "1 % of most lights", "constant an edge",
-     Procedure::none, matched_lobe},
+     Procedure::none, matched_lobe, nullptr, any_density},
     {Method::cubature, "cubature", "charlie", sheen, true, kNoQualities, "0.1 %; large lights 0.4 %", "a few nodes", Procedure::sheen,
-     cubature},
+     cubature, nullptr, any_density},
     {Method::reference, "reference", "all", every_lobe, false, kNoQualities, "printed bound", "adaptive quadrature", Procedure::none,
-     reference},
+     reference, nullptr, any_density},
     {Method::sampled, "sampled", "all", every_lobe, false, kNoQualities, "printed standard error", "grows with --spp", Procedure::none,
-     sampled},
+     sampled, nullptr, any_density},
 };
 
 }  // namespace

@@ -31,9 +31,9 @@ struct Row {
   Procedure procedure;    // computes it on packs and on a device
   // Radiance that the lobe sends to the view under a light. Precondition: serves(lobe).
   RadianceResult (*polygon)(const PreparedPolygon&, const ShadingPoint&, const Material&, const RadianceOptions&);
-  // Derivatives by the light's vertices and the normal; null: the method has none. Throws Error for lobes without derivatives.
+  // Derivatives by a polygon's vertices and the normal where they are faster than those of the density; null: they are not.
   RadianceDerivatives (*derivatives)(const PolygonLight&, const ShadingPoint&, const Material&, Quality) = nullptr;
-  // Density of these derivatives, for a light of which only a part is visible; null if the method has none.
+  // Density of the derivatives by any light, or by the visible part of one; null: the method has no derivatives.
   LobeDensity (*density)(const ShadingPoint&, const Material&, Quality) = nullptr;
   // The method's own lobe towards a unit direction, with its colours, for lights without extent; null: the material's lobe.
   Vec3d (*towards)(Vec3d direction, const ShadingPoint&, const Material&, const RadianceOptions&) = nullptr;
@@ -73,6 +73,20 @@ constexpr std::optional<LtcMethod> ltc_method(Method method, Quality quality) {
 // The arcs of half vectors at a quality.
 constexpr HalfVectorOptions half_vector_options(Quality quality) {
   return {quality == Quality::draft ? 3 : quality == Quality::normal ? 4 : 8, ArcSplit::pole_mapped};
+}
+
+// The method and the quality whose differences are a method's derivatives. The error of a value changes with the lobe, so that of its
+// derivative is larger: `exact` for Phong, and `high`, keep the derivative as true as the value is. The tables of `ltc` are lobes of their
+// own. Samples have noise.
+struct FineMethod {
+  Method method;
+  Quality quality;
+};
+constexpr FineMethod fine_method(Method method, Quality quality) {
+  if (method == Method::series) return {Method::exact, quality};
+  if (method == Method::sampled) return {Method::automatic, Quality::high};
+  const bool converges = method == Method::closed_form || method == Method::half_vector || method == Method::matched_lobe;
+  return {method, converges && quality == Quality::normal ? Quality::high : quality};
 }
 
 // The answer 0 of a method: nothing of the light is visible.

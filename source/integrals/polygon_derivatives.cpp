@@ -4,14 +4,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "integrals/differences.h"
 #include "integrals/ggx/ggx.h"
 #include "integrals/irradiance.h"
-#include "integrals/phong/phong.h"
+#include "integrals/methods.h"
+#include "integrals/outline_derivatives.h"
 #include "integrals/tables/ggx_tables.h"
+#include "lobes/lobe.h"
 #include "shapes/polygon.h"
 #include "steradian/albedo.h"
+#include "steradian/closed_form.h"
 #include "steradian/dual.h"
 #include "steradian/error.h"
+#include "steradian/phong.h"
 
 namespace steradian {
 
@@ -237,46 +242,6 @@ RadianceDerivatives of_channels(const PolygonLight& stored, const PreparedPolygo
 void refuse_other_lobes(const Material& m) {
   if (m.brdf != Brdf::lambert && m.brdf != Brdf::phong && m.brdf != Brdf::ggx)
     throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none", "lambert, phong and ggx have");
-  if (m.brdf == Brdf::phong && m.foreshortening)
-    throw Error("derivatives", "phong with foreshortening has none", "leave foreshortening out");
-}
-
-template <class S>
-integrals::GgxIntegral<S> ggx_of(const Material& m, Quality quality) {
-  integrals::GgxIntegral<S> ggx;
-  ggx.alpha_x = m.alpha_x;
-  ggx.alpha_y = m.alpha_y;
-  ggx.smith = m.shadowing ? 1.0 : 0.0;
-  ggx.quality = quality;
-  return ggx;
-}
-
-auto ggx_integral(const Material& m, Quality quality) {
-  return [&m, quality]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
-    auto ggx = ggx_of<S>(m, quality);
-    return integrate(outline, shading, ggx);
-  };
-}
-
-auto phong_integral(const PreparedPolygon& light, const ShadingPoint& at, const Material& m, Quality quality) {
-  // The series' bias is a smooth function of the outline. Over a light that is small against the lobe, its derivative is a multiple of the
-  // light's. There quadrature is used, where elements replace the light's value (light_elements.glsl: t^3 / 8 below the bias).
-  const LightQuarters& q = light.quarters;
-  const Vec3d to = q.center - at.position;
-  const double deviation = std::sqrt((dot(q.reach_a, q.reach_a) + dot(q.reach_b, q.reach_b)) / (2 * dot(to, to)));
-  const double bias = integrals::bias_of(m.exponent, {Method::series, quality});
-  const bool small = Kernels<double>().light_elements_power_sharpness(m.exponent).v * deviation < std::cbrt(8 * bias);
-  return [&m, quality, small]<class S>(const auto& outline, const integrals::Shading<S>& shading) {
-    const integrals::PhongLobe<S> lobe(m.exponent);
-    // Only two methods appear here: all of them in dual numbers would exceed the compiler's budget for inlining.
-    const auto share = [&](const auto& a, const auto& b, const auto& axis) {
-      if (small) return lobe.template share<Method::exact, Quality::normal>(a, b, axis);
-      return quality == Quality::high ? lobe.template share<Method::series, Quality::high>(a, b, axis)
-                                      : lobe.template share<Method::series, Quality::normal>(a, b, axis);
-    };
-    integrals::PhongIntegral<S, decltype(share)> phong(share, m.exponent, {Method::series, quality});
-    return integrate(outline, shading, phong);
-  };
 }
 
 // Derivative by the normal of the irradiance over pi: the normal turns, or the whole light turns the other way about the point.
@@ -288,18 +253,6 @@ PartByNormal lambert_by_normal(const PreparedPolygon& light, const ShadingPoint&
 
 bool sends_nothing(int side, const ShadingPoint& at) { return side == 0 || !(dot(at.view, at.normal) > 0); }
 
-// The density of an integral of one lobe.
-template <class Integral>
-LobeDensity density_of(Integral integral, const ShadingPoint& at, const Frame& frame, const Factors& factors) {
-  integral.begin(integrals::shading_from<double>(1, to_kernel<double>(frame.to_local(normalized(at.view)))));
-  return [integral, frame, factors](Vec3d direction) -> Vec3d {
-    const Vec3d u = frame.to_local(direction);
-    if (!(u.z >= 0)) return {};
-    const auto part = integral.at(to_kernel<double>(u));
-    return factors.plain * part.x.v + factors.fresnel * part.y.v;
-  };
-}
-
 }  // namespace
 
 RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& material, Quality quality) {
@@ -310,17 +263,25 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
   if (sends_nothing(side, at)) return RadianceDerivatives(stored_count(stored));
   const Factors factors = factors_of(light.radiance, m);
   if (m.brdf == Brdf::ggx) {
-    const auto integral = ggx_integral(m, quality);
     const Frame frame = Frame::from_normal_and_tangent(at.normal, m.tangent);
-    return of_channels(stored, light, ggx_by_vertices(light, side, at, frame, m, quality), by_normal(light, side, at, frame.x, integral),
-                       factors);
+    RadianceDerivatives result = of_channels(stored, light, ggx_by_vertices(light, side, at, frame, m, quality), {}, factors);
+    const Quality fine = methods::fine_method(Method::closed_form, quality).quality;
+    const double step = methods::kStep * std::min({m.alpha_x, m.alpha_y, 1.0});
+    result.normal = methods::by_direction(normalized(at.normal), step, [&](Vec3d normal) {
+      return closed_form_radiance(light, {at.position, normal, at.view}, material, fine);
+    });
+    return result;
+  }
+  if (m.brdf == Brdf::phong) {
+    RadianceDerivatives result(0);
+    result.vertices = outline_derivatives(area_light(stored), at, lobe_axis(m, at), lobe_density(at, m)).by_vector;
+    const PhongOptions fine = {Method::exact};
+    result.normal = methods::by_direction(normalized(at.normal), methods::kStep * std::min(lobe_axis(m, at).width, 1.0), [&](Vec3d normal) {
+      return phong_radiance(light, {at.position, normal, at.view}, m, fine);
+    });
+    return result;
   }
   const Frame frame = Frame::from_normal(at.normal);
-  if (m.brdf == Brdf::phong) {
-    const auto integral = phong_integral(light, at, m, quality);
-    return of_channels(stored, light, by_vertices(light, side, at, frame, integral), by_normal(light, side, at, frame.x, integral),
-                       factors);
-  }
   BothByVertices by_vertex{irradiance_by_vertices(light, side, at.position, frame), VertexDerivatives(light.vertices.size())};
   const PartByNormal normal = lambert_by_normal(light, at, by_vertex.plain);
   for (Vec3d& d : by_vertex.plain) d = d / std::numbers::pi;
@@ -328,18 +289,10 @@ RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const Shadi
 }
 
 LobeDensity lobe_density(const ShadingPoint& at, const Material& material) {
-  const Material m = with_multiple_scattering(material, at);
-  refuse_other_lobes(m);
-  if (!(dot(at.view, at.normal) > 0)) return [](Vec3d) { return Vec3d{}; };
-  if (m.brdf == Brdf::ggx)
-    return density_of(ggx_of<double>(m, Quality::normal), at, Frame::from_normal_and_tangent(at.normal, m.tangent),
-                      factors_of({1, 1, 1}, m));
-  if (m.brdf == Brdf::phong) {
-    const auto none = [](const auto&, const auto&, const auto&) { return Real<double>(0.0); };
-    const integrals::PhongIntegral<double, decltype(none)> lobe(none, m.exponent, {});
-    return density_of(lobe, at, Frame::from_normal(at.normal), factors_of({1, 1, 1}, m));
-  }
-  return [factor = m.albedo / std::numbers::pi, n = at.normal](Vec3d direction) { return factor * std::max(dot(n, direction), 0.0); };
+  const Frame frame = Frame::from_normal_and_tangent(at.normal, material.tangent);
+  return [lobe = lobes::Lobe(lobes::in_frame(material, frame), frame.to_local(normalized(at.view))), frame](Vec3d direction) {
+    return lobe.radiance(lobe.evaluate(frame.to_local(direction)));
+  };
 }
 
 namespace {
@@ -349,6 +302,18 @@ void refuse_other_ltc(LtcMethod method, const Material& m) {
     throw Error("derivatives", "this method of linearly transformed cosines has none", "ltc and ltc-compact have");
   if (!serves(method, m) || m.brdf != Brdf::ggx)
     throw Error("material", "derivatives of linearly transformed cosines serve isotropic ggx with shadowing", "use the method closed-form");
+}
+
+// The density of an integral of one lobe.
+template <class Integral>
+LobeDensity density_of(Integral integral, const ShadingPoint& at, const Frame& frame, const Factors& factors) {
+  integral.begin(integrals::shading_from<double>(1, to_kernel<double>(frame.to_local(normalized(at.view)))));
+  return [integral, frame, factors](Vec3d direction) -> Vec3d {
+    const Vec3d u = frame.to_local(direction);
+    if (!(u.z >= 0)) return {};
+    const auto part = integral.at(to_kernel<double>(u));
+    return factors.plain * part.x.v + factors.fresnel * part.y.v;
+  };
 }
 
 // Frame with x along the view; any x if the view is the normal, which only rounding distinguishes.

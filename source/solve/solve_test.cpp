@@ -5,82 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlopt.hpp>
 #include <numbers>
 
 #include "core/random.h"
 #include "solve/box_least_squares.h"
+#include "solve/lamp_room_test.h"
 #include "solve/least_power.h"
 #include "steradian/error.h"
-#include "support/boxes.h"
 
 namespace steradian::solve_test {
-namespace {
-
-using scene::camera_at;
-using scene::quad_mesh;
-
-// A rectangle with its lit side towards -y, turned about x and z.
-AreaLight panel(Vec3d center, double width, double height, Vec3d radiance, Vec3d turn = {}) {
-  const auto turned = [&](Vec3d v) { return rotated(rotated(v, {1, 0, 0}, turn.x), {0, 0, 1}, turn.z); };
-  const Vec3d x = turned({width / 2, 0, 0}), y = turned({0, 0, height / 2});
-  Polygon polygon;
-  polygon.vertices = {center - x - y, center + x - y, center + x + y, center - x + y};
-  AreaLight light;
-  light.shape = polygon;
-  light.radiance = radiance;
-  light.name = "lamp";
-  light.power = luminance(radiance) * width * height;
-  return light;
-}
-
-// A room of 6 x 3 x 6 m without a front wall: a glossy floor, three diffuse walls and a ceiling.
-Scene room() {
-  Scene scene;
-  SurfaceMaterial glossy = scene::grey(0.5f);
-  glossy.specular = 1;
-  glossy.roughness = 0.5f;
-  scene.materials = {scene::grey(0.6f), glossy};
-  const auto add = [&](Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) { scene.meshes.push_back(quad_mesh(a, b, c, d, material)); };
-  add({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, 1);
-  add({-3, 0, -3}, {3, 0, -3}, {3, 3, -3}, {-3, 3, -3}, 0);
-  add({-3, 0, 3}, {-3, 0, -3}, {-3, 3, -3}, {-3, 3, 3}, 0);
-  add({3, 0, -3}, {3, 0, 3}, {3, 3, 3}, {3, 3, -3}, 0);
-  add({-3, 3, -3}, {3, 3, -3}, {3, 3, 3}, {-3, 3, 3}, 0);
-  scene.bounds_min = {-3, 0, -3};
-  scene.bounds_max = {3, 3, 3};
-  scene.cameras = {camera_at({0, 1.5, 6}, {0, -0.1, -1}, 0.8)};
-  return scene;
-}
-
-PictureTarget picture_of(const Scene& scene, int width, int height) {
-  RenderOptions options;
-  options.width = width;
-  options.height = height;
-  PictureTarget target;
-  target.picture = render(scene, options);
-  return target;
-}
-
-const Polygon& polygon_of(const AreaLight& light) { return std::get<Polygon>(light.shape); }
-Vec3d center_of(const AreaLight& light) {
-  const auto& v = polygon_of(light).vertices;
-  return (v[0] + v[1] + v[2] + v[3]) * 0.25;
-}
-
-LightFit everything(std::size_t light) {
-  LightFit fit;
-  fit.light = light;
-  fit.power = fit.position = fit.rotation = fit.size = true;
-  fit.position_x = {-2.5, 2.5};
-  fit.position_y = {1.5, 2.9};
-  fit.position_z = {-2.5, 2.5};
-  fit.most_degrees = 60;
-  fit.size_range = {0.1, 3};
-  return fit;
-}
-
-}  // namespace
 
 // A lamp that is turned by a quarter, with width for height, is a trap: several starts lead past it.
 TEST(Solve, RecoversALampFromItsPicture) {
@@ -135,7 +68,7 @@ TEST(Solve, SlopesOnPacksAreDifferencesOfTheValues) {
 // The same from eight random starting points, for other lamps.
 TEST(Solve, RecoversLampsFromAnywhere) {
   reference::Random random(5);
-  int found_again = 0;
+  std::vector<double> off;
   constexpr int kLamps = 20;
   for (int i = 0; i < kLamps; ++i) {
     Scene scene = room();
@@ -149,61 +82,12 @@ TEST(Solve, RecoversLampsFromAnywhere) {
     options.starts = 8;
     options.seed = static_cast<std::uint64_t>(i + 1);
     const Solution found = solve(scene, {everything(0)}, {}, {target}, options);
-    found_again += length(center_of(found.area_lights[0]) - center) < 1e-4 ? 1 : 0;
+    off.push_back(length(center_of(found.area_lights[0]) - center));
   }
-  std::printf("%d of %d lamps found to 0.1 mm\n", found_again, kLamps);
+  std::sort(off.begin(), off.end());
+  const auto found_again = std::count_if(off.begin(), off.end(), [](double d) { return d < 1e-5; });
+  std::printf("%td of %d lamps found to 1e-5 m, half of them to %.1e m\n", found_again, kLamps, off[kLamps / 2]);
   EXPECT_GE(found_again, kLamps * 95 / 100);
-}
-
-// The same residuals by an optimizer without derivatives, which stops at an rms residual of 1e-5.
-TEST(Solve, NeedsATenthOfTheEvaluationsOfBobyqa) {
-  Scene scene = room();
-  scene.area_lights = {panel({0.4, 2.5, -0.5}, 1.2, 0.6, {8, 7, 6})};
-  const std::vector<LightTarget> targets = {picture_of(scene, 64, 36)};
-  scene.area_lights = {panel({-0.3, 2.2, 0.2}, 0.8, 0.8, {6, 5.25, 4.5})};
-  LightFit fit = everything(0);
-  fit.rotation = false;
-  fit.power_range = {1, 1000};
-  const std::vector<LightFit> fits = {fit};
-  const Solution ours = solve(scene, fits, {}, targets);
-  EXPECT_LT(ours.picture_error, 1e-5);
-
-  const LightModel model(scene, fits, {}, targets);
-  struct Count {
-    const LightModel& model;
-    std::vector<double> wanted;
-    double mean;
-    int evaluations = 0;
-  } count{model, model.wanted(), 0};
-  for (const double v : count.wanted) count.mean += v / static_cast<double>(count.wanted.size());
-  nlopt::opt bobyqa(nlopt::LN_BOBYQA, static_cast<unsigned>(model.start().size()));
-  std::vector<double> low, high, x = model.start();
-  for (const LightModel::Variable& v : model.variables()) low.push_back(v.low), high.push_back(v.high);
-  bobyqa.set_lower_bounds(low);
-  bobyqa.set_upper_bounds(high);
-  bobyqa.set_min_objective(
-      [](const std::vector<double>& at, std::vector<double>&, void* data) {
-        Count& c = *static_cast<Count*>(data);
-        ++c.evaluations;
-        double sum = 0;
-        const std::vector<double> value = c.model.at(at).value;
-        for (std::size_t i = 0; i < value.size(); ++i) {
-          const double r = std::sqrt(value[i] / c.mean + 0.01) - std::sqrt(c.wanted[i] / c.mean + 0.01);
-          sum += r * r;
-        }
-        return std::sqrt(sum / static_cast<double>(value.size()));
-      },
-      &count);
-  bobyqa.set_stopval(1e-5);
-  bobyqa.set_maxeval(3000);
-  double reached = 0;
-  try {
-    bobyqa.optimize(x, reached);
-  } catch (const nlopt::roundoff_limited&) {  // counts as far as it came
-  }
-  std::printf("six parameters: ours %d evaluations to %.1e, BOBYQA %d to %.1e\n", ours.evaluations, ours.picture_error, count.evaluations,
-              reached);
-  EXPECT_LT(10 * ours.evaluations, count.evaluations);
 }
 
 TEST(Solve, TakesNoStepsFromItsOwnSolution) {
@@ -330,7 +214,7 @@ TEST(Solve, PutsAHighlightWhereItIsPainted) {
   constexpr int kWidth = 96, kHeight = 54, kStrokes = 20;
   Scene scene = room();
   scene.materials[1].roughness = 0.3f;
-  scene.cameras = {camera_at({0, 1.5, 2.8}, {0, -0.5, -1}, 0.9)};  // every pixel shows the room
+  scene.cameras = {scene::camera_at({0, 1.5, 2.8}, {0, -0.5, -1}, 0.9)};  // every pixel shows the room
   reference::Random random(11);
   int near = 0;
   double worst = 0;

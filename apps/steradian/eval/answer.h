@@ -4,19 +4,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "eval/derivatives.h"
 #include "eval/query.h"
-#include "steradian/polygon_derivatives.h"
 
 namespace steradian::eval {
-
-// Derivatives of the radiance, one number per channel, by the parameters of the light and the lobe. A derivative is empty if the query
-// lacks the parameter.
-struct ParameterDerivatives {
-  std::optional<Vec3d> radiance;   // by the light's radiance in the same channel
-  std::optional<Vec3d> f0;         // by F0 of one GGX lobe, in the same channel
-  std::optional<Vec3d> roughness;  // by the perceptual roughness of one isotropic microfacet lobe
-};
 
 struct Answer {
   Vec3d radiance;      // finite
@@ -24,10 +17,7 @@ struct Answer {
   std::optional<double> bound;
   std::optional<double> standard_error;
   Precision precision = Precision::double_;
-  std::optional<RadianceDerivatives> derivatives;  // if the query asks for them
-  std::array<Vec3d, 3> by_position{};              // likewise
-  std::vector<std::array<Vec3d, 3>> by_occluders;  // likewise, if the query lists them
-  ParameterDerivatives parameters;                 // likewise
+  std::vector<Derivative> derivatives;  // if the query asks for them
 };
 
 // Throws Error (key and hint) if the query's method does not support the query, and for results that are not finite.

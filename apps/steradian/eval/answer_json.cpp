@@ -3,7 +3,6 @@
 #include <iterator>
 
 #include "eval/answer.h"
-#include "steradian/polygon_derivatives.h"
 
 namespace steradian::eval {
 namespace {
@@ -28,45 +27,24 @@ void append_vector(std::string& out, const Vec3d& v, Precision precision) {
   out += ']';
 }
 
-void append_channels(std::string& out, const char* key, const std::array<Vec3d, 3>& value, Precision precision) {
-  out += key;
+// [channel], [channel][x, y, z] or [channel][vertex][x, y, z]
+void append_derivative(std::string& out, const Derivative& d, Precision precision) {
+  out += ",\"";
+  out += d.key;
+  out += "\":[";
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    out += channel == 0 ? '[' : ',';
-    append_vector(out, value[channel], precision);
-  }
-  out += ']';
-}
-
-// [channel][vertex][x, y, z]
-void append_vertices(std::string& out, const char* key, const std::vector<std::array<Vec3d, 3>>& vertices, Precision precision) {
-  out += key;
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    out += channel == 0 ? "[[" : ",[";
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (channel > 0) out += ',';
+    if (d.form == Derivative::Form::number) append_number(out, d.values.front()[channel].x, precision);
+    if (d.form == Derivative::Form::vector) append_vector(out, d.values.front()[channel], precision);
+    if (d.form != Derivative::Form::vectors) continue;
+    out += '[';
+    for (std::size_t i = 0; i < d.values.size(); ++i) {
       if (i > 0) out += ',';
-      append_vector(out, vertices[i][channel], precision);
+      append_vector(out, d.values[i][channel], precision);
     }
     out += ']';
   }
   out += ']';
-}
-
-void append_derivatives(std::string& out, const Answer& answer) {
-  append_vertices(out, ",\"d_vertices\":", answer.derivatives->vertices, answer.precision);
-  append_channels(out, ",\"d_position\":", answer.by_position, answer.precision);
-  append_channels(out, ",\"d_normal\":", answer.derivatives->normal, answer.precision);
-  if (!answer.by_occluders.empty()) append_vertices(out, ",\"d_occluders\":", answer.by_occluders, answer.precision);
-}
-
-void append_parameters(std::string& out, const ParameterDerivatives& d, Precision precision) {
-  const auto append = [&](const char* key, const std::optional<Vec3d>& value) {
-    if (!value) return;
-    out += key;
-    append_vector(out, *value, precision);
-  };
-  append(",\"d_radiance\":", d.radiance);
-  append(",\"d_f0\":", d.f0);
-  append(",\"d_roughness\":", d.roughness);
 }
 
 // The opening brace, and the id if there is one.
@@ -95,8 +73,7 @@ void write_answer(std::string& out, const Answer& answer, std::string_view id) {
     out += ",\"standard_error\":";
     append_number(out, *answer.standard_error, Precision::double_);
   }
-  if (answer.derivatives) append_derivatives(out, answer);
-  append_parameters(out, answer.parameters, answer.precision);
+  for (const Derivative& d : answer.derivatives) append_derivative(out, d, answer.precision);
   out += "}\n";
 }
 

@@ -412,7 +412,9 @@ TEST(Eval, DerivativesOfPhongAndGgxAddUp) {
 TEST(Eval, DerivativesAreRefusedWhereThereAreNone) {
   EXPECT_TRUE(
       answer(with_material(R"({"brdf":"ggx","roughness":0.5})", R"("derivatives":true,"method":"ltc-clipless")")).contains("error"));
-  EXPECT_TRUE(answer(query(R"("light":{"type":"point","position":[0,1,0]})", kPlace, kLambert, R"("derivatives":true)")).contains("error"));
+  EXPECT_TRUE(answer(query(R"("lights":[{"type":"point","position":[0,1,0]},{"type":"point","position":[0,2,0]}])", kPlace, kLambert,
+                           R"("derivatives":true)"))
+                  .contains("error"));
 }
 
 }  // namespace

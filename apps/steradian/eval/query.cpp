@@ -166,6 +166,7 @@ void read_light(Problems& problems, const Place& place, Json value, Query& query
     for (const char* key : {"intensity", "tangent"})
       if (value.at_key(key).get(given) == simdjson::SUCCESS) problems.add(place.in(key), "given without \"profile\"", "use \"radiance\"");
   }
+  query.light_type = row->name;
   query.lights.push_back(row->finish(std::move(keys)));
 }
 

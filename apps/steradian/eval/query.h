@@ -21,7 +21,8 @@ namespace steradian::eval {
 using Light = std::variant<AreaLight, PointLight, DirectionalLight>;
 
 struct Query {
-  std::vector<Light> lights;  // at least one; their contributions add
+  std::vector<Light> lights;    // at least one; their contributions add
+  std::string_view light_type;  // of the last one, as in its key "type"
   Vec3d position;
   Vec3d normal;               // unit
   std::optional<Vec3d> view;  // unit; absent only where every material is lambert

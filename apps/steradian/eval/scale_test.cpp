@@ -158,9 +158,9 @@ TEST(EvalScale, ChangesNoAnswer) {
       const bool exact = offset == 0 && std::exp2(std::round(std::log2(scale))) == scale;
       if (!turns) worst = std::max(worst, std::fabs(red(a) - red(base)) / std::max(whole, 1e-6));
       EXPECT_NEAR(red(a), red(base), exact ? 0 : bound) << scale << ' ' << offset << ' ' << query;
-      if (!base.contains("derivatives")) continue;
+      if (!base.contains("d_position")) continue;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double here = base["derivatives"]["position"][0][axis], moved = a["derivatives"]["position"][0][axis];
+        const double here = base["d_position"][0][axis], moved = a["d_position"][0][axis];
         EXPECT_NEAR(moved * scale, here, exact ? 0 : bound) << scale << ' ' << offset << ' ' << query;
       }
     }

@@ -225,12 +225,16 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
   return mean;
 }
 
-ShadowedDerivatives shadowed_derivatives(const Query& query, const PolygonLight& stored, const Material& m, const methods::Row& entry) {
+ShadowedDerivatives shadowed_derivatives(const Query& query, const AreaLight& whole, const Material& m, const methods::Row& entry) {
+  if (!std::holds_alternative<Polygon>(whole.shape) || whole.emission)
+    throw Error("derivatives", "past occluders, only polygons and rects without a profile have them", "leave one of the keys out");
+  const PolygonLight stored = flat_polygon(whole);
   const PreparedPolygon light = prepare_polygon(stored);
   std::size_t count = stored.vertices.size();
   for (const auto& hole : stored.holes) count += hole.size();
   const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
-  ShadowedDerivatives result{RadianceDerivatives(count), {}, {}};
+  ShadowedDerivatives result;
+  result.vertices.resize(count);
   result.occluders.resize(query.occluders->mesh.vertices.size());
   const std::vector<shadow::Viewpoint> sides = viewpoints_of(query, reach_of(stored.vertices));
   const double share = 1 / static_cast<double>(sides.size());
@@ -244,7 +248,7 @@ ShadowedDerivatives shadowed_derivatives(const Query& query, const PolygonLight&
         shadow::boundary_derivatives(light, *query.occluders, from, [&](Vec3d direction) { return light.radiance * density(direction); });
     add(result.position, d.position);
     for (std::size_t i = 0; i < d.occluders.size(); ++i) add(result.occluders[i], d.occluders[i]);
-    for (std::size_t i = 0; i < d.light.size(); ++i) add(result.light.vertices[stored_index[i]], d.light[i]);
+    for (std::size_t i = 0; i < d.light.size(); ++i) add(result.vertices[stored_index[i]], d.light[i]);
   }
   return result;
 }

@@ -18,16 +18,15 @@ namespace steradian::eval {
 RadianceResult shadowed_answer(const Query& query, const Light& source, const ShadingPoint& at, const Material& material,
                                const methods::Row& entry, RadianceOptions options, const std::function<RadianceResult()>& unoccluded);
 
-// Additional results of `derivatives` past occluders.
+// Derivatives past occluders.
 struct ShadowedDerivatives {
-  RadianceDerivatives light;                 // by the vertices as stored; not by the normal
+  std::vector<shadow::ByChannel> vertices;   // by those of the light as stored
   shadow::ByChannel position{};              // by the point
   std::vector<shadow::ByChannel> occluders;  // by the positions of the triangles; equal positions that move together count at the first
 };
 
-// Derivatives of one lobe under a polygon. Throws Error for unsupported lobes and methods. They are derivatives of the lobe itself; the
-// method's value differs from it by its error.
-ShadowedDerivatives shadowed_derivatives(const Query& query, const PolygonLight& light, const Material& material,
-                                         const methods::Row& entry);
+// Derivatives of one lobe under a polygon. Throws Error for unsupported lobes, methods and lights. They are derivatives of the lobe itself;
+// the method's value differs from it by its error.
+ShadowedDerivatives shadowed_derivatives(const Query& query, const AreaLight& light, const Material& material, const methods::Row& entry);
 
 }  // namespace steradian::eval

@@ -25,6 +25,14 @@ T read_object(Problems& problems, const Place& place, Json value, std::span<cons
   return result;
 }
 
+template <class Value>
+std::optional<Value> read_word(Problems& problems, const Place& place, Json value) {
+  const std::string_view word = read_string(problems, place, value);
+  const std::optional<Value> found = words::find<Value>(word);
+  if (value.is_string() && !found) problems.add(place, quoted(word) + " is not known", words::choices<Value>());
+  return found;
+}
+
 // true, or an object.
 bool is_true(Problems& problems, const Place& place, Json value) {
   if (!value.is_bool()) return false;
@@ -247,22 +255,12 @@ void SolveJobReader::read_target(const Place& place, Json value, const std::stri
       {"around", into<read_not_negative, &TargetKeys::around>},
       {"part",
        [](Problems& p, const Place& at, Json v, TargetKeys& k) {
-         const auto part = words::find<LightPart>(read_string(p, at, v));
-         if (!part) return p.add(at, "is not known", words::choices<LightPart>());
-         k.part = *part;
+         if (const auto part = read_word<LightPart>(p, at, v)) k.part = *part;
        }},
       {"camera", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.camera = read_string(p, at, v); }},
       {"mask", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.mask = read_string(p, at, v); }},
-      {"space",
-       [](Problems& p, const Place& at, Json v, TargetKeys& k) {
-         k.space = words::find<ResidualSpace>(read_string(p, at, v));
-         if (!k.space) p.add(at, "is not known", words::choices<ResidualSpace>());
-       }},
-      {"loss",
-       [](Problems& p, const Place& at, Json v, TargetKeys& k) {
-         k.loss = words::find<ResidualLoss>(read_string(p, at, v));
-         if (!k.loss) p.add(at, "is not known", words::choices<ResidualLoss>());
-       }},
+      {"space", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.space = read_word<ResidualSpace>(p, at, v); }},
+      {"loss", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.loss = read_word<ResidualLoss>(p, at, v); }},
       {"zone", [](Problems& p, const Place& at, Json v, TargetKeys& k) { add_zone(p, at, v, k.lux), ++k.kinds; }},
       {"mesh", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.mesh = read_string(p, at, v), ++k.kinds; }},
       {"grid", [](Problems& p, const Place& at, Json v, TargetKeys& k) { k.grid = read_number(p, at, v); }},
