@@ -15,6 +15,7 @@
 #include "core/progress.h"
 #include "exchange/files/matrix_files.h"
 #include "exchange/obstacles/point_factors.h"
+#include "exchange/obstacles/scene_elements.h"
 #include "exchange/files/scene_faces.h"
 #include "exchange/files/unfinished.h"
 #include "exchange/files/vs3.h"
@@ -30,6 +31,11 @@ namespace {
 using namespace exchange;
 using Json = nlohmann::ordered_json;
 
+// Row sums are off by their rounding, whatever the errors are.
+constexpr double kRowRounding = 1e-12;
+// Errors of rows above this and above ten times --eps come from parts of faces that could not be decided.
+constexpr double kDoubtfulError = 0.01;
+
 struct ViewFactorArguments {
   std::vector<std::string> inputs;
   std::string output, by = "face", part = "1/1", report;
@@ -43,6 +49,19 @@ void warn(const std::string& path, const std::vector<std::string>& warnings) {
   for (const std::string& w : warnings) fmt::print(stderr, "warning: {}: {}\n", path, w);
 }
 
+// Calls a function; an error that names only a face then names the file as well.
+template <class Function>
+auto in_file(const std::string& path, Function function) {
+  try {
+    return function();
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& e) {
+    if (e.place().starts_with(path)) throw;
+    throw Error(e.place().empty() ? path : path + ": " + e.place(), e.problem(), e.hint());
+  }
+}
+
 SceneFaces load_faces(const std::string& path, const ViewFactorArguments& arguments) {
   FaceOptions options;
   options.by = arguments.by == "node" ? FacesBy::node : arguments.by == "material" ? FacesBy::material : FacesBy::face;
@@ -53,9 +72,11 @@ SceneFaces load_faces(const std::string& path, const ViewFactorArguments& argume
   load.limits = arguments.limits;
   load.max_lights = 1 << 20;
   load.lights = {AddedLight::none};
-  SceneFaces faces = is_vs3_file(path)    ? read_vs3(path, options, budget)
-                     : is_mesh_file(path) ? faces_of_meshes(read_mesh_file(path, budget), options, budget)
-                                          : faces_of_scene(load_scene(path, load), options, budget);
+  SceneFaces faces = in_file(path, [&] {
+    return is_vs3_file(path)    ? read_vs3(path, options, budget)
+           : is_mesh_file(path) ? faces_of_meshes(read_mesh_file(path, budget), options, budget)
+                                : faces_of_scene(load_scene(path, load), options, budget);
+  });
   warn(path, faces.warnings);
   if (faces.faces.empty()) throw Error(path, "the scene has no faces", "export meshes with triangles");
   return faces;
@@ -76,21 +97,47 @@ void parse_part(const std::string& text, RunFacts& run) {
   throw WrongOption("--part", "'" + text + "' is not k/n with k from 1 to n");
 }
 
+// Sentences about rows that a user should look at, with the name of the worst one.
+std::vector<std::string> doubts_about(const StoredRun& stored) {
+  const ViewFactors& f = stored.factors;
+  std::vector<std::string> doubts;
+  // The number of rows whose number is positive, and the row with the largest one.
+  const auto doubt = [&](auto number_of, const char* problem, const char* hint) {
+    std::size_t count = 0, worst = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      if (!(number_of(i) > 0)) continue;
+      ++count;
+      if (count == 1 || number_of(i) > number_of(worst)) worst = i;
+    }
+    if (count > 0)
+      doubts.push_back(fmt::format("{} rows {}, most of all {}: {:.6g} with an error of {:.2g} ({})", count, problem, f.names[worst],
+                                   f.row_sums[worst], f.row_errors[worst], hint));
+  };
+  doubt([&](std::size_t i) { return f.row_sums[i] - 1 - f.row_errors[i] - kRowRounding; }, "add up to more than 1",
+        stored.run.obstruction ? "these faces overlap or cross others: repair the scene"
+                               : "faces hide each other: leave out --no-obstruction");
+  doubt([&](std::size_t i) { return f.row_errors[i] - std::max(kDoubtfulError, 10 * stored.run.eps); }, "have a large error",
+        "faces that cross or nearly coincide: repair the scene");
+  return doubts;
+}
+
 // The guarantees of a matrix, as found in its numbers.
 struct GuaranteeCounts {
   std::size_t outside = 0, overfull = 0;
   double worst_error = 0, largest_sum = 0, smallest_sum = 1;
 };
-GuaranteeCounts guarantees_of(const ViewFactors& f) {
+GuaranteeCounts guarantees_of(const StoredRun& stored) {
+  const ViewFactors& f = stored.factors;
   GuaranteeCounts counts;
   for (const ExchangeBlock& b : f.blocks)
     for (std::size_t r = 0; r < b.rows(); ++r)
       for (std::size_t k = b.row_start[r]; k < b.row_start[r + 1]; ++k) {
         const double least = std::min(f.areas[b.first_row + r], f.areas[b.columns[k]]);
-        counts.outside += !(b.values[k] >= 0 && b.values[k] <= least + static_cast<double>(b.errors[k]));
+        counts.outside += !(b.values[k] >= 0 && b.values[k] <= least);
       }
   for (std::size_t i = 0; i < f.size(); ++i) {
-    counts.overfull += f.row_sums[i] > 1 + f.row_errors[i] + 1e-12;
+    // Faces that hide each other may add up to more than 1 without obstruction.
+    counts.overfull += stored.run.obstruction && f.row_sums[i] > 1 + f.row_errors[i] + kRowRounding;
     counts.worst_error = std::max(counts.worst_error, f.row_errors[i]);
     counts.largest_sum = std::max(counts.largest_sum, f.row_sums[i]);
     counts.smallest_sum = std::min(counts.smallest_sum, f.row_sums[i]);
@@ -98,9 +145,9 @@ GuaranteeCounts guarantees_of(const ViewFactors& f) {
   return counts;
 }
 
-Json report_json(const ViewFactorArguments& arguments, const StoredRun& stored, double seconds) {
+Json report_json(const ViewFactorArguments& arguments, const StoredRun& stored, const std::vector<std::string>& warnings, double seconds) {
   const ViewFactors& f = stored.factors;
-  const GuaranteeCounts g = guarantees_of(f);
+  const GuaranteeCounts g = guarantees_of(stored);
   const auto verdict = [](std::size_t count) { return count == 0 ? "pass" : "fail"; };
   Json sky = Json::array();
   for (const double sum : f.row_sums) sky.push_back(std::max(1 - sum, 0.0));
@@ -115,8 +162,8 @@ Json report_json(const ViewFactorArguments& arguments, const StoredRun& stored, 
           {"seconds", seconds},
           {"guarantees",
            {{"factors from 0 to 1", verdict(g.outside)},
-            {"row sums at most 1 + error", verdict(g.overfull)},
-            {"one number for both directions", "pass"}}},
+            {"row sums at most 1 + error", stored.run.obstruction ? verdict(g.overfull) : "not promised without obstruction"}}},
+          {"warnings", warnings},
           {"worst_row_error", g.worst_error},
           {"row_sums", f.row_sums},
           {"row_errors", f.row_errors},
@@ -126,7 +173,7 @@ Json report_json(const ViewFactorArguments& arguments, const StoredRun& stored, 
 }
 
 void print_summary(const StoredRun& stored, double seconds) {
-  const GuaranteeCounts g = guarantees_of(stored.factors);
+  const GuaranteeCounts g = guarantees_of(stored);
   fmt::print("faces            {}\n", stored.faces.size());
   if (!stored.run.groups.empty()) fmt::print("groups           {}\n", stored.factors.size());
   fmt::print("entries          {}\n", stored.factors.entries());
@@ -171,9 +218,12 @@ void compute(const ViewFactorArguments& arguments) {
   {
     Progress progress("view factors", pairs);
     options.advanced = [&](std::uint64_t done) { progress.add(done); };
-    stored.factors = view_factors(stored.faces, options);
+    stored.factors = in_file(arguments.inputs[0], [&] { return view_factors(stored.faces, options); });
   }
-  if (arguments.close) stored.factors = closed_view_factors(stored.factors);
+  const std::vector<std::string> doubts = doubts_about(stored);
+  warn(arguments.inputs[0], doubts);
+  faces.warnings.insert(faces.warnings.end(), doubts.begin(), doubts.end());
+  if (arguments.close) stored.factors = in_file(arguments.inputs[0], [&] { return closed_view_factors(stored.factors); });
   if (!faces.groups.empty()) {
     stored.run.groups = faces.groups;
     stored.factors = grouped_view_factors(stored.factors, faces.groups, faces.group_names);
@@ -181,7 +231,7 @@ void compute(const ViewFactorArguments& arguments) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_factors(arguments.output, stored);
   if (unfinished) unfinished->remove();
-  if (!arguments.report.empty()) write_file(arguments.report, report_json(arguments, stored, seconds).dump(1) + "\n");
+  if (!arguments.report.empty()) write_file(arguments.report, report_json(arguments, stored, faces.warnings, seconds).dump(1) + "\n");
   print_summary(stored, seconds);
 }
 
@@ -222,16 +272,9 @@ void compute_points(const ViewFactorArguments& arguments) {
   Budget budget(arguments.limits);
   const SceneFaces faces = load_faces(arguments.inputs[1], arguments);
   const std::vector<Sensor> sensors = read_sensors(arguments.inputs[2], budget);
-  std::vector<PlaneElement> elements;
-  std::vector<ObstacleTriangle> triangles;
-  if (!arguments.no_obstruction) triangles = faces.obstacles;
-  for (const ViewFactorFace& face : faces.faces) {
-    elements.push_back(make_element(face.outline, face.holes, face.name));
-    if (arguments.no_obstruction) continue;
-    for (const PlaneElement& t : triangles_of_element(elements.back(), face.name))
-      triangles.push_back({t.contours[0][0], t.contours[0][1], t.contours[0][2]});
-  }
-  const Obstacles obstacles(triangles);
+  const auto [elements, obstacles] = in_file(arguments.inputs[1], [&] {
+    return scene_elements(faces.faces, faces.obstacles, arguments.no_obstruction ? Obstruction::off : Obstruction::on, AskedFrom::points);
+  });
   std::string csv = "x,y,z,nx,ny,nz,sky,backs";
   const std::vector<std::string>& groups = faces.group_names;
   for (std::size_t i = 0; i < (groups.empty() ? faces.faces.size() : groups.size()); ++i)
@@ -263,16 +306,8 @@ void verify(const ViewFactorArguments& arguments, Exit& exit) {
   Budget budget(arguments.limits);
   const StoredRun stored = read_factors_npz(path, budget);
   if (!stored.run.groups.empty()) throw Error(path, "is of groups", "verify a file by face");
-  std::vector<PlaneElement> elements;
-  std::vector<ObstacleTriangle> triangles;
-  if (stored.run.obstruction) triangles = stored.obstacles;
-  for (const ViewFactorFace& face : stored.faces) {
-    elements.push_back(make_element(face.outline, face.holes, face.name));
-    if (!stored.run.obstruction) continue;
-    for (const PlaneElement& t : triangles_of_element(elements.back(), face.name))
-      triangles.push_back({t.contours[0][0], t.contours[0][1], t.contours[0][2]});
-  }
-  const Obstacles obstacles(triangles, elements);
+  const auto [elements, obstacles] = in_file(
+      path, [&] { return scene_elements(stored.faces, stored.obstacles, stored.run.obstruction ? Obstruction::on : Obstruction::off); });
   std::vector<std::size_t> rows;
   for (const ExchangeBlock& b : stored.factors.blocks)
     for (std::size_t r = std::max<std::size_t>(b.first_row, 1); r < b.first_row + b.rows(); ++r) rows.push_back(r);
@@ -326,6 +361,7 @@ void merge(const MergeArguments& arguments) {
   }
   all.factors = merge_view_factors(std::move(parts));
   all.run.part = all.run.parts = 1;
+  warn(arguments.output, doubts_about(all));
   write_factors(arguments.output, all);
   print_summary(all, 0);
 }

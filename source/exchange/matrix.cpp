@@ -7,6 +7,7 @@
 #include "exchange/pairs/far_pairs.h"
 #include "exchange/pairs/gauss_rules.h"
 #include "exchange/obstacles/obstructed.h"
+#include "exchange/obstacles/scene_elements.h"
 #include "steradian/error.h"
 #include "steradian/view_factors.h"
 
@@ -59,7 +60,7 @@ class RowOfPairs {
       for (std::size_t m = 1; m <= kLargestProduct; ++m) integrate(row, triangles == 1, m);
     for (std::uint32_t j = 0; j < row; ++j) {
       if (method_[j] == kNoExchange) continue;
-      ExchangeArea h{value_[j], error_[j], 0};
+      ExchangeArea h{std::clamp(value_[j], 0.0, std::min(elements_[row].area, elements_[j].area)), error_[j], 0};
       // The method was chosen by the middles; where it is not enough, the pair is done again.
       if (method_[j] != kOneByOne && !(h.error <= eps_ * h.value)) h = exchange_area(elements_[row], elements_[j], eps_);
       if (!obstacles_.is_empty()) h = visible_exchange(elements_[row], elements_[j], obstacles_, eps_, h).visible;
@@ -91,29 +92,6 @@ class RowOfPairs {
   std::vector<double> value_, error_, listed_;
   std::vector<std::uint32_t> lists_[2][kLargestProduct + 1];
 };
-
-std::string place_of_face(const std::vector<ViewFactorFace>& faces, std::size_t i) {
-  return "face " + std::to_string(i) + (faces[i].name.empty() ? "" : " (" + faces[i].name + ")");
-}
-
-std::vector<PlaneElement> elements_of(const std::vector<ViewFactorFace>& faces) {
-  std::vector<PlaneElement> elements;
-  elements.reserve(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    elements.push_back(make_element(faces[i].outline, faces[i].holes,
-                                    "face " + std::to_string(i) + (faces[i].name.empty() ? "" : " (" + faces[i].name + ")")));
-  return elements;
-}
-
-Obstacles obstacles_of(const std::vector<ViewFactorFace>& faces, const std::vector<PlaneElement>& elements,
-                       const ViewFactorOptions& options) {
-  if (options.obstruction == Obstruction::off) return {};
-  std::vector<ObstacleTriangle> triangles = options.obstacles;
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    for (const PlaneElement& t : triangles_of_element(elements[i], place_of_face(faces, i)))
-      triangles.push_back({t.contours[0][0], t.contours[0][1], t.contours[0][2]});
-  return Obstacles(triangles, elements);
-}
 
 void check_options(const ViewFactorOptions& options) {
   if (!(options.eps > 0 && options.eps < 1)) throw UsageError("eps", "must lie between 0 and 1");
@@ -201,9 +179,10 @@ std::vector<std::pair<std::size_t, std::size_t>> rows_of_part(std::size_t rows, 
 
 ViewFactors view_factors(const std::vector<ViewFactorFace>& faces, const ViewFactorOptions& options) {
   check_options(options);
-  const std::vector<PlaneElement> elements = elements_of(faces);
+  const SceneElements scene = scene_elements(faces, options.obstacles, options.obstruction);
+  const std::vector<PlaneElement>& elements = scene.elements;
+  const Obstacles& obstacles = scene.obstacles;
   const ElementArrays arrays(elements);
-  const Obstacles obstacles = obstacles_of(faces, elements, options);
   ViewFactors result;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     result.names.push_back(faces[i].name);

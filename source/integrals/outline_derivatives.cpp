@@ -27,7 +27,7 @@ struct Linear {
 
 // A piece of the outline: p = constant + by_first u + by_second w, relative to the point, in walk order. An arc has u = cos t and w = sin
 // t. A straight piece runs from by_first to by_second and has no constant.
-struct Piece {
+struct OutlinePiece {
   Linear<Vec3d> place;
   bool is_arc = false;
   double begin = 0, end = 0;  // of t
@@ -59,7 +59,7 @@ struct Moments {
 
 class PieceMoments {
  public:
-  PieceMoments(const Piece& piece, const ShadingPoint& at, const LobeAxis& lobe, const LobeDensity& density)
+  PieceMoments(const OutlinePiece& piece, const ShadingPoint& at, const LobeAxis& lobe, const LobeDensity& density)
       : piece_(piece), at_(at), lobe_(lobe), density_(density) {
     if (piece_.is_arc) return;
     // The parameter of a straight piece is the angle from its start: a long piece is seen under a finite angle.
@@ -172,7 +172,7 @@ class PieceMoments {
     return refined(evaluated(interval.from, middle), tolerance, depth + 1) + refined(evaluated(middle, interval.to), tolerance, depth + 1);
   }
 
-  Piece piece_;
+  OutlinePiece piece_;
   const ShadingPoint& at_;
   const LobeAxis& lobe_;
   const LobeDensity& density_;
@@ -181,9 +181,9 @@ class PieceMoments {
 };
 
 // The outline of each shape. The light lies relative to the point, which is the origin.
-class Outline {
+class OutlineIntegrals {
  public:
-  Outline(const AreaLight& light, const ShadingPoint& at, const LobeAxis& lobe, const LobeDensity& density)
+  OutlineIntegrals(const AreaLight& light, const ShadingPoint& at, const LobeAxis& lobe, const LobeDensity& density)
       : light_(light), at_(at), lobe_(lobe), density_(density) {}
 
   OutlineDerivatives operator()(const Polygon& polygon) {
@@ -265,10 +265,10 @@ class Outline {
   }
 
  private:
-  static Piece whole(const Linear<Vec3d>& place) { return {place, true, 0, 2 * std::numbers::pi}; }
+  static OutlinePiece whole(const Linear<Vec3d>& place) { return {place, true, 0, 2 * std::numbers::pi}; }
 
   // Moments with the part inside on the side that the sign tells, with the light's radiance.
-  Moments moments(const Piece& piece, int sign) {
+  Moments moments(const OutlinePiece& piece, int sign) {
     const Moments m = PieceMoments(piece, at_, lobe_, density_).integral() * sign;
     const Vec3d& r = light_.radiance;
     const auto with_radiance = [&](const ByChannel& v) { return ByChannel{v[0] * r.x, v[1] * r.y, v[2] * r.z}; };
@@ -287,7 +287,7 @@ class Outline {
     const double distance = length(center), cosine = radius / distance, sine = std::sqrt((1 - cosine) * (1 + cosine));
     const Frame frame = Frame::from_normal(center / -distance);  // z towards the point
     const Linear<Vec3d> normal = {frame.z * cosine, frame.x * sine, frame.y * sine};
-    Piece piece = whole({center + normal.constant * radius, normal.by_first * radius, normal.by_second * radius});
+    OutlinePiece piece = whole({center + normal.constant * radius, normal.by_first * radius, normal.by_second * radius});
     if (!(from == to)) {
       const auto angle = [&](Vec3d n) { return std::atan2(dot(n, frame.y), dot(n, frame.x)); };
       piece.begin = angle(from);
@@ -318,7 +318,7 @@ class Outline {
 OutlineDerivatives outline_derivatives(const AreaLight& light, const ShadingPoint& at, const LobeAxis& lobe, const LobeDensity& density) {
   double unit = 1;
   const AreaLight seen = methods::seen_from(light, at.position, &unit);
-  OutlineDerivatives result = std::visit(Outline(seen, at, lobe, density), seen.shape);
+  OutlineDerivatives result = std::visit(OutlineIntegrals(seen, at, lobe, density), seen.shape);
   for (ByChannel& v : result.by_vector) v = v * (1 / unit);
   result.by_radius = result.by_radius / unit;
   result.position = result.position * (1 / unit);

@@ -28,7 +28,9 @@ inline Scene room() {
   glossy.specular = 1;
   glossy.roughness = 0.5f;
   scene.materials = {scene::grey(0.6f), glossy};
-  const auto add = [&](Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) { scene.meshes.push_back(scene::quad_mesh(a, b, c, d, material)); };
+  const auto add = [&](Vec3f a, Vec3f b, Vec3f c, Vec3f d, int material) {
+    scene.meshes.push_back(scene::quad_mesh(a, b, c, d, material));
+  };
   add({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, 1);
   add({-3, 0, -3}, {3, 0, -3}, {3, 3, -3}, {-3, 3, -3}, 0);
   add({-3, 0, 3}, {-3, 0, -3}, {-3, 3, -3}, {-3, 3, 3}, 0);

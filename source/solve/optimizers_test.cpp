@@ -146,8 +146,7 @@ TEST(SolveOptimizers, NeedATenthOfTheEvaluationsOfBobyqa) {
     Problem problem{room(), {everything(0)}, {}, {0.4, 2.5, -0.5}};
     problem.scene.area_lights = {panel(problem.truth, 1.2, 0.6, {8, 7, 6})};
     problem.targets = {picture_of(problem.scene, 64, 36)};
-    problem.scene.area_lights = {
-        panel({random.uniform(-2, 2), random.uniform(1.8, 2.7), random.uniform(-2, 2)}, 0.8, 0.8, {6, 5.25, 4.5})};
+    problem.scene.area_lights = {panel({random.uniform(-2, 2), random.uniform(1.8, 2.7), random.uniform(-2, 2)}, 0.8, 0.8, {6, 5.25, 4.5})};
     problem.fits[0].rotation = false;
     problem.fits[0].power_range = {1, 1000};
     for (Method& m : methods) {

@@ -11,6 +11,19 @@
 
 namespace steradian::exchange {
 
+namespace {
+
+// The messages of Assimp hold parts of the file, of any length and with any characters.
+std::string first_words(std::string text) {
+  constexpr std::size_t kMost = 160;
+  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) >= 0x7f) c = '?';
+  return text;
+}
+
+}  // namespace
+
 std::vector<PolygonMesh> read_mesh_file(const std::string& path, Budget& budget) {
   // The file is read here: its size is judged, and Assimp opens no other file that it may name.
   const Bytes bytes = read_file(path, path, budget);
@@ -21,7 +34,7 @@ std::vector<PolygonMesh> read_mesh_file(const std::string& path, Budget& budget)
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
-  if (scene == nullptr) throw Error(path, std::string("cannot be read: ") + importer.GetErrorString(), "export it again, or as glTF");
+  if (scene == nullptr) throw Error(path, "cannot be read: " + first_words(importer.GetErrorString()), "export it again, or as glTF");
   std::vector<PolygonMesh> meshes;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& mesh = *scene->mMeshes[m];

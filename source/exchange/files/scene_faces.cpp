@@ -115,36 +115,46 @@ class MeshFaces {
     std::size_t& number = numbered_[name];
     const auto next_name = [&] { return name + "#" + std::to_string(number++); };
     std::vector<scene::Triangle> triangles;
-    const auto add_triangle = [&](Vec3d a, Vec3d b, Vec3d c) {
-      // Two faces in one place would both receive everything.
-      if (known_.insert(key_of({a, b, c})).second)
-        triangles.push_back({a, b, c});
-      else if (repeated_++ == 0)
-        first_repeated_ = name;
+    std::vector<std::size_t> polygon_of;  // by triangle
+    const auto count = [&](Drops& drops, std::size_t polygon) {
+      if (drops.count++ == 0) drops.first = "face " + std::to_string(polygon + 1) + " of " + name;
     };
-    for (const std::vector<Vec3d>& polygon : mesh.polygons) {
+    const auto add_triangle = [&](Vec3d a, Vec3d b, Vec3d c, std::size_t polygon) {
+      // Two faces in one place would both receive everything.
+      if (known_.insert(key_of({a, b, c})).second) {
+        triangles.push_back({a, b, c});
+        polygon_of.push_back(polygon);
+      } else {
+        count(repeated_, polygon);
+      }
+    };
+    for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
+      const std::vector<Vec3d>& polygon = mesh.polygons[p];
       if (polygon.size() > 3 && known_.insert(key_of({polygon[0], polygon[1], polygon[2]})).second) {
         try {
           make_element(polygon, {}, name);
           faces.push_back({next_name(), polygon});
           continue;
         } catch (const Error&) {
-          ++split_;  // bent by more than an element may be, or without area
+          count(split_, p);  // bent by more than an element may be, or without area
           known_.erase(key_of({polygon[0], polygon[1], polygon[2]}));
         }
       }
-      for (std::size_t i = 1; i + 1 < polygon.size(); ++i) add_triangle(polygon[0], polygon[i], polygon[i + 1]);
+      for (std::size_t i = 1; i + 1 < polygon.size(); ++i) add_triangle(polygon[0], polygon[i], polygon[i + 1], p);
     }
     budget_.take_memory(name, "the faces of a mesh", 300 * (triangles.size() + faces.size()));
     const scene::MergedPolygons merged = scene::merge_coplanar(triangles, [](std::size_t, std::size_t) { return true; });
-    without_area_ += merged.without_area;
+    if (merged.without_area > 0) {
+      count(without_area_, polygon_of[merged.first_without_area]);
+      without_area_.count += merged.without_area - 1;
+    }
     for (const scene::MergedPolygon& polygon : merged.polygons) {
       try {
         make_element(polygon.outline, polygon.holes, name);
         faces.push_back({next_name(), polygon.outline, polygon.holes});
         continue;
       } catch (const Error&) {
-        ++split_;
+        count(split_, polygon_of[polygon.triangles[0]]);
       }
       for (const std::size_t t : polygon.triangles) faces.push_back({next_name(), {triangles[t].begin(), triangles[t].end()}});
     }
@@ -153,19 +163,25 @@ class MeshFaces {
 
   std::vector<std::string> warnings() const {
     std::vector<std::string> result;
-    if (without_area_ > 0) result.push_back(std::to_string(without_area_) + " triangles without area dropped");
-    if (repeated_ > 0)
-      result.push_back(std::to_string(repeated_) + " triangles that repeat another one dropped, the first in " + first_repeated_);
-    if (split_ > 0) result.push_back(std::to_string(split_) + " faces that are bent by more than 1e-6 of their size stay triangles");
+    const auto add = [&](const Drops& drops, const std::string& words) {
+      if (drops.count > 0) result.push_back(std::to_string(drops.count) + " " + words + "; the first is " + drops.first);
+    };
+    add(without_area_, "triangles without area dropped");
+    add(repeated_, "triangles that repeat another one dropped");
+    add(split_, "faces that are bent by more than 1e-6 of their size stay triangles");
     return result;
   }
 
  private:
+  struct Drops {
+    std::size_t count = 0;
+    std::string first;  // the first one, counted from 1 in its mesh
+  };
+
   Budget& budget_;
   std::map<std::string, std::size_t> numbered_;
   std::set<TriangleKey> known_;
-  std::size_t without_area_ = 0, split_ = 0, repeated_ = 0;
-  std::string first_repeated_;
+  Drops without_area_, split_, repeated_;
 };
 
 std::vector<PolygonMesh> meshes_of(const LoadedScene& loaded) {

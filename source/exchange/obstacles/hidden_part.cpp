@@ -134,8 +134,35 @@ HiddenPart::HiddenPart(const PlaneElement& target, const shadow::EdgeMesh& mesh)
     }
   }
   for (const Vec3d& v : mesh.vertices) vertices_.push_back(axes_.to_local(v - origin_));
+  for (const auto& corners : mesh.triangles) area_near_plane_ += shadow_near_plane(corners);
+  area_near_plane_ = std::min(area_near_plane_, target.area);
   for (const shadow::Plane& plane : mesh.planes)
     faces_.push_back({axes_.to_local(plane.normal), plane.offset - dot(plane.normal, origin_)});
+}
+
+// The area, projected to the target's plane within its box, of the part of a triangle that collect() takes to lie in the plane.
+double HiddenPart::shadow_near_plane(const std::array<std::uint32_t, 3>& corners) const {
+  const Vec3d a = vertices_[corners[0]], b = vertices_[corners[1]], c = vertices_[corners[2]];
+  if (std::max({a.z, b.z, c.z}) < -eta_ || std::min({a.z, b.z, c.z}) >= 0) return 0;
+  std::vector<Vec3d> part{a, b, c};
+  // The side of the box on which offset + sign * coordinate is positive.
+  const auto clip = [&](double Vec3d::*coordinate, double sign, double offset) {
+    std::vector<Vec3d> inside;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Vec3d &v = part[i], &w = part[(i + 1) % part.size()];
+      const double height = offset + sign * v.*coordinate, next = offset + sign * w.*coordinate;
+      if (height >= 0) inside.push_back(v);
+      if ((height > 0 && next < 0) || (height < 0 && next > 0)) inside.push_back(v + (w - v) * (height / (height - next)));
+    }
+    part = std::move(inside);
+  };
+  clip(&Vec3d::z, 1, eta_);
+  clip(&Vec3d::z, -1, 0);
+  for (const double sign : {1.0, -1.0}) clip(&Vec3d::x, sign, box_x_), clip(&Vec3d::y, sign, box_y_);
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < part.size(); ++i)
+    twice += (part[i].x - part[0].x) * (part[i + 1].y - part[0].y) - (part[i].y - part[0].y) * (part[i + 1].x - part[0].x);
+  return std::fabs(twice) / 2;
 }
 
 void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge,

@@ -39,6 +39,9 @@ class HiddenPart {
   // The factor of the target itself by the same sum.
   double whole_factor(Vec3d point, Vec3d normal);
 
+  // Area of the target behind parts of obstacles that lie nearer to its plane than the finder tells apart. These parts are not hidden.
+  double area_near_plane() const { return area_near_plane_; }
+
   // True if the boundary of the last hidden part was closed to rounding. If not, the part is not known.
   bool is_proven() const;
 
@@ -53,6 +56,7 @@ class HiddenPart {
   Homogeneous seen(Vec3d vertex) const {
     return {vertex.x * eye_.z + eye_.x * vertex.z, vertex.y * eye_.z + eye_.y * vertex.z, vertex.z + eye_.z};
   }
+  double shadow_near_plane(const std::array<std::uint32_t, 3>& corners) const;
   void add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge, std::int32_t weight);
   void collect();
   void arrange(Vec3d normal);
@@ -66,7 +70,7 @@ class HiddenPart {
   const shadow::EdgeMesh& mesh_;
   Frame axes_;
   Vec3d origin_;
-  double box_x_ = 0, box_y_ = 0, eta_ = 0;
+  double box_x_ = 0, box_y_ = 0, eta_ = 0, area_near_plane_ = 0;
   std::vector<std::vector<std::array<double, 2>>> outline_;
   std::vector<Vec3d> vertices_;  // in the target's frame
   struct LocalFace {

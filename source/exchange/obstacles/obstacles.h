@@ -14,6 +14,16 @@ namespace steradian::exchange {
 
 using ObstacleTriangle = std::array<Vec3d, 3>;
 
+// A face that obstructs: neighbouring triangles in one plane.
+struct ObstacleFace {
+  Vec3d normal, point;         // its plane
+  double off_plane = 0;        // largest height of a corner above or below the plane
+  std::vector<Vec3d> outline;  // empty: not one plane polygon without holes
+};
+
+// The mean plane of some triangles that face the same way.
+ObstacleFace plane_of_triangles(const std::vector<ObstacleTriangle>& triangles, const std::vector<std::size_t>& numbers);
+
 // Triangles that obstruct, with a tree over their boxes. Neighbours in one plane are merged to faces, which have fewer edges.
 class Obstacles {
  public:
@@ -37,7 +47,7 @@ class Obstacles {
 
   std::vector<ObstacleTriangle> triangles_;
   std::vector<std::uint32_t> face_of_;
-  std::vector<std::vector<Vec3d>> faces_;  // outlines of faces without holes; empty: not one plane polygon
+  std::vector<ObstacleFace> faces_;
   BoxTree<Box3d> tree_;
 };
 

@@ -28,6 +28,10 @@ constexpr double kUncutSafety = 4;
 constexpr std::size_t kMostConvexCorners = 8;
 constexpr int kUncutQuarterings = kMostQuarterings - 6;
 constexpr std::size_t kMostEvaluations = 4'000'000;
+// A part of the smaller area that changes no factor: the rounding of 1.
+constexpr double kNoFactor = 0x1p-53;
+// After this many evaluations, unproven points that dominate the error end the refinement: it cannot reduce their part.
+constexpr std::size_t kEnoughToJudge = 20'000;
 // The finder's own error, as a fraction of the whole factor: 16 cells of 2^-40 along a boundary of some half sizes.
 constexpr double kFinderError = 1e-10;
 
@@ -117,13 +121,20 @@ class HiddenIntegral {
       else
         quarter(piece, kUncutQuarterings);
     }
-    // Points whose hidden part is not known may be wrong by all that the target sends.
-    if (unproven_ > 0) error_ += static_cast<double>(unproven_) / static_cast<double>(evaluations_) * from_.area;
+    error_ += unproven_error() + finder_.area_near_plane();
     return {sum_, error_, static_cast<int>(std::min<std::size_t>(evaluations_, std::numeric_limits<int>::max()))};
   }
 
  private:
   double near() const { return kShortEvent * from_.radius; }
+
+  // Points whose hidden part is not known may be wrong by all that the target sends.
+  double unproven_error() const {
+    return unproven_ == 0 ? 0.0 : static_cast<double>(unproven_) / static_cast<double>(evaluations_) * from_.area;
+  }
+  bool has_enough() const {
+    return evaluations_ > kMostEvaluations || (evaluations_ > kEnoughToJudge && unproven_error() > 10 * tolerance_);
+  }
 
   double hidden_at(Vec2d p) {
     ++evaluations_;
@@ -191,7 +202,7 @@ class HiddenIntegral {
     }
     if (!is_cut_ && quarterings < kUncutQuarterings + 2) return quarter(piece, quarterings);
     if (events.empty() && try_rules(piece, enough)) return;
-    if (evaluations_ > kMostEvaluations || quarterings > kMostQuarterings) {
+    if (has_enough() || quarterings > kMostQuarterings) {
       const double value = rule_over(piece, 3);
       sum_ += value;
       error_ += std::max(std::fabs(value - rule_over(piece, 2)), enough);
@@ -309,7 +320,8 @@ VisibleExchange visible_from(const PlaneElement& first, const PlaneElement& seco
   }
   const shadow::EdgeMesh mesh = obstacles.mesh_of(between);
   const double all = result.unobstructed.value;
-  const ExchangeArea hidden = HiddenIntegral(a, b, mesh, eps, 0.5 * eps * all).over_parts(convex_parts_in_front(first, second));
+  const double tolerance = std::max(0.5 * eps * all, kNoFactor * std::min(first.area, second.area));
+  const ExchangeArea hidden = HiddenIntegral(a, b, mesh, eps, tolerance).over_parts(convex_parts_in_front(first, second));
   result.visible.value = std::clamp(all - hidden.value, 0.0, all);
   result.visible.error = std::min(result.unobstructed.error + hidden.error + kFinderError * hidden.value, all);
   result.visible.evaluations += hidden.evaluations;

@@ -6,8 +6,9 @@
 namespace steradian::exchange {
 namespace {
 
-// Faces are coplanar if their normals and offsets agree to rounding.
-constexpr double kCoplanar = 1e-12;
+// Faces are coplanar if their normals and offsets agree to the rounding of 32-bit corners. Their common edge is a silhouette only for
+// points within this angle of both planes.
+constexpr double kCoplanar = 1e-6;
 // An edge is projected up to this fraction of the pivot's height: beyond, its shadow is too far away to matter.
 constexpr double kFarAway = 1e-7;
 

@@ -25,6 +25,8 @@ ElementArrays::ElementArrays(const std::vector<PlaneElement>& elements)
     set_vector(normal_x, e.normal);
     set(area, e.area);
     set(radius, e.radius);
+    set(off_plane, e.off_plane);
+    set(skew, e.skew);
     ElementKind k = ElementKind::other;
     if (e.is_parallelogram()) {
       k = ElementKind::parallelogram;

@@ -43,6 +43,8 @@ struct ElementArrays {
     span_z,
     area,
     radius,
+    off_plane,  // what its corners are off its plane
+    skew,       // what keeps it from being a parallelogram
     kind,
     remainder_1,  // coefficients of the product rule's error, for 1 to 6 nodes
     name_count = remainder_1 + 6

@@ -28,7 +28,7 @@ __attribute__((flatten)) void classify(const double* numbers, std::size_t stride
   const PackD ix = at_row(N::center_x), iy = at_row(N::center_y), iz = at_row(N::center_z), nx = at_row(N::normal_x),
               ny = at_row(N::normal_y), nz = at_row(N::normal_z), ux = at_row(N::reach_x), uy = at_row(N::reach_y), uz = at_row(N::reach_z),
               vx = at_row(N::span_x), vy = at_row(N::span_y), vz = at_row(N::span_z), radius_i = at_row(N::radius),
-              kind_i = at_row(N::kind), area_i = at_row(N::area);
+              kind_i = at_row(N::kind), area_i = at_row(N::area), off_i = at_row(N::off_plane), skew_i = at_row(N::skew);
   // The least and the largest height of an element about its centre, from its two vectors along the normal: a parallelogram's are
   // -+ (|a| + |b|), a triangle's corners are a, b and -a - b.
   const auto extent = [&](PackD a, PackD b, PackD kind, PackD radius, PackD& low, PackD& high) {
@@ -43,7 +43,8 @@ __attribute__((flatten)) void classify(const double* numbers, std::size_t stride
     const auto at = [&](std::size_t name) { return load_d(numbers + name * stride + j); };
     const PackD rx = at(N::center_x) - ix, ry = at(N::center_y) - iy, rz = at(N::center_z) - iz;
     const PackD mx = at(N::normal_x), my = at(N::normal_y), mz = at(N::normal_z), radius_j = at(N::radius), kind_j = at(N::kind);
-    const PackD r2 = rx * rx + ry * ry + rz * rz, r = xsimd::sqrt(r2), flat = all(kFlat) * (r + radius_i + radius_j);
+    const PackD r2 = rx * rx + ry * ry + rz * rz, r = xsimd::sqrt(r2),
+                flat = all(kFlat) * (r + radius_i + radius_j) + all(exchange::kInPlane) * (off_i + at(N::off_plane));
     const PackD over_i = rx * nx + ry * ny + rz * nz, over_j = -(rx * mx + ry * my + rz * mz);
     PackD low_j, high_j, low_i, high_i;
     extent(at(N::reach_x) * nx + at(N::reach_y) * ny + at(N::reach_z) * nz, at(N::span_x) * nx + at(N::span_y) * ny + at(N::span_z) * nz,
@@ -60,10 +61,11 @@ __attribute__((flatten)) void classify(const double* numbers, std::size_t stride
                 base_j = radius_j / (safe + xsimd::select(is_triangle_j, radius_j, zero));
     PackD power_i = xsimd::select(is_triangle_i, one / base_i, one), power_j = xsimd::select(is_triangle_j, one / base_j, one);
     PackD level(static_cast<double>(kOneByOne)), bound = zero;
+    const PackD skewed = (skew_i + at(N::skew)) / safe;
     for (std::size_t m = 1; m <= kLargestProduct; ++m) {
       power_i = power_i * base_i * base_i;
       power_j = power_j * base_j * base_j;
-      const PackD now = at_row(N::remainder_1 + m - 1) * power_i + at(N::remainder_1 + m - 1) * power_j;
+      const PackD now = at_row(N::remainder_1 + m - 1) * power_i + at(N::remainder_1 + m - 1) * power_j + skewed;
       const auto serves = (level > all(static_cast<double>(kLargestProduct))) && (now <= enough);
       level = xsimd::select(serves, all(static_cast<double>(m)), level);
       bound = xsimd::select(serves, now, bound);

@@ -62,6 +62,7 @@ double product_bound(const PlaneElement& a, const PlaneElement& b, double distan
   for (const PlaneElement* e : {&a, &b}) {
     if (e->is_parallelogram()) {
       for (const Vec3d& h : {e->half_a, e->half_b}) sum += kGaussRemainder[m] * std::pow(dot(h, h) / (distance * distance), m);
+      sum += e->skew / distance;
     } else {
       // By the distance from the centroid.
       const double from_middle = distance + e->radius;
@@ -131,8 +132,9 @@ ExchangeArea exchange_by_contours(const PlaneElement& a, const PlaneElement& b, 
   }
 }
 
-ExchangeArea exchange_area(const PlaneElement& first, const PlaneElement& second, double eps) {
-  const PlaneElement a = in_front_of(first, second), b = in_front_of(second, first);
+namespace {
+
+ExchangeArea exchange_in_front(const PlaneElement& a, const PlaneElement& b, double eps) {
   if (a.is_empty() || b.is_empty()) return {};
   const Vec3d way = b.centroid - a.centroid;
   const double middle = length(way), distance = middle - a.radius - b.radius;
@@ -151,6 +153,14 @@ ExchangeArea exchange_area(const PlaneElement& first, const PlaneElement& second
   // Far away the contours cancel; the product may still be the better one.
   const ExchangeArea far = exchange_by_product(a, b, kMostProductNodes);
   return far.error < near.error ? far : near;
+}
+
+}  // namespace
+
+ExchangeArea exchange_area(const PlaneElement& first, const PlaneElement& second, double eps) {
+  ExchangeArea h = exchange_in_front(in_front_of(first, second), in_front_of(second, first), eps);
+  h.value = std::min(h.value, std::min(first.area, second.area));  // no factor is above 1
+  return h;
 }
 
 }  // namespace steradian::exchange

@@ -17,9 +17,6 @@ using Loop = std::vector<Vec3d>;
 constexpr double kHeightRounding = 0x1p-46;
 // Products of four lengths stay in the range of double.
 constexpr double kLargest = 1e50;
-// Corners further apart than this fraction of the size are no parallelogram: the rounding of coordinates far from the origin.
-constexpr double kSameHalf = 1e-12;
-
 Vec3d area_vector_of(const Loop& loop) {
   Vec3d sum{};
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
@@ -38,6 +35,7 @@ Loop without_repeated(const Loop& loop) {
 void measure(PlaneElement& e) {
   e.area = 0;
   e.half_a = e.half_b = {};
+  e.skew = 0;
   Vec3d moment{};
   if (e.contours.empty()) return;
   const Vec3d origin = e.contours[0][0];
@@ -59,8 +57,16 @@ void measure(PlaneElement& e) {
     for (const Vec3d& v : loop) e.radius = std::max(e.radius, length(v - e.centroid));
   if (e.contours.size() == 1 && e.contours[0].size() == 4) {
     const Loop& v = e.contours[0];
-    const Vec3d a = (v[1] - v[0]) * 0.5, b = (v[3] - v[0]) * 0.5, off = (v[2] - v[3]) * 0.5 - a;
-    if (length(off) <= kSameHalf * e.radius) e.half_a = a, e.half_b = b;
+    // Corners are c + a s + b t + q s t for s and t of -1 and 1.
+    const Vec3d a = (v[1] - v[0] + (v[2] - v[3])) * 0.25, b = (v[3] - v[0] + (v[2] - v[1])) * 0.25,
+                q = (v[2] - v[3] - (v[1] - v[0])) * 0.25;
+    if (length(q) <= kOffPlane * e.radius) {
+      e.half_a = a;
+      e.half_b = b;
+      const double whole = dot(cross(a, b), e.normal), along = std::fabs(dot(cross(q, b), e.normal) / whole),
+                   across = std::fabs(dot(cross(a, q), e.normal) / whole);
+      e.skew = 2 * ((along + across) * (length(a) + length(b)) + 0.5 * length(q));
+    }
   }
 }
 
@@ -110,8 +116,8 @@ PlaneElement make_element(const std::vector<Vec3d>& outline, const std::vector<s
   e.normal = normalized(area);
   const Vec3d middle = middle_of(loop);
   const auto check_plane = [&](const Loop& l) {
-    if (largest_height(l, middle, e.normal) > kOffPlane * size)
-      throw Error(place, "is bent by more than 1e-6 of its size", "split it into triangles");
+    e.off_plane = std::max(e.off_plane, largest_height(l, middle, e.normal));
+    if (e.off_plane > kOffPlane * size) throw Error(place, "is bent by more than 1e-6 of its size", "split it into triangles");
   };
   check_plane(loop);
   e.contours.push_back(loop);
@@ -128,8 +134,14 @@ PlaneElement make_element(const std::vector<Vec3d>& outline, const std::vector<s
   return e;
 }
 
-PlaneElement cut_element(const PlaneElement& element, Vec3d point, Vec3d normal, int side) {
-  const double near = kHeightRounding * (length(element.centroid - point) + element.radius);
+namespace {
+
+double height_rounding(const PlaneElement& element, Vec3d point) {
+  return kHeightRounding * (length(element.centroid - point) + element.radius);
+}
+
+// Cuts; heights up to `near` are 0.
+PlaneElement cut_near(const PlaneElement& element, Vec3d point, Vec3d normal, int side, double near) {
   bool all = true, none = true;
   std::vector<std::vector<double>> heights;
   for (const Loop& loop : element.contours) {
@@ -146,6 +158,7 @@ PlaneElement cut_element(const PlaneElement& element, Vec3d point, Vec3d normal,
   if (all) return element;
   PlaneElement part;
   part.normal = element.normal;
+  part.off_plane = element.off_plane;
   // Sutherland and Hodgman, "Reentrant polygon clipping", 1974, contour by contour. Edges along the plane may run forth and back; they
   // cancel in every integral.
   for (std::size_t c = 0; c < element.contours.size(); ++c) {
@@ -166,8 +179,15 @@ PlaneElement cut_element(const PlaneElement& element, Vec3d point, Vec3d normal,
   return part;
 }
 
+}  // namespace
+
+PlaneElement cut_element(const PlaneElement& element, Vec3d point, Vec3d normal, int side) {
+  return cut_near(element, point, normal, side, height_rounding(element, point));
+}
+
 PlaneElement in_front_of(const PlaneElement& element, const PlaneElement& plane) {
-  return cut_element(element, plane.centroid, plane.normal, 1);
+  return cut_near(element, plane.centroid, plane.normal, 1,
+                  height_rounding(element, plane.centroid) + kInPlane * (element.off_plane + plane.off_plane));
 }
 
 PlaneElement turned_over(const PlaneElement& element) {

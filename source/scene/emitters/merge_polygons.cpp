@@ -188,7 +188,7 @@ MergedPolygons merge_coplanar(const std::vector<Triangle>& triangles, const std:
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (!has_area(triangles[t])) {
       taken[t] = true;
-      ++result.without_area;
+      if (result.without_area++ == 0) result.first_without_area = t;
       continue;
     }
     for (std::size_t c = 0; c < 3; ++c) {

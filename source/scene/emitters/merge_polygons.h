@@ -22,6 +22,7 @@ struct MergedPolygon {
 struct MergedPolygons {
   std::vector<MergedPolygon> polygons;  // in the order of their first triangles
   std::size_t without_area = 0;         // triangles skipped: thinner than the rounding of their coordinates
+  std::size_t first_without_area = 0;   // the first of them
 };
 
 // Triangles are adjacent if two corners are equal to the last bit. A patch grows from its largest triangle. It takes triangles that face
