@@ -137,14 +137,14 @@ class MapBake {
     return blocks;
   }
 
-  // The factors of a grid of n texels have about 8 n log2 n numbers. Iterations have the matrix and a few vectors.
+  // An unknown has a row of the matrix, of a second one while the matrix grows, and of a few vectors. Seams have longer rows, and a
+  // preconditioner of as many entries.
   void take_memory_of(const std::vector<Group>& groups) {
     std::uint64_t most_of_fit = 0, most_of_samples = 0;
     std::uint32_t chart_of_fit = 0, chart_of_samples = 0;
     for (const auto& group : groups) {
       const std::unique_ptr<const FitSpace> space = space_of(group);
-      const double n = static_cast<double>(space->count());
-      const auto fit = static_cast<std::uint64_t>(n * (space->has_seams() ? 200 + 100 * std::log2(n) : 600));
+      const std::uint64_t fit = space->count() * (space->has_seams() ? 2000 : 600);
       if (fit > most_of_fit) most_of_fit = fit, chart_of_fit = group.front();
       const std::uint64_t samples = std::max(blocks_in(group), kMostBlocks) * kBytesPerBlock;
       if (samples > most_of_samples) most_of_samples = samples, chart_of_samples = group.front();

@@ -20,7 +20,8 @@ using scene::quad_mesh;
 Scene scene_with_sheet() {
   Scene scene;
   scene.materials = {grey(0.5f)};
-  scene.meshes = {quad_mesh({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, 0), quad_mesh({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 0)};
+  scene.meshes = {quad_mesh({-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, 0),
+                  quad_mesh({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 0)};
   scene.meshes[1].name = "sheet";
   PunctualLight sun;
   sun.kind = PunctualKind::directional;
