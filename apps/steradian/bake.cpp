@@ -159,7 +159,7 @@ void add_bake(CommandLine& line) {
   verb.add("SCENE", options->scene, "scene file").required();
   verb.add("-o,--output", options->output, "baked scene: .glb or .gltf; its map is the .exr beside it").writes(Writes::file).required();
   verb.add("--target", options->target, "a light map, or the attribute _IRRADIANCE").words({"texture", "vertex"}).group("Map");
-  verb.add("--texels", options->bake.texels, "texels a metre").range(1e-3, 1e4).group("Map");
+  verb.add("--texels", options->bake.texels, "texels a metre").range(bake::kLeastTexels, bake::kMostTexels).group("Map");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--group", options->groups, "lights whose names begin so get a map of their own; may be repeated").group("Light");
   verb.add("--direct", options->direct, "light of lamps and environment").words({"on", "off"}).group("Light");

@@ -24,6 +24,9 @@ namespace steradian::bake {
 namespace {
 
 constexpr std::size_t kMostBlocks = std::size_t{1} << 12;  // of samples in memory at a time, unless one group has more
+constexpr std::uint64_t kChartBytes = 600;                 // memory of a triangle, its edges and its place in a chart: 650 with vertices
+// Memory of a block of samples: itself, its light, and the cells of the chart from which it is made.
+constexpr std::uint64_t kBytesPerBlock = sizeof(PlacedBlock) + sizeof(LitBlock) + 16 * kBytesPerCell;
 
 double luminance_of(Vec3d v) { return luminance(v); }
 
@@ -67,15 +70,22 @@ class MapBake {
 
   // Finds the charts, cuts them at contacts and gives them texels.
   void prepare() {
+    if (!(options_.texels >= kLeastTexels && options_.texels <= kMostTexels))
+      throw Error(place_, "a light map of " + std::to_string(options_.texels) + " texels a metre is out of range", "give 0.001 to 10000");
+    std::uint64_t triangles = 0;
+    for (const Mesh& mesh : scene_.meshes) triangles += mesh.triangle_count();
+    budget_.take_memory(place_, "the charts of its triangles", triangles * kChartBytes);
     Charts charts = charts_of(scene_, place_);
     map_.warnings = std::move(charts.warnings);
     map_.charts = std::move(charts.charts);
     if (map_.charts.empty()) throw Error(place_, "has no surface that takes light", "bake a scene with lit meshes");
-    CutScene cut = cut_at_contacts(std::move(scene_), map_.charts, options_.texels);
+    CutScene cut = cut_at_contacts(std::move(scene_), map_.charts, options_.texels, budget_.limits().work);
     scene_ = std::move(cut.scene);
     map_.cuts = std::move(cut.corners);
     map_.warnings.insert(map_.warnings.end(), cut.warnings.begin(), cut.warnings.end());
-    const MapSize size = place_charts(map_.charts, options_.texels, place_);
+    const MapSize size =
+        place_charts(scene_, map_.charts, options_.texels, place_,
+                     options_.target == BakeTarget::vertex ? "lower --texels" : "lower --texels, or choose --target vertex");
     stats_.cut = cut.cut;
     stats_.charts = map_.charts.size();
     if (options_.target == BakeTarget::vertex) {
@@ -127,18 +137,23 @@ class MapBake {
     return blocks;
   }
 
-  // The factors of a grid of n texels have about 8 n log2 n numbers.
+  // An unknown has a row of the matrix, of a second one while the matrix grows, and of a few vectors. Seams have longer rows, and a
+  // preconditioner of as many entries.
   void take_memory_of(const std::vector<Group>& groups) {
-    std::uint64_t most = 0;
-    std::uint32_t chart = 0;
+    std::uint64_t most_of_fit = 0, most_of_samples = 0;
+    std::uint32_t chart_of_fit = 0, chart_of_samples = 0;
     for (const auto& group : groups) {
-      const double n = static_cast<double>(space_of(group)->count());
-      const auto bytes = static_cast<std::uint64_t>(n * (200 + 100 * std::log2(n)));
-      if (bytes > most) most = bytes, chart = group.front();
+      const std::unique_ptr<const FitSpace> space = space_of(group);
+      const std::uint64_t fit = space->count() * (space->has_seams() ? 2000 : 600);
+      if (fit > most_of_fit) most_of_fit = fit, chart_of_fit = group.front();
+      const std::uint64_t samples = std::max(blocks_in(group), kMostBlocks) * kBytesPerBlock;
+      if (samples > most_of_samples) most_of_samples = samples, chart_of_samples = group.front();
     }
-    budget_.take_memory(place_ + ": " + name_of(scene_.meshes[map_.charts[chart].mesh], map_.charts[chart].mesh), "the fit of its texels",
-                        most);
-    budget_.take_memory(place_, "the samples of the map", kMostBlocks * (sizeof(PlacedBlock) + sizeof(LitBlock)));
+    const auto place = [&](std::uint32_t chart) {
+      return place_ + ": " + name_of(scene_.meshes[map_.charts[chart].mesh], map_.charts[chart].mesh);
+    };
+    budget_.take_memory(place(chart_of_fit), "the fit of its texels", most_of_fit);
+    budget_.take_memory(place(chart_of_samples), "the samples of its charts", most_of_samples);
   }
 
   // number: of the batch, which does not depend on the part.

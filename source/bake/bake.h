@@ -17,6 +17,8 @@ enum class BakedDirect { on, off };
 // texture: a map of texels. vertex: values at the vertices of the meshes.
 enum class BakeTarget { texture, vertex };
 
+inline constexpr double kLeastTexels = 1e-3, kMostTexels = 1e4;  // a metre
+
 struct BakeOptions {
   double texels = 16;  // a metre; for vertices: that of the places where light is computed, four a texel
   BakedDirect direct = BakedDirect::on;

@@ -20,6 +20,7 @@ class FitSpace {
  public:
   virtual ~FitSpace() = default;
   virtual std::size_t count() const = 0;
+  virtual bool has_seams() const = 0;  // as conditions, which make the fit stiff
   virtual std::array<Hat, 4> at(std::uint32_t chart, const Sample& sample) const = 0;
   // Adds the conditions beside the light: smoothness, and seams.
   virtual void add_conditions(HatFit& fit) const = 0;
@@ -48,6 +49,7 @@ class TexelSpace : public FitSpace {
              MapTexels& map);
 
   std::size_t count() const override { return count_; }
+  bool has_seams() const override { return !seams_.empty(); }
   std::array<Hat, 4> at(std::uint32_t chart, const Sample& sample) const override { return at(chart, sample.at); }
   void add_conditions(HatFit& fit) const override;
   void store(const std::vector<Vec3d>& values, const std::vector<Vec3d>& errors) const override;
@@ -83,6 +85,7 @@ class VertexSpace : public FitSpace {
   VertexSpace(const Mesh& mesh, const std::vector<Chart>& charts, const std::vector<std::uint32_t>& group, CornerLight& light);
 
   std::size_t count() const override { return count_; }
+  bool has_seams() const override { return false; }
   std::array<Hat, 4> at(std::uint32_t chart, const Sample& sample) const override;
   void add_conditions(HatFit& fit) const override;
   void store(const std::vector<Vec3d>& values, const std::vector<Vec3d>& errors) const override;

@@ -18,35 +18,35 @@ constexpr double kHold = 1e9;                                // weight that hold
 constexpr double kResidual = 1e-10;                          // at which iterations end
 constexpr double kSmallest = 1e-4;                           // of the largest value: nearer to zero, a negative one is cut off
 
-// Hats alone are well conditioned, so that few iterations solve them. Seams are stiff, and are factorized.
+// Hats alone are well conditioned, so that few iterations solve them. Seams are stiff, and want a better preconditioner.
 class HatSolver {
  public:
-  HatSolver(const Matrix& matrix, bool has_seams) : has_seams_(has_seams) {
-    if (has_seams_) factors_.analyzePattern(matrix);
-    change(matrix);
-  }
+  HatSolver(const Matrix& matrix, bool has_seams) : has_seams_(has_seams) { change(matrix); }
 
-  // Takes a matrix of the same pattern.
   void change(const Matrix& matrix) {
     matrix_ = matrix;
-    if (!has_seams_) {
-      iterations_.setTolerance(kResidual);
-      iterations_.compute(matrix_);
-      return;
-    }
-    factors_.factorize(matrix_);
-    if (factors_.info() != Eigen::Success) throw Error("the fit", "has no solution", "report this scene as a bug");
+    if (has_seams_)
+      prepare(stiff_);
+    else
+      prepare(iterations_);
   }
 
   Eigen::VectorXd solve(const Eigen::VectorXd& right, const Eigen::VectorXd& guess) {
     if (right.isZero(0)) return Eigen::VectorXd::Zero(right.size());
-    return has_seams_ ? Eigen::VectorXd(factors_.solve(right)) : Eigen::VectorXd(iterations_.solveWithGuess(right, guess));
+    return has_seams_ ? Eigen::VectorXd(stiff_.solveWithGuess(right, guess)) : Eigen::VectorXd(iterations_.solveWithGuess(right, guess));
   }
 
  private:
+  template <class Iterations>
+  void prepare(Iterations& iterations) {
+    iterations.setTolerance(kResidual);
+    iterations.compute(matrix_);
+    if (iterations.info() != Eigen::Success) throw Error("the fit", "has no solution", "report this scene as a bug");
+  }
+
   const bool has_seams_;
   Matrix matrix_;
-  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factors_;
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower, Eigen::IncompleteCholesky<double, Eigen::Lower>> stiff_;
   Eigen::ConjugateGradient<Matrix, Eigen::Lower> iterations_;
 };
 

@@ -52,6 +52,7 @@ struct SampleCell {
   bool has_center = false;  // a part holds the cell's centre
   std::uint32_t at_center = 0;
 };
+static_assert(sizeof(SampleCell) <= kBytesPerCell);
 
 }  // namespace
 

@@ -9,7 +9,8 @@
 
 namespace steradian::bake {
 
-inline constexpr int kCellsPerTexel = 2;  // of the grid, along an axis
+inline constexpr int kCellsPerTexel = 2;            // of the grid, along an axis
+inline constexpr std::uint64_t kBytesPerCell = 64;  // memory of a cell of the grid while the samples are found
 
 struct Sample {
   Vec2d at;                    // in the map [texels]

@@ -26,15 +26,16 @@ void move(Chart& chart, Moved moved) {
 
 }  // namespace
 
-MapSize place_charts(std::vector<Chart>& charts, double texels, const std::string& place) {
-  const auto refuse = [&](double width, double height) {
-    throw Error(place,
+MapSize place_charts(const Scene& scene, std::vector<Chart>& charts, double texels, const std::string& place, const std::string& advice) {
+  const auto refuse = [&](const std::string& where, double width, double height) {
+    throw Error(where,
                 "the map would have " + std::to_string(static_cast<long long>(width)) + " x " +
                     std::to_string(static_cast<long long>(height)) + " texels, the most is " + std::to_string(kLargestMap) + " a side",
-                "lower --texels, or choose --target vertex");
+                advice);
   };
   double area = 0;
   int widest = 0;
+  std::uint32_t of_widest = 0;  // its mesh
   for (Chart& chart : charts) {
     Vec2d size = chart.box().size();
     if (size.y > size.x) {  // lying charts pack better
@@ -44,10 +45,11 @@ MapSize place_charts(std::vector<Chart>& charts, double texels, const std::strin
     chart.width = (chart.is_covered ? 1 : cells_for(size.x * texels)) + 1;
     chart.height = (chart.is_covered ? 1 : cells_for(size.y * texels)) + 1;
     area += static_cast<double>(chart.width) * chart.height;
-    widest = std::max(widest, chart.width);
+    if (chart.width > widest) widest = chart.width, of_widest = chart.mesh;
   }
-  if (widest > kLargestMap || area > static_cast<double>(kLargestMap) * kLargestMap)
-    refuse(std::max<double>(widest, std::sqrt(area)), std::sqrt(area));
+  if (widest > kLargestMap)
+    refuse(place + ": " + name_of(scene.meshes[of_widest], of_widest), std::max<double>(widest, std::sqrt(area)), std::sqrt(area));
+  if (area > static_cast<double>(kLargestMap) * kLargestMap) refuse(place, std::sqrt(area), std::sqrt(area));
   // Shelves: the highest charts first, each behind the last one, or on a new shelf.
   std::vector<std::uint32_t> order(charts.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -64,10 +66,10 @@ MapSize place_charts(std::vector<Chart>& charts, double texels, const std::strin
     chart.y = shelf;
     x += chart.width;
     map.height = std::max(map.height, shelf + chart.height);
-    if (map.height > kLargestMap) refuse(map.width, map.height);
+    if (map.height > kLargestMap) refuse(place, map.width, map.height);
   }
   map.height = std::max((map.height + 3) / 4 * 4, 4);
-  if (map.height > kLargestMap) refuse(map.width, map.height);
+  if (map.height > kLargestMap) refuse(place, map.width, map.height);
   for (Chart& chart : charts) {
     const Box2d box = chart.box();
     const auto scale = [](int cells, double size) { return size > 0 ? (cells - 2 * kInside) / size : 1; };

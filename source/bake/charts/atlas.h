@@ -15,9 +15,11 @@ struct MapSize {
 };
 
 // Makes the charts' coordinates texels. Each chart is stretched to a whole number of texels, so that its first and last texel centres lie
-// on its border. Throws Error(place, ...) for maps of more than kLargestMap a side.
+// on its border. Throws Error(place, ...) for maps of more than kLargestMap a side, with the name of the mesh whose chart is too large
+// alone.
 //
 //   texels  a metre
-MapSize place_charts(std::vector<Chart>& charts, double texels, const std::string& place);
+//   advice  what to do about a map that is too large
+MapSize place_charts(const Scene& scene, std::vector<Chart>& charts, double texels, const std::string& place, const std::string& advice);
 
 }  // namespace steradian::bake

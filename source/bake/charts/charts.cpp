@@ -23,6 +23,27 @@ double longest_edge(const Mesh& mesh, std::size_t t) {
   return std::max({length(b - a), length(c - b), length(a - c)});
 }
 
+void check_mesh(const Mesh& mesh, std::uint32_t number, const std::string& place) {
+  const std::size_t count = mesh.positions.size();
+  const auto refuse = [&](const std::string& problem, const std::string& advice) {
+    throw Error(place + ": " + name_of(mesh, number), problem, advice);
+  };
+  if (mesh.normals.size() != count)
+    refuse("has " + std::to_string(mesh.normals.size()) + " normals for " + std::to_string(count) + " positions",
+           "give each position a unit normal");
+  if (!mesh.texcoords[1].empty() && mesh.texcoords[1].size() != count)
+    refuse("has " + std::to_string(mesh.texcoords[1].size()) + " coordinates in TEXCOORD_1 for " + std::to_string(count) + " positions",
+           "give each position its coordinates, or none");
+  for (const std::uint32_t i : mesh.indices)
+    if (i >= count) refuse("has a triangle with vertex " + std::to_string(i) + " of " + std::to_string(count), "mend its indices");
+  const auto is_finite = [](Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2f uv = mesh.texcoords[1].empty() ? Vec2f{} : mesh.texcoords[1][i];
+    if (!is_finite(mesh.positions[i]) || !is_finite(mesh.normals[i]) || !std::isfinite(uv.x) || !std::isfinite(uv.y))
+      refuse("has a vertex that is not finite, number " + std::to_string(i), "mend its position, normal and TEXCOORD_1");
+  }
+}
+
 bool has_area(const Mesh& mesh, std::size_t t) {
   const double edge = longest_edge(mesh, t);
   return length(across(mesh, t)) > kThinnest * edge * edge;
@@ -208,9 +229,11 @@ Charts charts_of(const Scene& scene, const std::string& place) {
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
     if (!takes_light(scene, mesh)) continue;
+    check_mesh(mesh, m, place);
     MeshCharts work(scene, m, place);
     result.without_area += work.without_area();
     std::vector<Chart> charts = mesh.texcoords[1].empty() ? work.found() : work.given();
+    if (charts.empty()) result.warnings.push_back(name_of(mesh, m) + " has no triangle with an area: it gets no light map");
     if (charts.size() > kManyCharts)
       result.warnings.push_back(name_of(mesh, m) + " has " + std::to_string(mesh.triangle_count()) + " triangles in " +
                                 std::to_string(charts.size()) + " charts: smooth normals or --target vertex give a smaller map");

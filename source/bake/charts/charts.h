@@ -20,7 +20,8 @@ struct Charts {
   std::size_t without_area = 0;       // triangles in no chart
 };
 
-// Throws Error(place, ...) with the mesh's name where its texture coordinates fold, overlap in a chart, or have no area.
+// Throws Error(place, ...) with the mesh's name where its vertices are incomplete or not finite, and where its texture coordinates fold,
+// overlap in a chart, or have no area.
 Charts charts_of(const Scene& scene, const std::string& place);
 
 }  // namespace steradian::bake

@@ -52,6 +52,7 @@ bool ContactRegions::cut(Vec2d from, Vec2d to) {
   contacts_.push_back({from, to});
   const Vec2d direction = (to - from) / l;
   const auto count = static_cast<std::uint32_t>(pieces_.size());
+  count_steps();
   for (std::uint32_t n = 0; n < count; ++n) {
     const std::vector<Vec2d>& outline = pieces_[n].outline;
     double low = 1e300, high = -1e300, first = 0, last = l;
@@ -79,6 +80,7 @@ bool ContactRegions::cut(Vec2d from, Vec2d to) {
 
 // Splits a piece along a whole line, and joins its halves there.
 void ContactRegions::split(std::uint32_t piece, Vec2d from, Vec2d direction) {
+  count_steps();
   std::vector<Vec2d> left = half_of(pieces_[piece].outline, from, direction, 1),
                      right = half_of(pieces_[piece].outline, from, direction, -1);
   const auto other = static_cast<std::uint32_t>(pieces_.size());

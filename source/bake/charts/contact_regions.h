@@ -20,6 +20,8 @@ class ContactRegions {
 
   // Cuts the pieces that a line crosses. Returns false where there would be more than kMostPieces.
   bool cut(Vec2d from, Vec2d to);
+  // The pieces and links that all cuts looked at.
+  std::uint64_t steps() const { return steps_; }
 
   // Cuts all pieces along the whole line through two points, so that the two sides are regions of their own. Where no contact lies on the
   // line, they have doors. To be called after all cuts.
@@ -43,8 +45,10 @@ class ContactRegions {
   void split(std::uint32_t piece, Vec2d from, Vec2d direction);
   void part(Vec2d from, Vec2d direction, double length);
   void split_links(std::vector<Link>& links, std::uint32_t piece, std::uint32_t other, Vec2d from, Vec2d direction) const;
+  void count_steps() { steps_ += pieces_.size() + links_.size() + doors_.size(); }
 
   const double tolerance_;
+  std::uint64_t steps_ = 0;
   std::vector<ChartPiece> pieces_;
   std::vector<Link> links_, doors_;
   std::vector<std::array<Vec2d, 2>> contacts_;

@@ -17,15 +17,16 @@
 namespace steradian::bake {
 namespace {
 
-constexpr double kRoundings = 0x1p-19;  // of the largest coordinate: heights in which single precision is sure of above and below
-constexpr double kLeastHeight = 1e-3;   // of a texel
-constexpr double kTogether = 4;         // heights: nearer points count as one, so that slanted walls do not cut slivers off their floor
-constexpr double kLeastRegion = 0.01;   // of a texel's area, and of a chart's
-constexpr double kLeastChart = 1;       // texel: leaves that cut through each other are not cut
-constexpr double kLeastScreen = 4;      // texels: shorter contacts, such as those of legs, mix little light
-constexpr double kThickest = 2;         // texels: no texel reaches across a thicker wall
-constexpr std::size_t kLooks = 4;       // pieces of a region from which rays look
-constexpr std::size_t kRays = 32;       // of each
+constexpr double kRoundings = 0x1p-19;    // of the largest coordinate: heights in which single precision is sure of above and below
+constexpr double kLeastHeight = 1e-3;     // of a texel
+constexpr double kTogether = 4;           // heights: nearer points count as one, so that slanted walls do not cut slivers off their floor
+constexpr double kLeastRegion = 0.01;     // of a texel's area, and of a chart's
+constexpr double kLeastChart = 1;         // texel: leaves that cut through each other are not cut
+constexpr double kLeastScreen = 4;        // texels: shorter contacts, such as those of legs, mix little light
+constexpr double kThickest = 2;           // texels: no texel reaches across a thicker wall
+constexpr std::size_t kLooks = 4;         // pieces of a region from which rays look
+constexpr std::size_t kRays = 32;         // of each
+constexpr std::uint64_t kRaySteps = 200;  // of work for a ray
 
 struct ContactLine {
   Vec2d from, to;
@@ -116,8 +117,9 @@ struct Parted {
 // Judges the charts of a scene that is not cut yet.
 class ContactJudge {
  public:
-  ContactJudge(const Scene& scene, double texels)
-      : scene_(scene), sections_(scene), texel_(1 / texels), least_(kLeastRegion * texel_ * texel_) {
+  // work: steps that all charts together may take
+  ContactJudge(const Scene& scene, double texels, std::uint64_t work)
+      : scene_(scene), sections_(scene), texel_(1 / texels), least_(kLeastRegion * texel_ * texel_), work_(work) {
     double reach = 0;
     for (const Mesh& mesh : scene.meshes)
       for (const Vec3f p : mesh.positions)
@@ -133,13 +135,19 @@ class ContactJudge {
     if (area < kLeastChart * texel_ * texel_) return {};
     const std::vector<ContactLine> lines = sections_.above(chart, border_of(chart), height_);
     if (lines.empty()) return {};
+    if (work_ == 0) return give_up(chart);
     ContactRegions regions(chart, kTogether * height_);
-    for (const ContactLine& line : lines)
-      if (!regions.cut(line.from, line.to)) {
+    for (const ContactLine& line : lines) {
+      const bool few = regions.cut(line.from, line.to);
+      if (regions.steps() > work_) return give_up(chart);
+      if (!few) {
         warnings.push_back("more than " + std::to_string(ContactRegions::kMostPieces) + " contacts on one plane of " +
                            name_of(scene_.meshes[chart.mesh], chart.mesh) + ": its light may spread below the things on it");
+        spend(regions.steps());
         return {};
       }
+    }
+    spend(regions.steps() + lines.size() * regions.pieces().size());
     Parted result = judged(chart, regions);
     const std::vector<ContactLine> through = screens(lines, regions, result);
     for (const ContactLine& line : through) regions.cut_through(line.from, line.to);
@@ -148,16 +156,35 @@ class ContactJudge {
     return result;
   }
 
+  // Appends a sentence about the charts whose contacts take too long.
+  void warn(std::vector<std::string>& warnings) const {
+    if (given_up_ == 0) return;
+    warnings.push_back("the contacts on " + std::to_string(given_up_) + " planes take too long, the first of them of " +
+                       name_of(scene_.meshes[first_given_up_], first_given_up_) +
+                       ": its light may spread below the things on it (raise the limit with --max-work)");
+  }
+
  private:
+  void spend(std::uint64_t steps) { work_ -= std::min(steps, work_); }
+  std::optional<Parted> give_up(const Chart& chart) {
+    if (given_up_++ == 0) first_given_up_ = chart.mesh;
+    work_ = 0;
+    return {};
+  }
+
   // The regions, and which of them are lit. No regions: there is one alone.
   Parted judged(const Chart& chart, const ContactRegions& regions) {
     Parted result{regions.pieces(), regions.regions(), {}, regions.doors()};
     const std::uint32_t count = 1 + *std::max_element(result.region.begin(), result.region.end());
     std::vector<double> area(count, 0.0);
-    for (std::size_t n = 0; n < result.pieces.size(); ++n) area[result.region[n]] += area_of(result.pieces[n].outline);
+    std::vector<std::vector<std::uint32_t>> pieces(count);
+    for (std::uint32_t n = 0; n < result.pieces.size(); ++n) {
+      area[result.region[n]] += area_of(result.pieces[n].outline);
+      pieces[result.region[n]].push_back(n);
+    }
     const double least = std::min(least_, kLeastRegion * std::accumulate(area.begin(), area.end(), 0.0));
     for (std::uint32_t r = 0; r < count; ++r)
-      if (area[r] >= least && (count == 1 || !is_covered(chart, result, r))) result.lit.push_back(r);
+      if (area[r] >= least && (count == 1 || !is_covered(chart, result, std::move(pieces[r])))) result.lit.push_back(r);
     return result;
   }
 
@@ -205,11 +232,10 @@ class ContactJudge {
   }
 
   // True if all that a region sees is the backs of triangles: it lies in something that stands on the chart.
-  bool is_covered(const Chart& chart, const Parted& parted, std::uint32_t region) {
+  //
+  //   own  its pieces
+  bool is_covered(const Chart& chart, const Parted& parted, std::vector<std::uint32_t> own) {
     if (!rays_) rays_ = std::make_unique<RayScene>(scene_);
-    std::vector<std::uint32_t> own;
-    for (std::uint32_t n = 0; n < parted.pieces.size(); ++n)
-      if (parted.region[n] == region) own.push_back(n);
     std::stable_sort(own.begin(), own.end(), [&](std::uint32_t a, std::uint32_t b) {
       return area_of(parted.pieces[a].outline) > area_of(parted.pieces[b].outline);
     });
@@ -222,6 +248,7 @@ class ContactJudge {
         const auto [square, v] = fibonacci_place(k, kRays, 0.0);
         const double r = std::sqrt(square), phi = 2 * std::numbers::pi * v;
         const Vec3d to = plane.x * (r * std::cos(phi)) + plane.y * (r * std::sin(phi)) + plane.normal * std::sqrt(1 - square);
+        spend(kRaySteps);
         RTCRayHit hit;
         if (!rays_->intersect(static_cast<Vec3f>(from), static_cast<Vec3f>(to), hit)) return false;
         const Vec3d normal = across(scene_.meshes[hit.hit.geomID], hit.hit.primID);
@@ -235,21 +262,24 @@ class ContactJudge {
   const ContactSections sections_;
   const double texel_, least_;
   double height_ = 0;
+  std::uint64_t work_;
+  std::size_t given_up_ = 0;          // charts
+  std::uint32_t first_given_up_ = 0;  // mesh of the first
   std::unique_ptr<RayScene> rays_;
   std::uint32_t mesh_ = 0;  // of the neighbours
   std::optional<MeshNeighbours> neighbours_;
 };
 
-// Applies the cuts to the meshes.
-class MeshCutter {
+// Applies the cuts to the charts.
+class ChartCutter {
  public:
-  explicit MeshCutter(CutScene& to) : to_(to) {}
+  explicit ChartCutter(CutScene& to) : cutter_(to) {}
 
   // The charts in the place of one that is parted: one for each lit region, and one for all others.
   std::vector<Chart> cut(const Chart& chart, const Parted& parted, std::uint32_t number) {
     std::vector<Chart> charts;
     std::map<std::uint32_t, std::size_t> chart_of;  // by lit region
-    vertices_.clear();
+    cutter_.begin_part();
     std::vector<std::uint8_t> replaced(chart.triangles.size(), 0);
     const auto add = [&](Chart& to, const ChartPiece& piece) {
       const std::uint32_t source = chart.triangles[piece.number].triangle;
@@ -258,7 +288,7 @@ class MeshCutter {
         if (!(doubled_area(at) > 0)) continue;
         std::array<CutCorner, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = corner_at(chart.triangles[piece.number], source, at[k]);
-        to.triangles.push_back({put(chart.mesh, source, replaced[piece.number] == 0, corners), at});
+        to.triangles.push_back({cutter_.put(chart.mesh, source, replaced[piece.number] == 0, corners), at});
         replaced[piece.number] = 1;
       }
     };
@@ -296,76 +326,24 @@ class MeshCutter {
     return {source, {1 - u - v, u, v}};
   }
 
-  // Stores a triangle of a mesh in the place of the one that it is cut from, or behind all others. Returns its number.
-  std::uint32_t put(std::uint32_t m, std::uint32_t source, bool in_place, const std::array<CutCorner, 3>& corners) {
-    Mesh& mesh = to_.scene.meshes[m];
-    auto& from = to_.corners[m];
-    if (from.empty()) {
-      before_[m] = mesh.indices;
-      for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) from.push_back({{{t, {1, 0, 0}}, {t, {0, 1, 0}}, {t, {0, 0, 1}}}});
-    }
-    std::array<std::uint32_t, 3> vertices;
-    for (std::size_t k = 0; k < 3; ++k) vertices[k] = vertex(mesh, m, corners[k]);
-    const auto number = in_place ? source : static_cast<std::uint32_t>(mesh.triangle_count());
-    if (!in_place) {
-      mesh.indices.resize(mesh.indices.size() + 3);
-      from.emplace_back();
-      if (mesh.is_emitter()) mesh.triangle_lights.push_back(mesh.triangle_lights[source]);
-    }
-    std::copy(vertices.begin(), vertices.end(), mesh.indices.begin() + 3 * static_cast<std::ptrdiff_t>(number));
-    from[number] = corners;
-    return number;
-  }
-
-  // A corner's vertex: that of the uncut triangle, or a new one between its vertices.
-  std::uint32_t vertex(Mesh& mesh, std::uint32_t m, const CutCorner& corner) {
-    const std::uint32_t* old = before_[m].data() + 3 * std::size_t{corner.triangle};
-    constexpr double kAtCorner = 1 - 1e-9;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (corner.weights[k] >= kAtCorner) return old[k];
-    const auto [it, fresh] = vertices_.try_emplace({corner.triangle, corner.weights}, static_cast<std::uint32_t>(mesh.positions.size()));
-    if (!fresh) return it->second;
-    Vec3d place{}, normal{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      place += static_cast<Vec3d>(mesh.positions[old[k]]) * corner.weights[k];
-      normal += static_cast<Vec3d>(mesh.normals[old[k]]) * corner.weights[k];
-    }
-    mesh.positions.push_back(static_cast<Vec3f>(place));
-    mesh.normals.push_back(static_cast<Vec3f>(normalized(normal)));
-    if (!mesh.tangents.empty()) mesh.tangents.push_back(mesh.tangents[old[0]]);
-    const auto mean_of = [&](auto member) {
-      float sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) sum += member(old[k]) * static_cast<float>(corner.weights[k]);
-      return sum;
-    };
-    for (std::vector<Vec2f>& set : mesh.texcoords)
-      if (!set.empty()) set.push_back({mean_of([&](auto i) { return set[i].x; }), mean_of([&](auto i) { return set[i].y; })});
-    const std::vector<Vec4f>& colors = mesh.colors;
-    if (!colors.empty())
-      mesh.colors.push_back({mean_of([&](auto i) { return colors[i].x; }), mean_of([&](auto i) { return colors[i].y; }),
-                             mean_of([&](auto i) { return colors[i].z; }), mean_of([&](auto i) { return colors[i].w; })});
-    return it->second;
-  }
-
-  CutScene& to_;
+  MeshCutter cutter_;
   std::uint32_t doors_ = 0;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> before_;  // indices of the meshes that are being cut
-  std::map<std::pair<std::uint32_t, std::array<double, 3>>, std::uint32_t> vertices_;
 };
 
 }  // namespace
 
-CutScene cut_at_contacts(Scene scene, std::vector<Chart>& charts, double texels) {
+CutScene cut_at_contacts(Scene scene, std::vector<Chart>& charts, double texels, std::uint64_t work) {
   CutScene result;
   result.corners.resize(scene.meshes.size());
   std::vector<std::optional<Parted>> parted(charts.size());
   {
-    ContactJudge judge(scene, texels);
+    ContactJudge judge(scene, texels, work);
     for (std::size_t c = 0; c < charts.size(); ++c)
       if (charts[c].is_flat) parted[c] = judge.parted(charts[c], result.warnings);
+    judge.warn(result.warnings);
   }
   result.scene = std::move(scene);
-  MeshCutter cutter(result);
+  ChartCutter cutter(result);
   std::vector<Chart> all;
   for (std::size_t c = 0; c < charts.size(); ++c) {
     if (parted[c] && parted[c]->lit.size() > 1) {

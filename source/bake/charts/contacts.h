@@ -4,32 +4,19 @@
 // each with texels of its own, and its mesh gets the cut triangles. What stands on a chart without parting it only covers a part of it.
 #pragma once
 
-#include <array>
-#include <string>
+#include <cstdint>
 #include <vector>
 
 #include "bake/charts/chart.h"
+#include "bake/charts/mesh_cutter.h"
 #include "render/surface/ray_scene.h"
 
 namespace steradian::bake {
 
-// A corner of a triangle of a cut mesh, in the uncut one.
-struct CutCorner {
-  std::uint32_t triangle = 0;
-  std::array<double, 3> weights{};  // of its corners
-};
-
-// The meshes that were cut, and where their triangles come from.
-struct CutScene {
-  Scene scene;
-  std::vector<std::vector<std::array<CutCorner, 3>>> corners;  // by mesh and triangle; empty for a mesh that was not cut
-  std::vector<std::string> warnings;
-  std::size_t cut = 0;  // charts
-};
-
 // Cuts the charts, which are still in metres, and replaces them by those of the cut scene.
 //
 //   texels  a metre: regions of less than a hundredth of a texel do not count
-CutScene cut_at_contacts(Scene scene, std::vector<Chart>& charts, double texels);
+//   work    steps of about a nanosecond; where contacts take more, the other charts stay whole, and a warning says so
+CutScene cut_at_contacts(Scene scene, std::vector<Chart>& charts, double texels, std::uint64_t work);
 
 }  // namespace steradian::bake
