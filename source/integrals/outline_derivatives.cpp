@@ -92,7 +92,7 @@ class PieceMoments {
 
  private:
   static constexpr double kLongest = 0.4, kPrecision = 1e-10;
-  static constexpr int kDepth = 40;
+  static constexpr int kDepth = 40, kMostHalvings = 20'000;
 
   struct Interval {
     double from, to;
@@ -166,8 +166,10 @@ class PieceMoments {
     }
     return {from, to, kronrod, (kronrod + gauss * -1.0).largest()};
   }
-  Moments refined(const Interval& interval, double tolerance, int depth) const {
-    if (depth == kDepth || !(interval.error > tolerance)) return interval.value;
+  // Roundings of a very narrow lobe may never come within the tolerance: then the halvings end.
+  Moments refined(const Interval& interval, double tolerance, int depth) {
+    if (depth == kDepth || halvings_ == kMostHalvings || !(interval.error > tolerance)) return interval.value;
+    ++halvings_;
     const double middle = 0.5 * (interval.from + interval.to);
     return refined(evaluated(interval.from, middle), tolerance, depth + 1) + refined(evaluated(middle, interval.to), tolerance, depth + 1);
   }
@@ -178,6 +180,7 @@ class PieceMoments {
   const LobeDensity& density_;
   Vec3d along_a_, aside_, across_;
   std::vector<Interval> intervals_;
+  int halvings_ = 0;
 };
 
 // The outline of each shape. The light lies relative to the point, which is the origin.
