@@ -67,8 +67,8 @@ void share_planes(std::vector<PlaneElement>& elements, const DistinctTriangles& 
 
 }  // namespace
 
-SceneElements scene_elements(const std::vector<ViewFactorFace>& faces, const std::vector<ObstacleTriangle>& extra,
-                             Obstruction obstruction, AskedFrom from) {
+SceneElements scene_elements(const std::vector<ViewFactorFace>& faces, const std::vector<ObstacleTriangle>& extra, Obstruction obstruction,
+                             AskedFrom from) {
   SceneElements scene;
   DistinctTriangles distinct;
   for (std::size_t i = 0; i < faces.size(); ++i) {
