@@ -1,4 +1,5 @@
-// `steradian viewfactor` on strange and damaged files in all formats: an error or factors from 0 to 1, and a warning where rows are above 1.
+// `steradian viewfactor` on strange and damaged files in all formats: an error or factors from 0 to 1, and a warning where rows are
+// above 1.
 #include <array>
 #include <cmath>
 #include <random>
@@ -162,7 +163,8 @@ class HostileFactorFiles : public Program {
     Budget budget{Limits{}};
     const ViewFactors f = exchange::read_factors_npz(file, budget).factors;
     for (std::size_t i = 0; i < f.size(); ++i) {
-      EXPECT_TRUE(f.row_sums[i] <= 1 + f.row_errors[i] + 1e-12 || o.err.find("add up to more than 1") != std::string::npos) << what << ", row " << i;
+      EXPECT_TRUE(f.row_sums[i] <= 1 + f.row_errors[i] + 1e-12 || o.err.find("add up to more than 1") != std::string::npos)
+          << what << ", row " << i;
       for (std::size_t j = 0; j < i; ++j) {
         const double h = f.between(i, j);
         EXPECT_TRUE(h >= 0 && h <= std::min(f.areas[i], f.areas[j])) << what << ", pair " << i << ", " << j << ": " << h;

@@ -6,7 +6,7 @@
 
 namespace steradian::exchange {
 
-// What the obstacles will be asked for: from elements alone, triangles that have all elements on one side are dropped.
+// Origins of later queries. With elements alone, triangles that have all elements on one side are dropped.
 enum class AskedFrom { elements, points };
 
 struct SceneElements {
