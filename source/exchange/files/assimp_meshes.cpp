@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <filesystem>
+#include <string_view>
 
 #include "core/files.h"
 #include "exchange/files/mesh_files.h"
@@ -32,6 +33,10 @@ std::vector<PolygonMesh> read_mesh_file(const std::string& path, Budget& budget)
   std::string ending = std::filesystem::path(path).extension().string();
   ending.erase(0, 1);
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  // Assimp 5.2 reads a PLY header without an end for ever.
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (ending == "ply" && text.find("end_header\n") == text.npos && text.find("end_header\r") == text.npos)
+    throw Error(path, "its header has no end_header", "export it again");
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
   if (scene == nullptr) throw Error(path, "cannot be read: " + first_words(importer.GetErrorString()), "export it again, or as glTF");

@@ -6,8 +6,7 @@
 
 namespace steradian::exchange {
 
-// The obstacles are asked for from elements alone, or also from points. From elements alone, triangles that have all elements on one side
-// are dropped.
+// Origins of later queries. With elements alone, triangles that have all elements on one side are dropped.
 enum class AskedFrom { elements, points };
 
 struct SceneElements {
