@@ -255,7 +255,7 @@ TEST(Methods, BlenderOffersKnownWords) {
                   : option == "terminator" ? words::find<Terminator>(word).has_value()
                   : option == "environment"
                       ? word == "white" || word == "sky" || word == "world" || word == "none"  // the last two: Blender's
-                      : word == "all" || words::find<IndirectMode>(word).has_value())  // all: of --bounces
+                      : word == "all" || words::find<IndirectMode>(word).has_value())          // all: of --bounces
           << option << " " << word;
       found.insert(option);
     }

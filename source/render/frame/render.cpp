@@ -315,40 +315,37 @@ class Renderer {
     if (many_lights_) many_lights_->bound() = bound;
   }
 
-  // Solves the light between surfaces, unless the cache holds it.
+  // Solves the light between surfaces, unless the cache holds it. The sum of many lights depends on the camera, so it is not kept.
   void solve_bounces() {
     const auto start = Clock::now();
-    std::shared_ptr<const radiosity::PatchLight> patches = kept_patches();
-    if (patches == nullptr) {
-      steps_ += radiosity::patch_tiles(scene_, radiosity::fineness_of(options_));
-      arena_.execute([&] { patches = solve_patches(); });
-      if (keeps_patches() && !stopped()) cache_->parts().patches->keep(scene_, options_, patches);
+    const auto solve = [&] { return solve_patches(); };
+    std::shared_ptr<const radiosity::PatchLight> patches;
+    if (cache_ != nullptr && !many_lights_) {
+      std::shared_ptr<radiosity::KeptPatches>& kept = cache_->parts().patches;
+      if (kept == nullptr) kept = std::make_shared<radiosity::KeptPatches>();
+      patches = kept->light(scene_, options_, solve);
+    } else {
+      patches = solve();
     }
     patches_ms_ = ms_since(start);
     all_light_ = std::make_unique<AllLight>(std::move(patches), surfaces_, options_,
                                             [this](SurfaceTile& tile) { light_directly(tile, ReceiverKind::asked); });
   }
 
-  // The sum of many lights depends on the camera.
-  bool keeps_patches() const { return cache_ != nullptr && !many_lights_; }
-
-  std::shared_ptr<const radiosity::PatchLight> kept_patches() const {
-    if (!keeps_patches()) return nullptr;
-    std::shared_ptr<radiosity::KeptPatches>& kept = cache_->parts().patches;
-    if (kept == nullptr) kept = std::make_shared<radiosity::KeptPatches>();
-    return kept->find(scene_, options_);
-  }
-
   std::shared_ptr<const radiosity::PatchLight> solve_patches() {
-    return std::make_shared<const radiosity::PatchLight>(radiosity::solve_patches(
-        scene_, surfaces_.rays(), *parts_.maps, {options_.bounces, radiosity::fineness_of(options_), options_.stop},
-        [this](SurfaceTile& tile) {
-          if (tile.any_surface) light_directly(tile, ReceiverKind::patch);
-          if (options_.progress) options_.progress(++done_, steps_);
-        },
-        [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
-          find_incident_on_patch(*samplers_.local(), environment() != nullptr, surface, number, found);
-        }));
+    const radiosity::PatchOptions wanted{options_.bounces, radiosity::fineness_of(options_), options_.stop};
+    steps_ += radiosity::patch_tiles(scene_, wanted.fineness);
+    const auto add_direct = [this](SurfaceTile& tile) {
+      if (tile.any_surface) light_directly(tile, ReceiverKind::patch);
+      if (options_.progress) options_.progress(++done_, steps_);
+    };
+    const auto find_incident = [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
+      find_incident_on_patch(*samplers_.local(), environment() != nullptr, surface, number, found);
+    };
+    return arena_.execute([&] {
+      return std::make_shared<const radiosity::PatchLight>(
+          radiosity::solve_patches(scene_, surfaces_.rays(), *parts_.maps, wanted, add_direct, find_incident));
+    });
   }
 
   // True if the time is limited. Only shadows of direct light take much of it that something else can stand for.

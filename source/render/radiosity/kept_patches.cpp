@@ -1,7 +1,6 @@
 #include "render/radiosity/kept_patches.h"
 
 #include <tuple>
-#include <utility>
 
 namespace steradian::radiosity {
 namespace {
@@ -13,18 +12,16 @@ auto options_of(const RenderOptions& o) {
 
 }  // namespace
 
-std::shared_ptr<const PatchLight> KeptPatches::find(const Scene& scene, const RenderOptions& options) const {
-  const Kept& kept = kept_[options.bounce_preview ? 1 : 0];
-  if (kept.light == nullptr || options_of(kept.options) != options_of(options) || !kept.scene.is_lit_like(scene)) return nullptr;
-  return kept.light;
-}
-
-void KeptPatches::keep(const Scene& scene, const RenderOptions& options, std::shared_ptr<const PatchLight> light) {
+std::shared_ptr<const PatchLight> KeptPatches::light(const Scene& scene, const RenderOptions& options, const Solve& solve) {
   Kept& kept = kept_[options.bounce_preview ? 1 : 0];
-  kept = {scene, options, std::move(light)};
+  if (kept.light != nullptr && options_of(kept.options) == options_of(options) && kept.scene.is_lit_like(scene)) return kept.light;
+  std::shared_ptr<const PatchLight> light = solve();
+  if (options.stop != nullptr && options.stop->load()) return light;  // it may be unfinished
+  kept = {scene, options, light};
+  kept.scene.cameras.clear();
   kept.options.progress = nullptr;
   kept.options.stop = nullptr;
-  kept.scene.cameras.clear();
+  return light;
 }
 
 }  // namespace steradian::radiosity

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 
 #include "render/radiosity/patch_light.h"
@@ -12,10 +13,10 @@ namespace steradian::radiosity {
 
 class KeptPatches {
  public:
-  // The light of the patches of this scene, computed with these options; null if none is kept.
-  std::shared_ptr<const PatchLight> find(const Scene& scene, const RenderOptions& options) const;
-  // Keeps it until another one is kept with the same bounce_preview.
-  void keep(const Scene& scene, const RenderOptions& options, std::shared_ptr<const PatchLight> light);
+  using Solve = std::function<std::shared_ptr<const PatchLight>()>;
+  // The light of the patches of this scene with these options: the kept one, or that of solve(). It is kept until another one comes with
+  // the same bounce_preview, unless options.stop ended it.
+  std::shared_ptr<const PatchLight> light(const Scene& scene, const RenderOptions& options, const Solve& solve);
 
  private:
   struct Kept {
