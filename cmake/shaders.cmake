@@ -1,4 +1,4 @@
-# steradian_shaders(TARGET SHADER...): each shader of shaders/ becomes SPIR-V, as the numbers of an array in SHADER.inc, which the
+# steradian_shaders(TARGET SHADER...): each shader of a folder of shaders/ becomes SPIR-V, as the numbers of an array in SHADER.inc, which the
 # target's sources include. TARGET_shaders.inc is the body of a C++ function that finds the ShaderCode of a `name`.
 #
 # SHADER is the name of a file, or NAME@ID:MACRO=VALUE,VALUE@...: a module for each combination of the values. The macro takes the place of
@@ -13,6 +13,7 @@ function(steradian_shaders target)
   foreach(shader ${ARGN})
     string(REPLACE "@" ";" constants ${shader})
     list(POP_FRONT constants name)
+    file(GLOB_RECURSE source ${PROJECT_SOURCE_DIR}/shaders/${name})
     set(combinations "|")  # ending of the file's name | constants and options of the compiler
     foreach(constant ${constants})
       string(REGEX MATCH "^([0-9]+):([A-Z_]+)=(.*)$" matched ${constant})
@@ -36,9 +37,8 @@ function(steradian_shaders target)
       string(REGEX REPLACE "^.*\\||-D[A-Z_]+=[0-9]+ " "" fixed "${combination}")
       add_custom_command(OUTPUT ${folder}/${file}.inc
         COMMAND ${STERADIAN_GLSLC} --target-env=vulkan1.2 -O -mfmt=c -MD -MF ${folder}/${file}.d -MT ${folder}/${file}.inc ${macros}
-                -I ${PROJECT_SOURCE_DIR}/shaders -I ${PROJECT_SOURCE_DIR}/kernels -I ${PROJECT_SOURCE_DIR}/source
-                ${PROJECT_SOURCE_DIR}/shaders/${name} -o ${folder}/${file}.inc
-        DEPENDS ${PROJECT_SOURCE_DIR}/shaders/${name} DEPFILE ${folder}/${file}.d VERBATIM)
+                -I ${PROJECT_SOURCE_DIR}/kernels -I ${PROJECT_SOURCE_DIR}/source ${source} -o ${folder}/${file}.inc
+        DEPENDS ${source} DEPFILE ${folder}/${file}.d VERBATIM)
       target_sources(${target} PRIVATE ${folder}/${file}.inc)
       string(MAKE_C_IDENTIFIER ${file} array)
       string(APPEND body "static constexpr std::uint32_t ${array}[] =\n#include \"${file}.inc\"\n;\n")

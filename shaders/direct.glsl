@@ -7,7 +7,7 @@
 // Drivers compile everything that a shader holds for each of its pipelines.
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "layout.glsl"
-#include "shadow_layout.glsl"
+#include "shadow/shadow_layout.glsl"
 
 // A pipeline is one choice of these (source/device/direct/direct_light.cpp). source/CMakeLists.txt lists the constants that a module fixes.
 #ifndef KIND
@@ -62,9 +62,9 @@ layout(push_constant) uniform Push { uint first_entry; };
 
 #include "entry.glsl"
 #include "kernels.glsl"
-#include "parts.glsl"
-#include "lights.glsl"
-#include "light_profiles.glsl"
+#include "shadow/parts.glsl"
+#include "lights/lights.glsl"
+#include "lights/light_profiles.glsl"
 
 PunctualIncident punctual_at(Light light, vec3 p) {
     PunctualIncident incident;
@@ -88,17 +88,17 @@ PunctualIncident punctual_at(Light light, vec3 p) {
     return incident;
 }
 
-#include "outline.glsl"
-#include "own_lobe.glsl"
+#include "lights/outline.glsl"
+#include "lobes/own_lobe.glsl"
 #if LOBE == LOBE_DIFFUSE
-#include "diffuse.glsl"
+#include "lobes/diffuse.glsl"
 #elif LOBE == LOBE_SHEEN
-#include "sheen.glsl"
+#include "lobes/sheen.glsl"
 #elif LOBE == LOBE_PHONG
-#include "phong_lobe.glsl"
+#include "lobes/phong_lobe.glsl"
 #elif LOBE != LOBE_TEXTURE_MEANS
 #define HAS_SPECULAR_LOBE
-#include "specular.glsl"
+#include "lobes/specular.glsl"
 #endif
 
 // Index of the thread's pixel among the means of a square and a light.
@@ -107,9 +107,9 @@ uint slot_of_means() { return gl_WorkGroupID.x * uint(kGroup) + gl_LocalInvocati
 vec4 surface_at(uint tile, int plane, uint slot) { return texelFetch(surfaces, (int(tile) * kPlanes + plane) * kSlots + int(slot)); }
 
 #if LOBE == LOBE_TEXTURE_MEANS
-#include "tables.glsl"
-#include "light_textures.glsl"
-#include "texture_means.glsl"
+#include "lobes/tables.glsl"
+#include "lights/light_textures.glsl"
+#include "lights/texture_means.glsl"
 #else
 // The values of a pixel's surface that a lobe's integral needs.
 struct Surface {

@@ -14,7 +14,7 @@ const int kCoatNormal = 7;  // alpha of the coat
 const int kSheen = 8;       // its alpha
 const int kPlanes = 9;
 
-// Lights: kRecord vectors of four each, as shaders/lights.glsl reads them.
+// Lights: kRecord vectors of four each, as shaders/lights/lights.glsl reads them.
 const int kRecord = 9;
 const int kWhereDetails = 7;  // its w: place where the light's details begin
 

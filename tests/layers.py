@@ -52,7 +52,8 @@ def folder_of(path):
 def included(path):
     """The project's files that a file includes, relative to the root."""
     for name in re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', path.read_text(), re.MULTILINE):
-        for base in (path.parent, ROOT / "source", ROOT / "include", ROOT / "kernels", ROOT / "apps" / "steradian", ROOT / "apps" / "command_line", ROOT / "apps", ROOT / "tests", ROOT):
+        for base in (path.parent, ROOT / "source", ROOT / "include", ROOT / "kernels", ROOT / "apps" / "steradian", ROOT / "apps" / "command_line",
+                     ROOT / "apps" / "viewer", ROOT / "apps", ROOT / "tests", ROOT):
             if (base / name).is_file():
                 yield (base / name).resolve().relative_to(ROOT)
                 break

@@ -50,7 +50,7 @@ set(has -DSTERADIAN_HAS_SSE2=1 -DSTERADIAN_HAS_AVX2=1 -DSTERADIAN_HAS_AVX512=1)
 add_test(NAME OneDefinition.NoNameHasTwo
   COMMAND ${one_definition} ${CMAKE_CXX_COMPILER} ${has} -I${PROJECT_SOURCE_DIR} -I${PROJECT_SOURCE_DIR}/source -I${PROJECT_SOURCE_DIR}/include
           -I${PROJECT_SOURCE_DIR}/kernels -I${PROJECT_SOURCE_DIR}/apps -I${PROJECT_SOURCE_DIR}/apps/steradian
-          -I${PROJECT_SOURCE_DIR}/apps/command_line -I${PROJECT_SOURCE_DIR}/tests)
+          -I${PROJECT_SOURCE_DIR}/apps/command_line -I${PROJECT_SOURCE_DIR}/apps/viewer -I${PROJECT_SOURCE_DIR}/tests)
 add_test(NAME OneDefinition.ASecondOneIsFound COMMAND ${one_definition} --test)
 
 # No inclusion runs upward through the layers, and the picture of the dependencies is the one that is drawn from them.

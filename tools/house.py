@@ -113,7 +113,8 @@ def types(texts):
 
 
 def folders(texts):
-    held = collections.Counter(p.parent for p in texts if p.parts[0] == "source" and not is_test(p) and p.suffix in (".h", ".cpp"))
+    held = collections.Counter(p.parent for p in texts
+                               if p.parts[0] in ("source", "apps", "kernels", "shaders") and not is_test(p) and p.suffix != ".md")
     for folder, count in sorted(held.items()):
         if count > FOLDER_LIMIT:
             yield folder, 1, f"{count} files, more than {FOLDER_LIMIT}"

@@ -1,4 +1,4 @@
-// A Phong plane under one light on a Vulkan device: shaders/phong.comp.
+// A Phong plane under one light on a Vulkan device: shaders/lobes/phong.comp.
 #pragma once
 
 #include <map>

@@ -16,7 +16,7 @@
 #include "core/progress.h"
 #include "core/simd.h"
 #include "core/words.h"
-#include "picture_options.h"
+#include "render/picture_options.h"
 #include "steradian/version.h"
 #include "command_line.h"
 #include "verbs.h"

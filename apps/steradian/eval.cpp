@@ -13,7 +13,7 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "eval_plane.h"
-#include "picture_options.h"
+#include "render/picture_options.h"
 #include "steradian/error.h"
 #include "verbs.h"
 

@@ -8,8 +8,8 @@
 
 #include "command_line.h"
 #include "core/files.h"
-#include "picture_options.h"
-#include "resume.h"
+#include "render/picture_options.h"
+#include "render/resume.h"
 #include "solve/job.h"
 #include "solve/report.h"
 #include "solve/solved_file.h"

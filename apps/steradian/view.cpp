@@ -1,8 +1,8 @@
 // steradian view SCENE: the scene in a window.
 #include <memory>
 
-#include "../viewer/window.h"
-#include "picture_options.h"
+#include "../viewer/window/window.h"
+#include "render/picture_options.h"
 #include "verbs.h"
 
 namespace steradian::app {

@@ -1,5 +1,5 @@
 // Compiled where STERADIAN_WINDOW is OFF.
-#include "../viewer/window.h"
+#include "../viewer/window/window.h"
 #include "steradian/error.h"
 
 namespace steradian::view {

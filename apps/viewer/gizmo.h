@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "node_pose.h"
+#include "document/node_pose.h"
 #include "view_camera.h"
 
 namespace steradian::view {

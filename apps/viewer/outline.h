@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "lamps.h"
+#include "document/lamps.h"
 
 namespace steradian::view {
 

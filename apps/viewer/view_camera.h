@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "document.h"
+#include "document/document.h"
 #include "scene/gltf/gltf_nodes.h"
 #include "steradian/scene.h"
 #include "steradian/vector2.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "display.h"
-#include "drawing.h"
+#include "drawing/drawing.h"
 #include "session.h"
 
 namespace steradian::view {

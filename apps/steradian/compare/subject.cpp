@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "core/words.h"
 #include "integrals/methods.h"
-#include "picture_options.h"
+#include "render/picture_options.h"
 
 namespace steradian::app {
 namespace {

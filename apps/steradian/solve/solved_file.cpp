@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lamps.h"
-#include "node_pose.h"
+#include "document/lamps.h"
+#include "document/node_pose.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 

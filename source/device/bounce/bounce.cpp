@@ -17,7 +17,7 @@
 namespace steradian::vulkan {
 namespace {
 
-#include "shaders/bounce_layout.glsl"
+#include "shaders/bounce/bounce_layout.glsl"
 
 using indirect::DiffuseLight;
 using indirect::GgxLight;
@@ -62,7 +62,7 @@ class FourWriter {
   float* to_;
 };
 
-// The order is that of shaders/bounce_layout.glsl.
+// The order is that of shaders/bounce/bounce_layout.glsl.
 void put_diffuse(const LightSet& set, std::size_t i, FourWriter to) {
   const DiffuseLight& light = set.diffuse[i];
   const QuadLight& quad = set.diffuse_quads[i];

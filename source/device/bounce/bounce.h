@@ -1,5 +1,5 @@
 // The bounce on a device: first hits of the shadow map's rays, the lobes of virtual lights, then culling, lighting, filter and resolve
-// (shaders/bounce_*.comp). The host evaluates the surfaces at the hits, and computes the ranges and sets of virtual lights.
+// (shaders/bounce/). The host evaluates the surfaces at the hits, and computes the ranges and sets of virtual lights.
 #pragma once
 
 #include <map>

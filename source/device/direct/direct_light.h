@@ -69,7 +69,7 @@ class DirectPass {
     struct Shadowed {
       const PackLight* light;
       std::uint32_t states;  // first state of the tile
-      bool shares;           // parts may count as fractions of a polygon's light: shaders/shadow_layout.glsl
+      bool shares;           // parts may count as fractions of a polygon's light: shaders/shadow/shadow_layout.glsl
     };
     std::vector<Shadowed> shadowed;
   };

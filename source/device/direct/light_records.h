@@ -10,7 +10,7 @@
 
 namespace steradian::vulkan {
 
-// Lights in the layout of shaders: shaders/lights.glsl.
+// Lights in the layout of shaders: shaders/lights/lights.glsl.
 
 using Vec4Floats = std::array<float, 4>;
 
@@ -36,8 +36,8 @@ struct LightRecords {
   void keep(std::size_t lights, std::size_t vertices);                // keeps the first ones
 };
 
-// Details of lights beside their records, in the layout of shaders: textures (shaders/light_textures.glsl) and profiles
-// (shaders/light_profiles.glsl).
+// Details of lights beside their records, in the layout of shaders: textures (shaders/lights/light_textures.glsl) and profiles
+// (shaders/lights/light_profiles.glsl).
 class LightDetails {
  public:
   // Stores the details of the first lights as far as the capacity allows.

@@ -10,7 +10,7 @@ namespace steradian::vulkan {
 namespace {
 
 #include "shaders/layout.glsl"
-#include "shaders/phong_methods.glsl"
+#include "shaders/lobes/phong_methods.glsl"
 
 Vec4Floats with(Vec3d v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};

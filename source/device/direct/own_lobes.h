@@ -1,4 +1,4 @@
-// Custom lobes (extras.steradian) of a scene's surfaces, in the layout of shaders (shaders/own_lobe.glsl).
+// Custom lobes (extras.steradian) of a scene's surfaces, in the layout of shaders (shaders/lobes/own_lobe.glsl).
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace steradian::vulkan {
 
-// Number of a method in shaders/phong_methods.glsl. Throws Error for a method of other lobes.
+// Number of a method in shaders/lobes/phong_methods.glsl. Throws Error for a method of other lobes.
 int phong_method(const PhongOptions& options);
 
 class OwnLobes {

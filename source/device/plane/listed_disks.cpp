@@ -9,7 +9,7 @@
 namespace steradian::plane {
 namespace {
 
-#include "shaders/plane_layout.glsl"
+#include "shaders/plane/plane_layout.glsl"
 
 // A thread processes a disk's pairs one after another, each in a few turns of its loops.
 constexpr std::size_t kMostPairs = kMostTurns / 8;

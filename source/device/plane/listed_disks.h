@@ -17,7 +17,7 @@ class ListedDisks {
   void choose(const FrameScene& frame, const PixelGrid& grid, std::size_t pairs, std::size_t mask_words);
 
   std::size_t count() const { return records_.size() / kRecord; }
-  const std::vector<std::uint32_t>& records() const { return records_; }  // shaders/plane_layout.glsl, kDisk words each
+  const std::vector<std::uint32_t>& records() const { return records_; }  // shaders/plane/plane_layout.glsl, kDisk words each
   std::size_t mask_words() const { return mask_words_; }
   std::size_t most_cells() const { return most_cells_; }             // most tiles of a disk
   const std::vector<char>& is_listed() const { return is_listed_; }  // by emitter

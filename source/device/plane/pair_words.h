@@ -21,7 +21,7 @@ inline void put_vertex(std::vector<float>& to, Vec2d v) {
   to.insert(to.end(), {x.most, x.rest, y.most, y.rest});
 }
 
-// Writes kPair words (shaders/plane_layout.glsl).
+// Writes kPair words (shaders/plane/plane_layout.glsl).
 inline void put_pair(std::uint32_t* to, const EventPair& pair) {
   const auto bytes = [](unsigned a, unsigned b, unsigned c, unsigned d) -> std::uint32_t { return a | b << 8 | c << 16 | d << 24; };
   for (const auto& line : pair.lines)

@@ -22,7 +22,7 @@
 namespace steradian::plane {
 namespace {
 
-#include "shaders/plane_layout.glsl"
+#include "shaders/plane/plane_layout.glsl"
 
 using Clock = std::chrono::steady_clock;
 using vulkan::Buffer;

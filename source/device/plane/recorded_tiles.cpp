@@ -6,7 +6,7 @@
 namespace steradian::plane {
 namespace {
 
-#include "shaders/plane_layout.glsl"
+#include "shaders/plane/plane_layout.glsl"
 
 using Words = std::vector<std::uint32_t>;
 
@@ -39,7 +39,7 @@ void put_parts(Words& to, const TileLight& light) {
   }
 }
 
-// The order is that of shaders/plane_layout.glsl.
+// The order is that of shaders/plane/plane_layout.glsl.
 void put_header(Words& to, const TileLight& light) {
   put(to, static_cast<int>(light.kind), light.x, light.y, light.radius, light.nx, light.ny, light.begin, light.end, light.inverse_range,
       light.red, light.green, light.blue, light.red_end, light.green_end, light.blue_end, light.profile, light.linear);

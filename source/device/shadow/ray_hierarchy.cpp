@@ -12,7 +12,7 @@
 namespace steradian::vulkan {
 namespace {
 
-#include "shaders/ray_layout.glsl"
+#include "shaders/shadow/ray_layout.glsl"
 
 constexpr std::size_t kLeaf = 4;  // most triangles
 static_assert(kLeaf < static_cast<std::size_t>(kLeafSizes));

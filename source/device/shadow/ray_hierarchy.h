@@ -1,4 +1,4 @@
-// Triangles, sorted into a hierarchy of boxes that a shader traverses without a stack (shaders/ray_hierarchy.glsl).
+// Triangles, sorted into a hierarchy of boxes that a shader traverses without a stack (shaders/shadow/ray_hierarchy.glsl).
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct RayTriangle {
   std::uint32_t number = 0;      // by which rays report it
 };
 
-// Vectors in the layout of shaders/ray_layout.glsl.
+// Vectors in the layout of shaders/shadow/ray_layout.glsl.
 std::vector<std::array<std::uint32_t, 4>> ray_hierarchy(std::vector<RayTriangle> triangles);
 
 // Least number of its vectors: triangles that exceed a buffer need not be sorted.

@@ -20,7 +20,7 @@
 namespace steradian::vulkan::ray_hierarchy_test {
 namespace {
 
-#include "shaders/shadow_layout.glsl"
+#include "shaders/shadow/shadow_layout.glsl"
 
 using reference::Random;
 
@@ -29,7 +29,7 @@ struct Way {
 };
 enum class Found { free, blocked, not_known };
 
-// Runs shaders/shadow_rays.comp.
+// Runs shaders/shadow/shadow_rays.comp.
 std::vector<Found> found_by_device(const Scene& scene, const std::vector<Way>& ways) {
   struct Answer {
     Vec3f from;

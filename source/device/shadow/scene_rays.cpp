@@ -53,9 +53,9 @@ bool all_cast_exactly(const Scene& scene) {
 
 namespace {
 
-#include "shaders/ray_layout.glsl"
+#include "shaders/shadow/ray_layout.glsl"
 
-constexpr std::size_t kThreads = 64;  // work group size of shaders/bounce_rays.comp
+constexpr std::size_t kThreads = 64;  // work group size of shaders/bounce/bounce_rays.comp
 
 static_assert(sizeof(indirect::MapRay) == static_cast<std::size_t>(kMapRay) * 4 * sizeof(float));
 

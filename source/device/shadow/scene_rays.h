@@ -40,7 +40,7 @@ class SceneRays {
 // Returns true if all shadow casters cast exactly: no cut-outs, which a device's rays do not support.
 bool all_cast_exactly(const Scene& scene);
 
-// First hits of a shadow map's rays, found by a device (shaders/bounce_rays.comp).
+// First hits of a shadow map's rays, found by a device (shaders/bounce/bounce_rays.comp).
 
 class DeviceFirstHits final : public indirect::FirstHits {
  public:

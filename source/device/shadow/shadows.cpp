@@ -9,7 +9,7 @@
 namespace steradian::vulkan {
 namespace {
 
-#include "shaders/shadow_layout.glsl"
+#include "shaders/shadow/shadow_layout.glsl"
 
 constexpr std::size_t kVector = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
@@ -19,11 +19,12 @@ constexpr std::size_t kMostGroups = 65535, kMostPoints = 65535, kMostLights = 16
                       kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
 constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
-// (docs/theory/device.md). Bytes of a segment and a piece in shared memory: shaders/shadow_segments.glsl, shaders/shadow_count.glsl.
+// (docs/theory/device.md). Bytes of a segment and a piece in shared memory: shaders/shadow/shadow_segments.glsl,
+// shaders/shadow/shadow_count.glsl.
 constexpr std::array<std::size_t, kShadowSpaces> kSegments = {96, 208, 640};
 constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 48;
 
-// Layout of Answers in shaders/shadow_parts.comp.
+// Layout of Answers in shaders/shadow/shadow_parts.comp.
 struct AnswersHead {
   std::uint32_t parts_begin, parts_used, parts_room, left;
   std::uint32_t found, unused[3];
@@ -39,7 +40,7 @@ struct ShadowAnswer {
 };
 static_assert(sizeof(AnswersHead) == kAnswersHead * kVector && sizeof(ShadowAnswer) == kShadowAnswer * kVector);
 
-constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow_rays.comp
+constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow/shadow_rays.comp
 
 std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }

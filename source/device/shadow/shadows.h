@@ -1,6 +1,6 @@
-// Shadows on a device: a subgroup per point finds the visible parts of lights behind edges (shaders/shadow_parts.comp). One ray per point
-// tests that the part is unoccluded (shaders/shadow_rays.comp). Lighting follows in the same submission. Points that exceed a capacity of
-// the subgroup or are uncertain are left: the host finds their parts, and a further run adds their light.
+// Shadows on a device: a subgroup per point finds the visible parts of lights behind edges (shaders/shadow/shadow_parts.comp). One ray per
+// point tests that the part is unoccluded (shaders/shadow/shadow_rays.comp). Lighting follows in the same submission. Points that exceed a
+// capacity of the subgroup or are uncertain are left: the host finds their parts, and a further run adds their light.
 #pragma once
 
 #include <cstdint>

@@ -8,11 +8,11 @@
 namespace steradian::vulkan {
 namespace {
 
-#include "shaders/shadow_layout.glsl"
+#include "shaders/shadow/shadow_layout.glsl"
 
 using shadow::Viewpoint;
 
-constexpr std::size_t kMostEdges = 20480, kMostIncidences = 1024, kMostCorners = 126;  // per group: shaders/shadow_turns.glsl
+constexpr std::size_t kMostEdges = 20480, kMostIncidences = 1024, kMostCorners = 126;  // per group: shaders/shadow/shadow_turns.glsl
 constexpr std::size_t kMostValues = std::size_t{1} << 23;                              // per tile: a quarter of a buffer
 constexpr std::uint32_t kMostNumber = 1 << 27;                                         // vertex or edge: names have 28 bits
 constexpr std::size_t kMostPlaces = 1 << 16;                                           // vertices and planes per group

@@ -1,5 +1,5 @@
 // The device's part of a tile's shadows: visibility of its lights from the slots, as far as the host knows it, and groups of points for
-// the device to answer. Numbers are laid out as in shaders/shadow_layout.glsl.
+// the device to answer. Numbers are laid out as in shaders/shadow/shadow_layout.glsl.
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@
 namespace steradian::vulkan {
 namespace {
 
-#include "shaders/surface_layout.glsl"
+#include "shaders/surface/surface_layout.glsl"
 
 using Vec4Floats = std::array<float, 4>;
 

@@ -1,4 +1,4 @@
-// A scene in the layout of the shaders that find surfaces (shaders/surface_layout.glsl): geometry, materials, pyramids of textures.
+// A scene in the layout of the shaders that find surfaces (shaders/surface/surface_layout.glsl): geometry, materials, pyramids of textures.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ class SceneBuffers {
   const Buffer& materials() const { return materials_.get(); }
   const Buffer& texels() const { return texels_.get(); }
   const Buffer& tables() const { return tables_.get(); }
-  // Returns true if some surface that the shaders find has the features of shaders/layers.glsl, or is unlit.
+  // Returns true if some surface that the shaders find has the features of shaders/surface/layers.glsl, or is unlit.
   bool has_layers() const { return has_layers_; }
 
  private:

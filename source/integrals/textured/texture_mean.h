@@ -18,7 +18,7 @@ struct TextureMean {
 
 // Cells whose bounds are above a threshold are split. The threshold falls from pass to pass, by the remaining excess, until the bounds sum
 // to kTextureTolerance of the mean. After too many splits it rises again. So every lane uses the cells of its own threshold, whatever the
-// others do, and no pass stores more than a path. shaders/texture_means.comp does the same.
+// others do, and no pass stores more than a path. shaders/lights/texture_means.comp does the same.
 template <class S>
 class TextureCells {
  public:

@@ -1,6 +1,6 @@
 // The light of a job's list at a pixel of its tile. The last channel counts jobs that were too much.
-#include "../../../shaders/plane_layout.glsl"
-#include "../../../shaders/plane_kinds.glsl"
+#include "../../../shaders/plane/plane_layout.glsl"
+#include "../../../shaders/plane/plane_kinds.glsl"
 #include "textures.glsl"
 flat in uint job;
 out vec4 light;
@@ -8,7 +8,7 @@ out vec4 light;
 // ES 3.00 has none: the exponent of the lowest bit alone.
 int findLSB_of(uint bits) { return int(floatBitsToUint(float(bits & (~bits + 1u))) >> 23) - 127; }
 
-#include "../../../shaders/plane_lights.glsl"
+#include "../../../shaders/plane/plane_lights.glsl"
 
 void main() {
     uint tile = lists[job];

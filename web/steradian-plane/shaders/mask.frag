@@ -1,12 +1,12 @@
-// One word of a disk's masks, as shaders/plane_lists.comp writes them: of each tile whether one blocker hides the disk from all of it, then a
+// One word of a disk's masks, as shaders/plane/plane_lists.comp writes them: of each tile whether one blocker hides the disk from all of it, then a
 // bit a pair.
-#include "../../../shaders/plane_layout.glsl"
+#include "../../../shaders/plane/plane_layout.glsl"
 #include "textures.glsl"
 flat in uint disk;
 out uint mask;
 
 float number(uint at) { return uintBitsToFloat(lists[at]); }
-#include "../../../shaders/plane_mask.glsl"
+#include "../../../shaders/plane/plane_mask.glsl"
 
 void main() {
     uint first = lists[disk + uint(kDiskFirstPair)];

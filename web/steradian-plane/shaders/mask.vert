@@ -1,5 +1,5 @@
 // The rows of the masks' texture in which a disk's are.
-#include "../../../shaders/plane_layout.glsl"
+#include "../../../shaders/plane/plane_layout.glsl"
 #include "textures.glsl"
 uniform float rows;
 flat out uint disk;

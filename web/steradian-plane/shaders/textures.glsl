@@ -1,4 +1,4 @@
-// The buffers of shaders/plane.glsl, as textures: word or number k is the pixel (k mod 2048, k div 2048). make_package.py writes
+// The buffers of shaders/plane/plane.glsl, as textures: word or number k is the pixel (k mod 2048, k div 2048). make_package.py writes
 // lists[k] as lists_at(k).
 uniform usampler2D list_words, pair_words, mask_words;
 uniform sampler2D vertex_numbers;

@@ -1,5 +1,5 @@
 // The square of a job's tile.
-#include "../../../shaders/plane_layout.glsl"
+#include "../../../shaders/plane/plane_layout.glsl"
 #include "textures.glsl"
 uniform uint first_job;
 uniform vec2 size;

@@ -12,7 +12,7 @@
 namespace steradian::plane {
 namespace {
 
-#include "shaders/plane_layout.glsl"
+#include "shaders/plane/plane_layout.glsl"
 
 constexpr std::size_t kHeader = kJob, kRecord = 2 + kPixels / 32;
 

@@ -10,8 +10,8 @@
 namespace steradian::plane {
 
 struct GlLists {
-  // shaders/plane_layout.glsl: the header, disks, tiles, jobs, and what jobs are about. Of a job the first word is where its tile's record
-  // stands: column and row of its first pixel, then 256 bits, 1 where something fills a pixel.
+  // shaders/plane/plane_layout.glsl: the header, disks, tiles, jobs, and what jobs are about. Of a job the first word is where its tile's
+  // record stands: column and row of its first pixel, then 256 bits, 1 where something fills a pixel.
   std::vector<std::uint32_t> lists;
   std::vector<std::uint32_t> pairs;
   std::vector<float> vertices;  // four numbers each

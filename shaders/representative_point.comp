@@ -1,8 +1,0 @@
-// GGX by the representative point, for comparison.
-// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-#version 450
-#extension GL_GOOGLE_include_directive : require
-
-#include "lobes.glsl"
-#define LOBE LOBE_REPRESENTATIVE_POINT
-#include "direct.glsl"

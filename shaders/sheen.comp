@@ -1,8 +1,0 @@
-// Charlie's sheen.
-// SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-#version 450
-#extension GL_GOOGLE_include_directive : require
-
-#include "lobes.glsl"
-#define LOBE LOBE_SHEEN
-#include "direct.glsl"
