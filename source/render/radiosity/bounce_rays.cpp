@@ -1,20 +1,18 @@
 #include "render/radiosity/bounce_rays.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace steradian::radiosity {
 
-void BounceRays::set(std::size_t lane, const Surface& from, Vec3f direction) {
-  if (!(dot(direction, from.geometric_normal) > 0)) return;
-  const auto origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(from.position), static_cast<Vec3d>(from.geometric_normal)));
-  RTCRay16& ray = packet_.ray;
-  ray.org_x[lane] = origin.x;
-  ray.org_y[lane] = origin.y;
-  ray.org_z[lane] = origin.z;
-  ray.dir_x[lane] = direction.x;
-  ray.dir_y[lane] = direction.y;
-  ray.dir_z[lane] = direction.z;
-  asked_ |= 1u << lane;
+BounceRays::BounceRays(const RayScene& rays, const Patches& patches) : rays_(rays), patches_(patches) {
+  std::fill_n(packet_.ray.dir_z, kLanes, 1.0f);  // a direction for lanes without a ray, too
+  std::fill_n(packet_.ray.mask, kLanes, 1u);     // what the camera sees
+}
+
+void BounceRays::start(std::size_t lane, const Surface& from) {
+  origin_[lane] = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(from.position), static_cast<Vec3d>(from.geometric_normal)));
+  normal_[lane] = from.geometric_normal;
 }
 
 std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
@@ -26,11 +24,11 @@ std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
   RTCRay16& ray = packet_.ray;
   for (std::size_t i = 0; i < kLanes; ++i) {
     valid[i] = (asked_ >> i & 1) != 0 ? -1 : 0;
-    if (valid[i] == 0) ray.org_x[i] = ray.org_y[i] = ray.org_z[i] = ray.dir_x[i] = ray.dir_y[i] = 0, ray.dir_z[i] = 1;
-    ray.tnear[i] = ray.time[i] = 0;
+    ray.org_x[i] = origin_[i].x;
+    ray.org_y[i] = origin_[i].y;
+    ray.org_z[i] = origin_[i].z;
+    ray.tnear[i] = 0;
     ray.tfar[i] = std::numeric_limits<float>::infinity();
-    ray.mask[i] = 1;  // what the camera sees
-    ray.id[i] = ray.flags[i] = 0;
     packet_.hit.geomID[i] = packet_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   constexpr int kMostPassed = 8;
@@ -58,8 +56,8 @@ std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
     // Embree's normal is that of the winding.
     const float towards = packet_.hit.Ng_x[i] * ray.dir_x[i] + packet_.hit.Ng_y[i] * ray.dir_y[i] + packet_.hit.Ng_z[i] * ray.dir_z[i];
     const PatchPlace place = patches_.place_at(met[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
-    const Vec3f origin = {ray.org_x[i], ray.org_y[i], ray.org_z[i]}, way = {ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]};
-    places[i] = patches_.seen_along(place, origin + way * ray.tfar[i], rays_);
+    const Vec3f way = {ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]};
+    places[i] = patches_.seen_along(place, origin_[i] + way * ray.tfar[i], rays_);
   }
   asked_ = 0;
   return places;

@@ -15,10 +15,18 @@ class BounceRays {
   static constexpr std::size_t kLanes = 16;
 
   // Both must outlive this object.
-  BounceRays(const RayScene& rays, const Patches& patches) : rays_(rays), patches_(patches) {}
+  BounceRays(const RayScene& rays, const Patches& patches);
 
-  // Sets ray `lane` from a surface, and asks for it. Rays that begin below the surface's triangle meet nothing.
-  void set(std::size_t lane, const Surface& from, Vec3f direction);
+  // Lets the rays of a lane begin on a surface.
+  void start(std::size_t lane, const Surface& from);
+  // Sets the direction of a lane's ray, and asks for it. Rays into the surface's triangle meet nothing.
+  void set(std::size_t lane, Vec3f direction) {
+    if (!(dot(direction, normal_[lane]) > 0)) return;
+    packet_.ray.dir_x[lane] = direction.x;
+    packet_.ray.dir_y[lane] = direction.y;
+    packet_.ray.dir_z[lane] = direction.z;
+    asked_ |= 1u << lane;
+  }
   // Traces the rays that were set since the last call. Returns the place that each meets; its side may be kNoSide.
   std::array<PatchPlace, kLanes> trace();
   // Length of a ray to what it met in the last call.
@@ -27,6 +35,7 @@ class BounceRays {
  private:
   const RayScene& rays_;
   const Patches& patches_;
+  std::array<Vec3f, kLanes> origin_{}, normal_{};
   RTCRayHit16 packet_{};
   std::uint32_t asked_ = 0;
 };

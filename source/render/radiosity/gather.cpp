@@ -212,6 +212,7 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
   Quarters<float> weight{};
   std::array<Vec3f, kLanes> basis{};  // what the size of the patches changes
   BounceRays rays(rays_, light_.patches());
+  SixteenSurfaces::each(asked, [&](std::size_t i) { rays.start(i, surfaces.surface[i]); });
   const std::vector<Cell>& cells = grids_[level][static_cast<std::size_t>(sample % samples_)];
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const std::size_t quarter = quarter_of(k, cells.size());
@@ -221,7 +222,7 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
       cosine[i] = dot(surfaces.surface[i].normal, to);
       if (!(cosine[i] > 0)) return;
       weight[i][quarter] += cosine[i];
-      rays.set(i, surfaces.surface[i], to);
+      rays.set(i, to);
     });
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -276,17 +277,18 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     float wider;      // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss their highlights
   };
   std::array<std::optional<Walker>, kLanes> walkers;
+  BounceRays rays(rays_, light_.patches());
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (of[i] == nullptr) continue;
     const Surface& s = surfaces.surface[i];
     const Vec3d tangent = of[i]->material.tangent == Vec3d{} ? static_cast<Vec3d>(s.tangent) : of[i]->material.tangent;
     const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(of[i]->normal)), tangent);
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
-    if (lobe.above_surface())
-      walkers[i] = Walker{frame, lobe, static_cast<double>(gathered_fraction(*of[i])),
+    if (!lobe.above_surface()) continue;
+    rays.start(i, s);
+    walkers[i] = Walker{frame, lobe, static_cast<double>(gathered_fraction(*of[i])),
                           static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
   }
-  BounceRays rays(rays_, light_.patches());
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
   for (std::size_t k = 0; k < count; ++k) {
     const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
@@ -300,7 +302,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
       if (!(pdf > 0)) continue;
       weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) * (walkers[i]->fraction / (pdf * static_cast<double>(count))));
       to[i] = static_cast<Vec3f>(walkers[i]->frame.to_world(l));
-      rays.set(i, surfaces.surface[i], to[i]);
+      rays.set(i, to[i]);
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)

@@ -19,13 +19,12 @@ Kernels<float>::vec3 in_kernel(Vec3f v) { return {static_cast<double>(v.x), stat
 
 bool GlossySides::has_lobe(const Surface& surface) { return !surface.material->unlit && weighs(surface.f0 + surface.f90); }
 
-bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance,
-                       float turn) {
+std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn) {
   const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
   Vec3f sum{};
   for (const IncidentLight& light : incident) sum += light.irradiance;
   const double of_places = luminance(static_cast<Vec3d>(sum)), of_all = luminance(static_cast<Vec3d>(irradiance));
-  if (!(of_places > 0) || !(of_all > 0)) return false;
+  if (!(of_places > 0) || !(of_all > 0)) return kNone;
   const auto scale = static_cast<float>(of_all / of_places);
   const float alpha_x = std::max(std::hypot(surface.alpha_x, turn), kNarrowest);
   const float alpha_y = std::max(std::hypot(surface.alpha_y, turn), kNarrowest);
@@ -54,10 +53,9 @@ bool GlossySides::keep(std::uint32_t side, const Surface& surface, const std::ve
     if (is_small) add(begin, end);
     begin = end;
   }
-  of_side_[side] = static_cast<std::uint32_t>(lobes_.size());
   lobes_.push_back({static_cast<Vec3f>(frame.x), static_cast<Vec3f>(frame.y), static_cast<Vec3f>(frame.z), surface.f0, surface.f90, first,
                     static_cast<std::uint32_t>(places_.size()) - first});
-  return true;
+  return static_cast<std::uint32_t>(lobes_.size() - 1);
 }
 
 Vec3f GlossySides::sent(const KeptLobe& lobe, Vec3f to, float wider) const {

@@ -15,22 +15,18 @@ namespace steradian::radiosity {
 
 class GlossySides {
  public:
-  explicit GlossySides(std::size_t sides) : of_side_(sides, kNone) {}
+  static constexpr std::uint32_t kNone = UINT32_MAX;
 
   // True if a surface's glossy lobe is one that these sides can keep.
   static bool has_lobe(const Surface& surface);
   // Keeps the lobe of a side's surface and its light. irradiance: of all direct light on the surface; the light is scaled to it.
-  // turn: angle between the normals in the middle and at the border. Returns false, and keeps nothing, if no light arrives. Each side at
-  // most once, one at a time.
-  bool keep(std::uint32_t side, const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn);
+  // turn: angle between the normals in the middle and at the border. Returns the lobe's number, or kNone if no light arrives.
+  std::uint32_t keep(const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn);
 
-  // Radiance that a side's lobe sends in a direction of the scene. wider: width to add to the lobe, for few rays.
-  Vec3f radiance(std::uint32_t side, Vec3f to, float wider = 0) const {
-    return of_side_[side] == kNone ? Vec3f{} : sent(lobes_[of_side_[side]], to, wider);
-  }
+  // Radiance that a lobe sends in a direction of the scene. wider: width to add to the lobe, for few rays.
+  Vec3f radiance(std::uint32_t lobe, Vec3f to, float wider = 0) const { return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, wider); }
 
  private:
-  static constexpr std::uint32_t kNone = UINT32_MAX;
   struct Place {
     Vec3f direction;         // in the lobe's frame
     Vec3f light;             // radiance times solid angle
@@ -43,7 +39,6 @@ class GlossySides {
   };
   Vec3f sent(const KeptLobe& lobe, Vec3f to, float wider) const;
 
-  std::vector<std::uint32_t> of_side_;  // index of the lobe
   std::vector<KeptLobe> lobes_;
   std::vector<Place> places_;
 };

@@ -23,16 +23,16 @@ class PatchLight {
   const Patches& patches() const { return patches_; }
   // Radiance at a place that is on a side. A side beside a border of light has a direct light for each part.
   Vec3f radiance(PatchPlace at) const {
-    const std::uint32_t parts = parts_of_[at.side];
-    return parts == kNoSide ? radiance_[at.side] : radiance_[at.side] + change_in_parts_[parts][at.part];
+    const Side& side = sides_[at.side];
+    return side.parts == kNoParts ? side.radiance : side.radiance + change_in_parts_[side.parts][at.part];
   }
   // Radiance of direct light that a side's glossy lobe sends on in a direction. It comes on top of radiance(). wider: width to add to it.
-  Vec3f glossy_radiance(std::uint32_t side, Vec3f to, float wider = 0) const { return glossy_.radiance(side, to, wider); }
-  Vec3f radiance_towards(const BrightPlace& place, Vec3f to) const { return radiance_[place.side] + glossy_.radiance(place.side, to); }
+  Vec3f glossy_radiance(std::uint32_t side, Vec3f to, float wider = 0) const { return glossy_.radiance(sides_[side].glossy, to, wider); }
+  Vec3f radiance_towards(const BrightPlace& place, Vec3f to) const { return sides_[place.side].radiance + glossy_radiance(place.side, to); }
   // Mean radiance over the group of sides around it: what patches of twice the size would send.
-  Vec3f coarse_radiance(PatchPlace at) const { return coarse_[at.side]; }
+  Vec3f coarse_radiance(PatchPlace at) const { return sides_[at.side].coarse; }
   // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().
-  bool is_bright(std::uint32_t side) const { return !bright_.empty() && bright_[side] != 0; }
+  bool is_bright(std::uint32_t side) const { return sides_[side].bright != 0; }
   const std::vector<BrightPlace>& bright_places() const { return places_; }
   float bright_area() const { return bright_area_; }       // mean of the places' areas
   double mean_radiance() const { return mean_radiance_; }  // luminance, over the sides that send light
@@ -42,15 +42,21 @@ class PatchLight {
 
  private:
   friend class PatchSolver;
-  explicit PatchLight(Patches patches) : patches_(std::move(patches)), glossy_(patches_.side_count()) {}
+  explicit PatchLight(Patches patches) : patches_(std::move(patches)), sides_(patches_.side_count()) {}
+
+  static constexpr std::uint32_t kNoParts = (1u << 31) - 1;
+  // All that a ray asks of a side, in half a cache line.
+  struct alignas(32) Side {
+    Vec3f radiance, coarse;
+    std::uint32_t parts : 31 = kNoParts;  // index of change_in_parts_
+    std::uint32_t bright : 1 = 0;
+    std::uint32_t glossy = GlossySides::kNone;  // lobe of glossy_
+  };
 
   Patches patches_;
   GlossySides glossy_;
-  std::vector<Vec3f> radiance_;                                  // by side
-  std::vector<Vec3f> coarse_;                                    // by side
-  std::vector<std::uint32_t> parts_of_;                          // by side: index below, or kNoSide
+  std::vector<Side> sides_;
   std::vector<std::array<Vec3f, kPatchParts>> change_in_parts_;  // from the side's mean
-  std::vector<std::uint8_t> bright_;                             // by side; empty: none is
   std::vector<BrightPlace> places_;
   float bright_area_ = 0;
   double mean_radiance_ = 0;

@@ -111,11 +111,10 @@ PatchLight PatchSolver::solve(const AddDirect& add_direct, const FindIncident& f
   const std::size_t sides = patches().side_count();
   reflectance_.resize(sides);
   direct_.resize(sides);
-  light_.parts_of_.assign(sides, kNoSide);
   find_direct(add_direct);
   refine_direct(add_direct);
   find_glossy(find_incident);
-  light_.radiance_ = direct_;
+  for (std::size_t side = 0; side < sides; ++side) light_.sides_[side].radiance = direct_[side];
   if (sides == 0) return std::move(light_);
   if (options_.bounces != 1) {
     const std::size_t rays = std::clamp(kMostLinks / sides, std::size_t{16}, options_.fineness.rays);
@@ -201,7 +200,7 @@ void PatchSolver::refine_direct(const AddDirect& add_direct) {
       refined.push_back(side);
   }
   light_.change_in_parts_.resize(refined.size());
-  for (std::uint32_t k = 0; k < refined.size(); ++k) light_.parts_of_[refined[k]] = k;
+  for (std::uint32_t k = 0; k < refined.size(); ++k) light_.sides_[refined[k]].parts = k & PatchLight::kNoParts;
   const std::size_t tiles = (refined.size() + kTileSides - 1) / kTileSides;
   each(tiles, [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
@@ -216,7 +215,7 @@ void PatchSolver::refine_direct(const AddDirect& add_direct) {
     add_direct(*tile);
     for (std::size_t k = 0; k < kTileSides && number * kTileSides + k < refined.size(); ++k) {
       const std::uint32_t side = refined[number * kTileSides + k];
-      std::array<Vec3f, kPatchParts>& parts = light_.change_in_parts_[light_.parts_of_[side]];
+      std::array<Vec3f, kPatchParts>& parts = light_.change_in_parts_[light_.sides_[side].parts];
       Vec3f sum{};
       float held = 0;
       for (std::uint32_t i = 0; i < kPatchParts; ++i) {
@@ -270,12 +269,14 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
       const auto over = [](float a, float b) { return b > 0 ? a / b : 0; };
       const Vec3f irradiance =
           Vec3f{over(direct_[side].x, all.x), over(direct_[side].y, all.y), over(direct_[side].z, all.z)} * std::numbers::pi_v<float>;
-      if (found[k].incident.empty() || !light_.glossy_.keep(side, found[k].surface, found[k].incident, irradiance, turn_of(side))) continue;
+      if (found[k].incident.empty()) continue;
+      light_.sides_[side].glossy = light_.glossy_.keep(found[k].surface, found[k].incident, irradiance, turn_of(side));
+      if (light_.sides_[side].glossy == GlossySides::kNone) continue;
       const Vec3f rest = Vec3f{1, 1, 1} - found[k].share;
       even_glossy_[side] = direct_[side] * found[k].share;
       direct_[side] = direct_[side] * rest;
-      if (light_.parts_of_[side] == kNoSide) continue;
-      for (Vec3f& part : light_.change_in_parts_[light_.parts_of_[side]]) part = part * rest;
+      if (light_.sides_[side].parts == PatchLight::kNoParts) continue;
+      for (Vec3f& part : light_.change_in_parts_[light_.sides_[side].parts]) part = part * rest;
     }
   }
 }
@@ -290,16 +291,17 @@ void PatchSolver::find_links(std::size_t rays) {
     reference::Random random(side);
     const double turn = random.uniform();
     BounceRays bounce(rays_, patches());
+    for (std::size_t i = 0; i < BounceRays::kLanes; ++i) bounce.start(i, surface);
     for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
       std::array<Vec3f, BounceRays::kLanes> to;
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
         to[i] = static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn)));
-        bounce.set(i, surface, to[i]);
+        bounce.set(i, to[i]);
       }
       const auto met = bounce.trace();
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
         links_[side * rays + k + i] = met[i].side;
-        if (met[i].side != kNoSide) from_glossy_[side] += light_.glossy_.radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
+        if (met[i].side != kNoSide) from_glossy_[side] += light_.glossy_radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
       }
     }
   });
@@ -313,7 +315,7 @@ void PatchSolver::iterate() {
   const int bounces = options_.bounces;
   const std::size_t sides = patches().side_count();
   const float over_links = 1.0f / static_cast<float>(links_per_side_);
-  std::vector<Vec3f> bounce = light_.radiance_, next(sides);  // radiance after exactly so many bounces
+  std::vector<Vec3f> bounce = direct_, next(sides);  // radiance after exactly so many bounces
   const auto largest_of = [](Vec3f v) { return std::max({v.x, v.y, v.z}); };
   const int most = bounces == kAllBounces ? kMostIterations : bounces - 1;
   for (light_.iterations_ = 0; light_.iterations_ < most && !stopped();) {
@@ -330,10 +332,10 @@ void PatchSolver::iterate() {
     const auto grows = [](float from, float to) { return to > 0 ? (from > 0 ? to / from : std::numeric_limits<float>::infinity()) : 0.0f; };
     for (std::size_t side = 0; side < sides; ++side) {
       const Vec3f a = bounce[side], b = next[side];
-      light_.radiance_[side] += b;
+      light_.sides_[side].radiance += b;
       factor = std::max({factor, grows(a.x, b.x), grows(a.y, b.y), grows(a.z, b.z)});
       largest_bounce = std::max(largest_bounce, largest_of(b));
-      largest = std::max(largest, largest_of(light_.radiance_[side]));
+      largest = std::max(largest, largest_of(light_.sides_[side].radiance));
     }
     bounce.swap(next);
     ++light_.iterations_;
@@ -352,13 +354,12 @@ void PatchSolver::find_coarse() {
   std::vector<float> count(sides);
   for (std::uint32_t side = 0; side < sides; ++side) {
     const std::uint32_t group = patches().group_of(side);
-    sum[group] += light_.radiance_[side];
+    sum[group] += light_.sides_[side].radiance;
     count[group] += 1;
   }
-  light_.coarse_.resize(sides);
   for (std::uint32_t side = 0; side < sides; ++side) {
     const std::uint32_t group = patches().group_of(side);
-    light_.coarse_[side] = sum[group] * (1 / count[group]);
+    light_.sides_[side].coarse = sum[group] * (1 / count[group]);
   }
 }
 
@@ -384,7 +385,7 @@ void PatchSolver::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
   constexpr std::size_t kPlaces = 1024;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
-  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(light_.radiance_[side] + even_glossy_[side])); };
+  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(light_.sides_[side].radiance + even_glossy_[side])); };
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (!(brightness(side) > 0)) continue;
@@ -411,7 +412,7 @@ void PatchSolver::find_bright_sides() {
       light_.places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
     }
   }
-  light_.bright_ = std::move(bright);
+  for (std::uint32_t side = 0; side < sides; ++side) light_.sides_[side].bright = bright[side] & 1u;
   light_.bright_area_ = static_cast<float>(bright_area / kPlaces);
 }
 

@@ -44,10 +44,10 @@ Patches::Patches(const Scene& scene, std::size_t wanted) {
   size_ = static_cast<float>(size);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
-    std::vector<Grid>& grids = grids_.emplace_back();
+    first_grid_.push_back(grids_.size());
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
       const std::uint32_t n = cells_for(longest_edge(mesh, t), size);
-      grids.push_back({static_cast<std::uint32_t>(sites_.size()), n});
+      grids_.push_back({static_cast<std::uint32_t>(sites_.size()), n});
       const float step = 1.0f / static_cast<float>(n);
       for (std::uint32_t i = 0; i < n; ++i)
         for (std::uint32_t k = 0; k < 2 * (n - i) - 1; ++k) {
@@ -71,13 +71,16 @@ struct TriangleCell {
   float u, v;  // within the cell
 
   TriangleCell(float x, float y, std::uint32_t n) {
-    const auto cell = [&](float at, std::uint32_t most) { return at > 0 ? std::min(static_cast<std::uint32_t>(at), most) : 0u; };
-    row = cell(x * static_cast<float>(n), n - 1);
-    column = cell(y * static_cast<float>(n), n - 1 - row);
-    u = x * static_cast<float>(n) - static_cast<float>(row);
-    v = y * static_cast<float>(n) - static_cast<float>(column);
-    upper = u + v > 1 && row + column + 1 < n;
-    if (upper) u = 1 - u, v = 1 - v;
+    // Without branches: a processor cannot predict where rays arrive.
+    const auto cell = [&](float at, int most) { return std::min(static_cast<int>(std::max(0.0f, at)), most); };
+    const int last = static_cast<int>(n) - 1, i = cell(x * static_cast<float>(n), last), k = cell(y * static_cast<float>(n), last - i);
+    row = static_cast<std::uint32_t>(i);
+    column = static_cast<std::uint32_t>(k);
+    u = x * static_cast<float>(n) - static_cast<float>(i);
+    v = y * static_cast<float>(n) - static_cast<float>(k);
+    upper = (u + v > 1) & (i + k < last);
+    u = std::fabs(static_cast<float>(upper) - u);
+    v = std::fabs(static_cast<float>(upper) - v);
   }
   std::uint32_t number(std::uint32_t n) const { return patches_before(row, n) + 2 * column + (upper ? 1 : 0); }
 };
@@ -102,7 +105,7 @@ Patches::Site Patches::site(PatchPlace place) const {
 }
 
 PatchPlace Patches::place_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const {
-  const Grid grid = grids_[mesh][triangle];
+  const Grid& grid = grid_of(mesh, triangle);
   const TriangleCell cell(u, v, grid.cells), part(cell.u, cell.v, kPartsAlong);
   PatchPlace at{2 * (grid.first + cell.number(grid.cells)) + (front ? 0 : 1), part.number(kPartsAlong)};
   if (const Split* split = split_of(at.side)) at.side = split->of_parts[at.part];
@@ -123,7 +126,7 @@ float Patches::area(std::uint32_t side) const {
 
 std::uint32_t Patches::group_of(std::uint32_t side) const {
   const Site& at = site(side);
-  const Grid grid = grids_[at.mesh][at.triangle];
+  const Grid& grid = grid_of(at.mesh, at.triangle);
   const TriangleCell cell(at.u, at.v, grid.cells);
   return 2 * (grid.first + patches_before(cell.row / 2 * 2, grid.cells) + 2 * (cell.column / 2 * 2)) + side % 2;
 }
