@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "lobes/lobe_parts.h"
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian::radiosity {
@@ -12,8 +11,6 @@ namespace {
 
 constexpr float kNarrowest = 0.18f;  // alpha: few rays would meet the light of a narrower lobe
 constexpr float kSmall = 0.5f;       // half radius of a light over the lobe's width
-
-Kernels<float>::vec3 in_kernel(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
 }  // namespace
 
@@ -28,7 +25,7 @@ std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<Incide
   const auto scale = static_cast<float>(of_all / of_places);
   const float alpha_x = std::max(std::hypot(surface.alpha_x, turn), kNarrowest);
   const float alpha_y = std::max(std::hypot(surface.alpha_y, turn), kNarrowest);
-  const auto first = static_cast<std::uint32_t>(places_.size());
+  const std::size_t first = places_.x.size();
   // Adds the light of some places as that of one, a cone of their solid angle. Half vectors turn by half of its radius.
   const auto half_radius = [](float solid_angle) { return 0.5f * std::sqrt(solid_angle / std::numbers::pi_v<float>); };
   const auto add = [&](std::size_t begin, std::size_t end) {
@@ -42,7 +39,7 @@ std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<Incide
     const auto l = static_cast<Vec3f>(frame.to_local(static_cast<Vec3d>(normalized(direction))));
     if (!(l.z > 0)) return;
     const float wider = half_radius(solid_angle);
-    places_.push_back({l, light * (scale / l.z), std::hypot(alpha_x, wider), std::hypot(alpha_y, wider)});
+    places_.add(l, light * (scale / l.z), std::hypot(alpha_x, wider), std::hypot(alpha_y, wider));
   };
   for (std::size_t begin = 0; begin < incident.size();) {
     std::size_t end = begin;
@@ -53,27 +50,17 @@ std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<Incide
     if (is_small) add(begin, end);
     begin = end;
   }
+  while ((places_.x.size() - first) % GlossyPlaces::kStep != 0) places_.add({0, 0, 1}, {}, 1, 1);
   lobes_.push_back({static_cast<Vec3f>(frame.x), static_cast<Vec3f>(frame.y), static_cast<Vec3f>(frame.z), surface.f0, surface.f90, first,
-                    static_cast<std::uint32_t>(places_.size()) - first});
+                    places_.x.size() - first});
   return static_cast<std::uint32_t>(lobes_.size() - 1);
 }
 
 Vec3f GlossySides::sent(const KeptLobe& lobe, Vec3f to, float wider) const {
   const Vec3f v = {dot(lobe.x, to), dot(lobe.y, to), dot(lobe.z, to)};
   if (!(v.z > 0)) return {};
-  Kernels<float> k;
-  const auto view = in_kernel(v);
-  Vec3f sum{};
-  for (std::uint32_t i = lobe.first; i < lobe.first + lobe.count; ++i) {
-    const Place& place = places_[i];
-    const auto l = in_kernel(place.direction), h = k.microfacet_half_vector(l, view);
-    const bool plain = wider == 0;
-    const auto shape = k.ggx_lobe(l, view, plain ? place.alpha_x : std::hypot(place.alpha_x, wider),
-                                  plain ? place.alpha_y : std::hypot(place.alpha_y, wider));
-    const float grazing = k.fresnel_schlick(0.0f, 1.0f, dot(view, h)).v;
-    sum += place.light * (lobe.f0 * (1 - grazing) + lobe.f90 * grazing) * shape.v;
-  }
-  return sum;
+  const GlossyTable::Sent sent = packs_->sent(places_, lobe.first, lobe.count, v, wider);
+  return lobe.f0 * (sent.all - sent.grazing) + lobe.f90 * sent.grazing;
 }
 
 }  // namespace steradian::radiosity

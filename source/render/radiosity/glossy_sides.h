@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/radiosity/glossy_places.h"
 #include "render/sampled/monte_carlo.h"
 #include "render/surface/surface.h"
 #include "steradian/vector.h"
@@ -27,20 +28,16 @@ class GlossySides {
   Vec3f radiance(std::uint32_t lobe, Vec3f to, float wider = 0) const { return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, wider); }
 
  private:
-  struct Place {
-    Vec3f direction;         // in the lobe's frame
-    Vec3f light;             // radiance times solid angle
-    float alpha_x, alpha_y;  // of the lobe, widened
-  };
   struct KeptLobe {
     Vec3f x, y, z;  // frame
     Vec3f f0, f90;
-    std::uint32_t first, count;  // places
+    std::size_t first, count;  // places
   };
   Vec3f sent(const KeptLobe& lobe, Vec3f to, float wider) const;
 
   std::vector<KeptLobe> lobes_;
-  std::vector<Place> places_;
+  GlossyPlaces places_;
+  const GlossyTable* packs_ = &glossy_table_for(active_simd());
 };
 
 }  // namespace steradian::radiosity

@@ -87,7 +87,8 @@ struct MirrorImage::Cells {
     Kernels<float> k;
     const Frame frame = Frame::from_normal_and_tangent(static_cast<Vec3d>(pixel.normal), static_cast<Vec3d>(pixel.tangent));
     const Vec3f ax = static_cast<Vec3f>(frame.x), ay = static_cast<Vec3f>(frame.y), az = static_cast<Vec3f>(frame.z);
-    const auto local = [&](Vec3f v) { return in_kernel(Vec3f{dot(ax, v), dot(ay, v), dot(az, v)}); };
+    const auto along = [](Vec3f axis, Vec3f v) { return static_cast<double>(dot(axis, v)); };
+    const auto local = [&](Vec3f v) { return Kernels<float>::vec3(along(ax, v), along(ay, v), along(az, v)); };
     const auto view = local(pixel.view);
     const float width = 2 * std::max(pixel.alpha_x, pixel.alpha_y), fine = 2 * std::min(pixel.alpha_x, pixel.alpha_y);
     Vec3f light{};

@@ -41,11 +41,32 @@ Reflectance reflectance_of(const Surface& s) {
   return {within(s.albedo * (1 - s.fresnel_loss * kGrazing) + glossy), within(glossy)};
 }
 
-// Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Each side turns it by its own angle.
-Vec3d cosine_direction(std::size_t index, std::size_t count, double turn) {
-  const auto [square, v] = fibonacci_place(index, count, turn);
-  const double r = std::sqrt(square), phi = 2 * std::numbers::pi * v;
-  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)};
+// Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Those that are traced together are neighbours.
+std::vector<Vec3d> cosine_directions(std::size_t count) {
+  std::vector<Vec3d> directions;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [square, v] = fibonacci_place(i, count, 0);
+    const double r = std::sqrt(square), phi = 2 * std::numbers::pi * v;
+    directions.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)});
+  }
+  // A curve through the disc: the bits of its two coordinates in turn.
+  const auto along_curve = [](Vec3d d) {
+    const auto x = static_cast<unsigned>((d.x + 1) * 127), y = static_cast<unsigned>((d.y + 1) * 127);
+    unsigned place = 0;
+    for (unsigned bit = 0; bit < 8; ++bit) place |= (x >> bit & 1) << 2 * bit | (y >> bit & 1) << (2 * bit + 1);
+    return place;
+  };
+  std::sort(directions.begin(), directions.end(), [&](Vec3d a, Vec3d b) { return along_curve(a) < along_curve(b); });
+  return directions;
+}
+
+// A frame about a normal, turned by an angle.
+Frame turned_frame(Vec3d normal, double angle) {
+  Frame frame = Frame::from_normal(normal);
+  const Vec3d x = frame.x, y = frame.y;
+  frame.x = x * std::cos(angle) + y * std::sin(angle);
+  frame.y = y * std::cos(angle) - x * std::sin(angle);
+  return frame;
 }
 
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
@@ -285,17 +306,18 @@ void PatchSolver::find_links(std::size_t rays) {
   links_per_side_ = rays;
   links_.resize(rays * patches().side_count());
   from_glossy_.resize(patches().side_count());
+  const std::vector<Vec3d> directions = cosine_directions(rays);
   each(patches().side_count(), [&](std::size_t side) {
     const Surface surface = surface_of(static_cast<std::uint32_t>(side));
-    const Frame frame = Frame::from_normal(normalized(static_cast<Vec3d>(surface.geometric_normal)));
+    // Each side turns the directions by its own angle.
     reference::Random random(side);
-    const double turn = random.uniform();
+    const Frame frame = turned_frame(normalized(static_cast<Vec3d>(surface.geometric_normal)), 2 * std::numbers::pi * random.uniform());
     BounceRays bounce(rays_, patches());
     for (std::size_t i = 0; i < BounceRays::kLanes; ++i) bounce.start(i, surface);
     for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
       std::array<Vec3f, BounceRays::kLanes> to;
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
-        to[i] = static_cast<Vec3f>(frame.to_world(cosine_direction(k + i, rays, turn)));
+        to[i] = static_cast<Vec3f>(frame.to_world(directions[k + i]));
         bounce.set(i, to[i]);
       }
       const auto met = bounce.trace();
