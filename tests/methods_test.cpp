@@ -203,6 +203,18 @@ TEST(Methods, EvalAndRenderServeTheSameLobes) {
     }
 }
 
+// Layers of glTF's surfaces run on packs alone: a method that pictures offer for them has a procedure.
+TEST(Methods, LayersRunOnPacks) {
+  Material layer;
+  layer.brdf = Brdf::ggx;
+  layer.f0 = {0.04, 0.04, 0.04};
+  for (const Row& row : methods::all()) {
+    if (row.serves(layer) && row.in_float) {
+      EXPECT_NE(row.procedure, methods::Procedure::none) << row.name;
+    }
+  }
+}
+
 // Every pixel equals the result of the library's own call: half vectors for GGX, and GGX without shadowing exactly.
 TEST(Methods, RenderAnswersAsTheLibraryDoes) {
   const auto compare = [](const char* method, const Material& lobe, const auto& expected_at) {
