@@ -63,6 +63,9 @@ class Renderer {
                                                  method_.table.get());
         }),
         arena_(threads_) {
+    const auto is_solid = [](const PackLight& light) { return light.solid != nullptr; };
+    if (options.bounces != 0 && std::any_of(lights_.begin(), lights_.end(), is_solid))
+      faces_ = std::make_unique<FaceLights>(scene_, options_, method_, parts_, surfaces_.environment_spots());
     if (options.indirect.mode != IndirectMode::off) indirect_.emplace(scene_, surfaces_.rays(), options_, threads_);
     build_ms_ = ms_since(start_);
   }
@@ -154,11 +157,11 @@ class Renderer {
 
   Sorted sorted() const { return options_.shadows != Shadows::off && !method_.estimates() ? Sorted::for_rays_and_edges : Sorted::for_rays; }
 
-  // Rays that estimate shadows take the faces of closed meshes one by one.
+  // The picture's lights: rays that estimate its shadows would take the faces of closed meshes one by one.
   std::vector<PackLight> own_lights() const {
     std::vector<PackLight> lights = prepare_lights(scene_, surfaces_.environment_spots());
-    const bool by_outline = options_.shadows == Shadows::on && !method_.estimates() && !(options_.time_limit > 0) &&
-                            !(options_.shadow_error > 0) && options_.bounces == 0;
+    const bool by_outline =
+        options_.shadows == Shadows::on && !method_.estimates() && !(options_.time_limit > 0) && !(options_.shadow_error > 0);
     return by_outline ? with_solids(std::move(lights), scene_) : lights;
   }
 
@@ -310,8 +313,11 @@ class Renderer {
   void light_directly(SurfaceTile& tile, ReceiverKind receiver) {
     TileVector bound;
     if (many_lights_) bound = std::exchange(many_lights_->bound(), {});
-    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, radiosity::fineness_of(options_).shadow_rays}.add(tile, receiver,
-                                                                                                                  *estimates_.local());
+    const std::size_t rays = radiosity::fineness_of(options_).shadow_rays;
+    if (faces_ != nullptr && receiver == ReceiverKind::patch && rays > 0)
+      DirectLight{faces_->lighting, faces_->tinted, surfaces_, faces_->pointers, rays}.add(tile, receiver, *estimates_.local());
+    else
+      DirectLight{lighting_, tinted_, surfaces_, light_pointers_, rays}.add(tile, receiver, *estimates_.local());
     if (many_lights_) many_lights_->bound() = bound;
   }
 
@@ -472,6 +478,7 @@ class Renderer {
   const std::unique_ptr<ManyLightPass> many_lights_;  // null if each light is summed by itself
   TileLighting lighting_;
   const TintedShadows tinted_;
+  std::unique_ptr<FaceLights> faces_;  // of patches; null: the picture's lights are flat or round
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   tbb::enumerable_thread_specific<std::unique_ptr<SurfaceTile>> tiles_{[] { return std::make_unique<SurfaceTile>(); }};
   tbb::enumerable_thread_specific<std::unique_ptr<EstimatedShadows>> estimates_{[] { return std::make_unique<EstimatedShadows>(); }};

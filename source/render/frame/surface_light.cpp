@@ -23,15 +23,19 @@ void find_incident_on_patch(DirectSampler& sampler, bool has_environment, const 
   sampler.find_incident(surface, static_cast<int>(std::clamp(kPlaces / lights, std::size_t{1}, kMostPlaces)), random, found);
 }
 
+FaceLights::FaceLights(const Scene& scene, const RenderOptions& options, const DirectMethod& method, const SceneParts& parts,
+                       std::span<const AreaLight> spots)
+    : lights(prepare_lights(scene, spots)),
+      pointers(all_of(lights)),
+      lighting(scene, options, method, lights, parts, nullptr),
+      tinted(scene, options, method, lights, nullptr) {}
+
 SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, const std::function<void()>& solved)
     : options_(options),
       method_(choose_method(scene, options)),
       parts_(SceneParts::of(scene, options.shadows != Shadows::off ? Sorted::for_rays_and_edges : Sorted::for_rays)),
       surfaces_(scene, options, parts_, method_.table.get()),
-      lights_(prepare_lights(scene, surfaces_.environment_spots())),
-      light_pointers_(all_of(lights_)),
-      lighting_(scene, options, method_, lights_, parts_, nullptr),
-      tinted_(scene, options, method_, lights_, nullptr),
+      lights_(scene, options, method_, parts_, surfaces_.environment_spots()),
       estimates_([] { return std::make_unique<EstimatedShadows>(); }),
       samplers_([this, &scene] {
         const environment::EnvironmentLight* around = surfaces_.environment();

@@ -37,6 +37,18 @@ struct DirectLight {
   void add(SurfaceTile& tile, ReceiverKind receiver, EstimatedShadows& scratch) const;
 };
 
+// Lights for rays that estimate shadows: these take the faces of closed meshes one by one.
+struct FaceLights {
+  const std::vector<PackLight> lights;
+  const std::vector<const PackLight*> pointers;
+  TileLighting lighting;
+  const TintedShadows tinted;
+
+  // All arguments must outlive this object.
+  FaceLights(const Scene& scene, const RenderOptions& options, const DirectMethod& method, const SceneParts& parts,
+             std::span<const AreaLight> spots);
+};
+
 class SurfaceLight {
  public:
   // Solves the light between surfaces if options.bounces asks for it, on the threads of the caller's arena. The scene and the options must
@@ -56,23 +68,20 @@ class SurfaceLight {
   // Finds the irradiance of a tile made by put_white. Changes the tile. Any number of threads may ask at once.
   void find(SurfaceTile& tile, Direct direct, Irradiance& result);
 
-  double shadow_fallback() const { return lighting_.shadow_fallback(); }
+  double shadow_fallback() const { return lights_.lighting.shadow_fallback(); }
   std::size_t patches() const { return patches_ ? patches_->patches().side_count() / 2 : 0; }
 
  private:
   void add_direct(SurfaceTile& tile, ReceiverKind receiver) {
-    DirectLight{lighting_, tinted_, surfaces_, light_pointers_, radiosity::fineness_of(options_).shadow_rays}.add(tile, receiver,
-                                                                                                                  *estimates_.local());
+    DirectLight{lights_.lighting, lights_.tinted, surfaces_, lights_.pointers, radiosity::fineness_of(options_).shadow_rays}.add(
+        tile, receiver, *estimates_.local());
   }
 
   const RenderOptions& options_;
   const DirectMethod method_;
   const SceneParts parts_;
   FrameSurfaces surfaces_;
-  const std::vector<PackLight> lights_;
-  const std::vector<const PackLight*> light_pointers_;
-  TileLighting lighting_;
-  const TintedShadows tinted_;
+  FaceLights lights_;
   tbb::enumerable_thread_specific<std::unique_ptr<EstimatedShadows>> estimates_;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers_;
   std::unique_ptr<const radiosity::PatchLight> patches_;  // null without bounces

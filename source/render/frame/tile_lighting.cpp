@@ -42,12 +42,21 @@ float whole_fraction(const TileShadow& shadow, std::size_t i) {
   return shadow.seen[i] == Seen::whole ? 1.0f : shadow.seen[i] == Seen::share ? shadow.share[i] : 0.0f;
 }
 
-// The light that an area light sends to every slot, as if nothing occluded it, and with that of all dimmer ones.
-struct WholeLight {
-  const PackLight* light = nullptr;
-  std::array<Vec3f, kTilePixels> all{}, with_dimmer{};
-  double sum = 0;
-};
+std::vector<std::uint32_t> slots_with_surfaces(const SurfaceTile& tile) {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i)
+    if (tile.material[i] != nullptr) slots.push_back(i);
+  return slots;
+}
+
+// More lights than these share the rays of so many, in proportion to the light that they send to the tile.
+constexpr std::size_t kLightsWithAllRays = 4;
+constexpr std::size_t kFewestRays = 4;  // of a light
+
+std::size_t rays_by_share(std::size_t rays, double share) {
+  const auto half = static_cast<std::size_t>(share * static_cast<double>(kLightsWithAllRays * rays) / 2);
+  return std::clamp(2 * half, std::min(rays, kFewestRays), rays);
+}
 
 }  // namespace
 
@@ -55,6 +64,13 @@ void EstimatedShadows::clear() {
   for (TilePlane* plane : {&bound.x, &bound.y, &bound.z}) plane->fill(0);
   squares = 0;
 }
+
+// The light that an area light sends to every slot, as if nothing occluded it, and with that of all dimmer ones.
+struct TileLighting::WholeLight {
+  const PackLight* light = nullptr;
+  std::array<Vec3f, kTilePixels> all{}, with_dimmer{};
+  double sum = 0;
+};
 
 // State of one tile's shadows, and the memory of one thread.
 struct TileLighting::Work {
@@ -153,20 +169,27 @@ void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLi
     shadows_->find_open(points, lights, work.open);
   });
   std::vector<const PackLight*> plain, punctual;
+  std::vector<WholeLight>& whole = work.whole;
+  whole.clear();
   for (const PackLight* light : lights) {
-    if (work.open.open[light->index] != 0) {
+    if (work.open.open[light->index] != 0)
       plain.push_back(light);
-    } else if (!light->is_area()) {
+    else if (light->is_area())
+      whole.emplace_back().light = light;
+    else
       punctual.push_back(light);  // one ray decides
-    } else {
-      RayFractions& fractions = work.fractions;
-      shadow_clock_.run([&] { few_rays_->find(tile, points, *light, rays, sample, fractions); });
-      work.slots.clear();
-      for (std::uint32_t i = 0; i < kTilePixels; ++i)
-        if (tile.material[i] != nullptr) work.slots.push_back(i);
-      const SurfaceTile& whole = light_slots(tile, *light, work);
-      for (std::size_t k = 0; k < work.slots.size(); ++k) add_estimated(tile, work.slots[k], radiance_in(whole, k), fractions, estimate);
-    }
+  }
+  const std::vector<std::uint32_t> slots = slots_with_surfaces(tile);
+  double sum = 0;
+  for (WholeLight& w : whole) {
+    find_whole(tile, slots, work, w);
+    sum += w.sum;
+  }
+  for (const WholeLight& w : whole) {
+    if (!(w.sum > 0)) continue;
+    const std::size_t count = whole.size() <= kLightsWithAllRays ? rays : rays_by_share(rays, w.sum / sum);
+    shadow_clock_.run([&] { few_rays_->find(tile, points, *w.light, count, sample, work.fractions); });
+    for (const std::uint32_t i : slots) add_estimated(tile, i, w.all[i], work.fractions, estimate);
   }
   for (const PackLight* light : add_past_blockers(tile, punctual, work)) plain.push_back(light);
   if (!plain.empty()) add(tile, plain);
@@ -238,17 +261,8 @@ std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, 
   for (const PackLight* light : add_past_blockers(tile, occluded, work)) plain.push_back(light);
   if (!plain.empty()) add(tile, plain);
 
-  std::vector<std::uint32_t> slots;
-  for (std::uint32_t i = 0; i < kTilePixels; ++i)
-    if (tile.material[i] != nullptr) slots.push_back(i);
-  for (WholeLight& w : whole) {
-    work.slots = slots;
-    const SurfaceTile& lit = light_slots(tile, *w.light, work);
-    for (std::size_t k = 0; k < slots.size(); ++k) {
-      w.all[slots[k]] = radiance_in(lit, k);
-      w.sum += luminance(static_cast<Vec3d>(w.all[slots[k]]));
-    }
-  }
+  const std::vector<std::uint32_t> slots = slots_with_surfaces(tile);
+  for (WholeLight& w : whole) find_whole(tile, slots, work, w);
   std::stable_sort(whole.begin(), whole.end(), [](const WholeLight& a, const WholeLight& b) { return a.sum > b.sum; });
   for (std::size_t k = whole.size(); k-- > 0;)
     for (const std::uint32_t i : slots)
@@ -272,6 +286,16 @@ std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, 
     for (const std::uint32_t i : slots) add_estimated(tile, i, w.all[i], work.fractions, estimate);
   }
   return {};
+}
+
+// Finds the light that some slots would get of an area light without occluders.
+void TileLighting::find_whole(const SurfaceTile& tile, const std::vector<std::uint32_t>& slots, Work& work, WholeLight& whole) {
+  work.slots = slots;
+  const SurfaceTile& lit = light_slots(tile, *whole.light, work);
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    whole.all[slots[k]] = radiance_in(lit, k);
+    whole.sum += luminance(static_cast<Vec3d>(whole.all[slots[k]]));
+  }
 }
 
 // Adds the light for slots that see all of it, or a fraction of it.

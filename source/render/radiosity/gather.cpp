@@ -287,7 +287,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     if (!lobe.above_surface()) continue;
     rays.start(i, s);
     walkers[i] = Walker{frame, lobe, static_cast<double>(gathered_fraction(*of[i])),
-                          static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
+                        static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
   }
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
   for (std::size_t k = 0; k < count; ++k) {

@@ -407,7 +407,9 @@ void PatchSolver::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
   constexpr std::size_t kPlaces = 1024;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
-  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(light_.sides_[side].radiance + even_glossy_[side])); };
+  const auto brightness = [&](std::uint32_t side) {
+    return luminance(static_cast<Vec3d>(light_.sides_[side].radiance + even_glossy_[side]));
+  };
   double power = 0, area = 0;
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (!(brightness(side) > 0)) continue;

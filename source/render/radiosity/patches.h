@@ -77,8 +77,8 @@ class Patches {
     std::uint32_t cells;  // along a side: cells * cells patches
   };
   const Grid& grid_of(std::size_t mesh, std::size_t triangle) const { return grids_[first_grid_[mesh] + triangle]; }
-  std::vector<Grid> grids_;               // of the triangles of all meshes
-  std::vector<std::size_t> first_grid_;   // by mesh
+  std::vector<Grid> grids_;              // of the triangles of all meshes
+  std::vector<std::size_t> first_grid_;  // by mesh
   std::vector<Site> sites_;
   std::vector<std::uint8_t> lets_through_;  // by mesh
   float size_ = 0;                          // of the patches that large triangles are cut into
