@@ -92,6 +92,41 @@ TEST(SolidRender, LightsWhatLiesInItsMidst) {
   EXPECT_LT(worst, 1e-3);  // of the cubature, see above; a face that is missing is 1e-2
 }
 
+// With all light, too, the picture's own light comes by the outline. Patches have rays to the faces, which share the rays of a few lights.
+TEST(SolidRender, AllLightIsThatOfTheFacesAndOfPaths) {
+  const Scene scene = under_a_ring(0.5f);
+  RenderOptions options = small(Shadows::on);
+  options.width = 30;
+  options.height = 19;
+  options.bounces = kAllBounces;
+  RenderStats stats;
+  const Picture solid = render(scene, options, &stats);
+  EXPECT_EQ(stats.lights, 1u);
+  options.shadows = Shadows::exact;
+  const Picture faces = render(scene, options);
+  double squares = 0;
+  for (std::size_t i = 0; i < solid.pixels.size(); ++i) {
+    const Vec3d d = static_cast<Vec3d>(solid.pixels[i]) - static_cast<Vec3d>(faces.pixels[i]);
+    squares += dot(d, d) / 3;
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(solid.pixels.size())) / mean_of(faces), 2e-4);
+  options.shadows = Shadows::on;
+  options.method = "reference";
+  options.target_error = 0.3;
+  const Picture paths = render(scene, options);
+  double variance = 0;
+  for (const Vec3f& v : paths.layers.at("variance")) variance += static_cast<double>(v.x + v.y + v.z) / 3;  // channels go together
+  const double error = std::sqrt(variance) / static_cast<double>(paths.pixels.size()) / mean_of(paths);
+  const double ratio = mean_of(solid) / mean_of(paths);
+  options.method = "auto";
+  options.bounces = 0;
+  const Picture direct = render(scene, options);
+  std::printf("mean over that of paths %.4f, their standard error %.4f; without bounces %.3f\n", ratio, error,
+              mean_of(direct) / mean_of(paths));
+  EXPECT_NEAR(ratio, 1, 4 * error + 2e-3);
+  EXPECT_LT(mean_of(direct) / mean_of(paths), 0.98);  // else the test would see nothing
+}
+
 TEST(SolidRender, IsTheSameAtAnyNumberOfThreads) {
   const Scene scene = under_a_ring(0.5f);
   RenderOptions options = small(Shadows::on);
