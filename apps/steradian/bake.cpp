@@ -59,9 +59,9 @@ nlohmann::ordered_json stats_json(const BakeArguments& options, const bake::Ligh
 std::string settings_of(const BakeArguments& options) {
   const RenderOptions& r = options.bake.light;
   const LoadOptions& load = options.load;
-  return fmt::format("{} | bounces {} {} | {} | shadows {} | environment {} {} | lights {} {}", name_of(active_simd()), options.bounces,
-                     r.bounce_error, words::name_of(r.quality), words::name_of(r.shadows), load.environment, load.environment_rotation,
-                     load.max_lights.value_or(0), words::name_of(load.light_units));
+  return fmt::format("{} | bounces {} {}{} | {} | shadows {} | environment {} {} | lights {} {}", name_of(active_simd()), options.bounces,
+                     r.bounce_error, r.bounce_strict ? " strict" : "", words::name_of(r.quality), words::name_of(r.shadows),
+                     load.environment, load.environment_rotation, load.max_lights.value_or(0), words::name_of(load.light_units));
 }
 
 void parse_part(BakeArguments& options) {
@@ -113,6 +113,7 @@ void run(const Verb& verb, BakeArguments& options) {
     throw WrongOption("-o", part ? "a part is written as .exr; steradian merge joins them" : "the baked scene is a .glb or .gltf file");
   if (!options.groups.empty() && bake.target == bake::BakeTarget::vertex) throw WrongOption("--group", "is for --target texture");
   verb.refuse_without_effect({{"--bounce-error", bake.light.bounces != 0, "--bounces"},
+                              {"--bounce-strict", bake.light.bounces != 0, "--bounces"},
                               {"--environment-rotation", !options.load.environment.empty(), "--environment"}});
   LoadOptions& load = options.load;
   const auto start = std::chrono::steady_clock::now();
@@ -165,6 +166,7 @@ void add_bake(CommandLine& line) {
   verb.add("--direct", options->direct, "light of lamps and environment").words({"on", "off"}).group("Light");
   verb.add_word("--quality", r.quality, "patches and rays of --bounces").group("Light");
   verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
+  verb.add_flag("--bounce-strict", r.bounce_strict, "of --bounces: each place by itself, in 16 times the directions").group("Light");
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   verb.add("--environment", options->load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
   verb.add("--environment-rotation", options->load.environment_rotation, "degrees about +y, counter-clockwise from above")

@@ -58,7 +58,8 @@ struct RenderOptions {
   // Light that other surfaces send, after this number of bounces at most (kAllBounces: any number). Excludes `indirect`.
   int bounces = 0;
   double bounce_error = 0;  // with bounces: estimated error of a pixel over the scene's mean light, as far as 16 times the directions reach
-  int reflections = 2;      // with bounces: number of mirrors in a row that show what they face
+  bool bounce_strict = false;   // with bounces: each pixel gathers by itself, in 16 times the directions
+  int reflections = 2;          // with bounces: number of mirrors in a row that show what they face
   bool bounce_preview = false;  // with bounces: 2,000 patches and 16 directions a pixel, for pictures that are shown for a moment
   IndirectOptions indirect;     // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;

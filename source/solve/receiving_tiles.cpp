@@ -313,7 +313,7 @@ void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_
     const radiosity::Fineness fineness = radiosity::fineness_of(quality);
     const radiosity::PatchLight patches =
         radiosity::solve_patches(room.scene, *room.parts.rays, *room.parts.maps, {room.options.bounces, fineness}, direct, incident);
-    const radiosity::Gather gather(patches, *room.parts.rays, fineness, room.options.bounce_error, 1);
+    const radiosity::Gather gather(patches, *room.parts.rays, fineness, {room.options.bounce_error, room.options.bounce_strict});
     each(tiles_.size(), [&](std::size_t index) { add_gathered(gather, *tiles_[index].surfaces, light(index)); });
   });
 }

@@ -160,6 +160,7 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--stats", options.frames.empty(), "one picture, not --frames"},
        {"--bounces", r.indirect.mode == IndirectMode::off, "no --indirect"},
        {"--bounce-error", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
+       {"--bounce-strict", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--reflections", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--shadow-error", !samples && r.method != "reference" && r.shadows == Shadows::on, "--shadows on, by a method without samples"},
        {"--time-limit", r.method != "sampled" && r.method != "reference", "a method without samples"},
@@ -176,7 +177,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
                "--indirect",   "--vpls",         "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
                "--max-lights", "--light",        "--lights",           "--light-error",    "--environment",    "--environment-rotation",
                "--background", "--light-units",  "--camera",           "--target-error",   "--resume",         "--animation",
-               "--time-limit", "--bounce-error", "--reflections",      "--shadow-error"},
+               "--time-limit", "--bounce-error", "--bounce-strict",    "--reflections",    "--shadow-error"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -352,6 +353,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--indirect", r.indirect.mode, "one bounce, by virtual lights or paths").group("Light");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
+  verb.add_flag("--bounce-strict", r.bounce_strict, "of --bounces: each pixel by itself, in 16 times the directions").group("Light");
   verb.add("--reflections", r.reflections, "of --bounces: mirrors in a row").range(0, 16).group("Light");
   verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");

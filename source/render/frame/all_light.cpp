@@ -28,7 +28,7 @@ AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, const F
       reflections_(options.reflections),
       eye_(surfaces.camera().origin()),
       patches_(std::move(patches)),
-      gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), options.bounce_error, options.aa),
+      gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), {options.bounce_error, options.bounce_strict, options.aa}),
       mirror_image_(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
                     kFar * static_cast<float>(surfaces.rays().reach())),
       surfaces_(surfaces),

@@ -53,7 +53,8 @@ SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, con
       [&](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
         find_incident_on_patch(*samplers_.local(), surfaces_.environment() != nullptr, surface, number, found);
       }));
-  gather_ = std::make_unique<const radiosity::Gather>(*patches_, surfaces_.rays(), fineness, options.bounce_error, 1);
+  gather_ = std::make_unique<const radiosity::Gather>(*patches_, surfaces_.rays(), fineness,
+                                                      radiosity::Gather::Options{options.bounce_error, options.bounce_strict});
 }
 
 std::size_t SurfaceLight::solve_steps(const Scene& scene, const RenderOptions& options) {

@@ -47,7 +47,8 @@ float gathered_fraction(const SurfaceLobe& lobe) {
 class BlockFit {
  public:
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
-  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked) : surfaces_(surfaces), asked_(asked) {}
+  // strict: every pixel keeps its own value.
+  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked, bool strict) : surfaces_(surfaces), asked_(asked), strict_(strict) {}
 
   // The value of the fit at a pixel, and an estimate of its error: two standard errors, and the distance from the pixel's own value. Few
   // pixels keep their own.
@@ -59,6 +60,7 @@ class BlockFit {
   };
   enum class Keeps { nothing, own_values };
   Value at(std::size_t lane, const std::array<Vec3f, kLanes>& values, const std::array<Vec3f, kLanes>& errors, Keeps keeps) const {
+    if (strict_) return {values[lane], errors[lane] * kDeviations};
     std::uint32_t same = 0;
     const Surface& here = surfaces_.surface[lane];
     SixteenSurfaces::each(asked_, [&](std::size_t i) {
@@ -140,17 +142,19 @@ class BlockFit {
 
   const SixteenSurfaces& surfaces_;
   const std::uint32_t asked_;
+  const bool strict_;
 };
 
 }  // namespace
 
-Gather::Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, double error, int samples)
+Gather::Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, const Options& options)
     : light_(light),
       rays_(rays),
-      samples_(std::min(samples, kMostShifts)),
+      strict_(options.strict),
+      samples_(std::min(options.samples, kMostShifts)),
       lobe_rays_(fineness.lobe_rays),
-      tolerance_(static_cast<float>(error * light.mean_radiance())) {
-  for (int level = 0; level <= (error > 0 ? kFinest : 0); ++level) add_grids(fineness.rows << level);
+      tolerance_(static_cast<float>(options.error * light.mean_radiance())) {
+  for (int level = 0; level <= (options.error > 0 || strict_ ? kFinest : 0); ++level) add_grids(fineness.rows << level);
   const auto rays_over_sphere = static_cast<float>(grids_[0][0].size());
   near_ = std::sqrt(kLanes * light.bright_area() * rays_over_sphere / (4 * std::numbers::pi_v<float>));
 }
@@ -251,7 +255,7 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
     error_of_bright[i] = error_of_quarters(of_places, of_bright[i]);
     basis[i] = absolute(over(basis[i], whole));
   });
-  const BlockFit fit(surfaces, asked);
+  const BlockFit fit(surfaces, asked, strict_);
   Result result;
   SixteenSurfaces::each(asked, [&](std::size_t i) {
     const Surface& s = surfaces.surface[i];
@@ -322,7 +326,7 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
 template <class Of>
 void Gather::refine(Of of, Result& sum) const {
   Result result;
-  for (std::size_t level = 0; level < grids_.size(); ++level) {
+  for (std::size_t level = strict_ ? grids_.size() - 1 : 0; level < grids_.size(); ++level) {
     result = of(level);
     const auto is_within = [&](Vec3f error) { return std::max({error.x, error.y, error.z}) <= tolerance_; };
     if (std::all_of(result.error.begin(), result.error.end(), is_within)) break;

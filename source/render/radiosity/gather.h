@@ -18,9 +18,15 @@ class Gather {
  public:
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
 
-  // All must outlive this object. error: fraction of the scene's mean light; pixels with a larger estimated error take up to sixteen times
-  // as many directions; 0: all take as many as the fineness says. samples: primary samples of a pixel, which shift the grid.
-  Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, double error, int samples);
+  struct Options {
+    // Fraction of the scene's mean light. Pixels with a larger estimated error take up to sixteen times as many directions; 0: all take as
+    // many as the fineness says.
+    double error = 0;
+    bool strict = false;  // all take sixteen times as many, and no fit joins pixels
+    int samples = 1;      // primary samples of a pixel, which shift the grid
+  };
+  // All must outlive this object, but for the options.
+  Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, const Options& options);
 
   // Radiance that each surface reflects to its view, and an estimate of its error.
   struct Result {
@@ -42,6 +48,7 @@ class Gather {
   static constexpr int kFinest = 2;  // level; each has four times the directions of the one before
   const PatchLight& light_;
   const RayScene& rays_;
+  const bool strict_;
   const int samples_;
   const std::size_t lobe_rays_;
   float near_ = 0;  // distance within which rays meet bright sides more often than places stand for them

@@ -270,19 +270,27 @@ TEST(Radiosity, ErrorsCoverTheDifferenceFromPaths) {
     options.height = 27;
     options.quality = Quality::normal;
     const Picture ours = render(scene, options);
+    options.bounce_strict = true;
+    const Picture strict = render(scene, options);
+    options.bounce_strict = false;
     options.method = "sampled";
     options.spp = test::by_day_or_night(512, 4096);
     const Picture paths = render(scene, options);
     const Coverage covered = coverage(ours, paths, {"bounce_error"});
     std::printf("%s: %.2f %% of the pixels are covered, worst %.2f\n", name.c_str(), 100 * covered.fraction, covered.worst);
     EXPECT_GT(covered.fraction, 0.97) << name;
-    double error = 0, difference = 0;
+    const Coverage by_strict = coverage(strict, paths, {"bounce_error"});
+    std::printf("with --bounce-strict %.2f %%, worst %.2f\n", 100 * by_strict.fraction, by_strict.worst);
+    EXPECT_GT(by_strict.fraction, 0.97) << name;
+    double error = 0, difference = 0, error_of_strict = 0;
     for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
+      error_of_strict += luminance(static_cast<Vec3d>(strict.layers.at("bounce_error")[i]));
       error += luminance(static_cast<Vec3d>(ours.layers.at("bounce_error")[i]));
       difference += std::fabs(luminance(static_cast<Vec3d>(ours.pixels[i]) - static_cast<Vec3d>(paths.pixels[i])));
     }
     std::printf("the estimate is %.1f times the difference\n", error / difference);
     EXPECT_LT(error, 10 * difference) << name;  // an error of ten times the truth is of no use
+    EXPECT_LT(error_of_strict, error / 2) << name;
   }
 }
 
