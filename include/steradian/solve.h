@@ -74,6 +74,7 @@ struct PictureTarget {
   ResidualSpace space = ResidualSpace::root;
   ResidualLoss loss = ResidualLoss::squares;
   LightPart part = LightPart::all;
+  bool painted = false;  // its bright patches are strokes, not lamps that it shows
 };
 
 // Wanted illuminances [lux], where radiances are in nits. A band costs nothing inside.
@@ -133,6 +134,7 @@ struct SolveOptions {
   double tolerance = 1e-6;                           // relative change of the cost, and of the parameters, at which steps end
   bool least_power = false;                          // of all settings of powers that satisfy the illuminances, that of the least power
   std::function<bool(const SolveStep&)> progress{};  // returns false to stop; the best so far is the solution
+  std::function<void(const std::vector<LightChange>&)> moved{};  // called with the lights of each accepted step, before `progress`
 };
 
 struct Solution {

@@ -44,8 +44,8 @@ std::vector<Both> by_edges(const PreparedPolygon& light, int side, Vec3d positio
   };
   const auto end = [&](const Vec3d& v) {
     const Vec3d local = frame.to_local(v - position);
-    return End{static_cast<std::size_t>(&v - light.vertices.data()), Kernels<double>().polygon_direction(integrals::to_kernel<double>(local)),
-               side / std::max(length(local), 1e-18)};
+    return End{static_cast<std::size_t>(&v - light.vertices.data()),
+               Kernels<double>().polygon_direction(integrals::to_kernel<double>(local)), side / std::max(length(local), 1e-18)};
   };
   const auto add = [&](const End& e, const Both& d) {
     result[e.index].plain += d.plain * e.scale;
@@ -97,7 +97,8 @@ Both view_of_round_lobe(Vec3d normal, Vec3d view, const Both& light_turn, const 
   const Frame frame = is_normal ? Frame::from_normal(normal) : Frame::from_normal_and_tangent(normal, along);
   const Vec3d outward = is_normal ? frame.x : frame.x * dot(view, normal) - normal * slant;
   const Slope out = across_view(outward);
-  const Slope aside = is_normal ? across_view(frame.y) : Slope{dot(normal, light_turn.plain), dot(normal, light_turn.fresnel)} * (-1 / slant);
+  const Slope aside =
+      is_normal ? across_view(frame.y) : Slope{dot(normal, light_turn.plain), dot(normal, light_turn.fresnel)} * (-1 / slant);
   return {outward * out.plain + frame.y * aside.plain, outward * out.fresnel + frame.y * aside.fresnel};
 }
 
@@ -132,7 +133,8 @@ inline RadianceDerivatives gathered(const PreparedPolygon& light, const ShadingP
   result.view = factors.of(by_view);
   const Both turn = turn_of(light, at.position, by_vertex);
   const Vec3d n = normalized(at.normal), v = normalized(at.view);
-  result.normal = factors.of({by_normal(n, tangent, v, turn.plain, by_view.plain), by_normal(n, tangent, v, turn.fresnel, by_view.fresnel)});
+  result.normal =
+      factors.of({by_normal(n, tangent, v, turn.plain, by_view.plain), by_normal(n, tangent, v, turn.fresnel, by_view.fresnel)});
   return result;
 }
 

@@ -101,7 +101,8 @@ class Solver {
       return Quadratic{e.cost, std::move(e.gradient), std::move(e.hessian)};
     };
     BoxMinimum found =
-        minimize_in_box(value, quadratic, x, settings, [&](int step, double cost, double damping, const std::vector<double>&) {
+        minimize_in_box(value, quadratic, x, settings, [&](int step, double cost, double damping, const std::vector<double>& at) {
+          if (options_.moved) options_.moved(changes_at(at));
           const SolveStep done{start, step, cost, damping};
           solution_.steps.push_back(done);
           return !options_.progress || options_.progress(done);
@@ -231,13 +232,21 @@ class Solver {
     }
   }
 
+  std::vector<LightChange> changes_at(const std::vector<double>& x) const {
+    std::vector<LightChange> changes;
+    for (const FittedLight& light : lights_.at(x)) {
+      LightChange& change = changes.emplace_back(light.change);
+      change.light = light.number;
+      change.radiance = (light.is_punctual ? light.punctual.intensity : light.area.radiance) * light.scale;
+    }
+    return changes;
+  }
+
   void gather(const BoxMinimum& found) {
+    solution_.changes = changes_at(found.x);
     solution_.area_lights = scene_.area_lights;
     solution_.punctual_lights = scene_.punctual_lights;
     for (const FittedLight& light : lights_.at(found.x)) {
-      LightChange& change = solution_.changes.emplace_back(light.change);
-      change.light = light.number;
-      change.radiance = (light.is_punctual ? light.punctual.intensity : light.area.radiance) * light.scale;
       if (light.is_punctual) {
         PunctualLight& to = solution_.punctual_lights[light.number - scene_.area_lights.size()];
         to = light.punctual;

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/words.h"
-#include "solve/solved_file.h"
+#include "light_changes.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 #include "wrong_use.h"
@@ -135,15 +135,15 @@ void SolveJobReader::add_fits(const std::string& glob, const LightFit& like, con
       problems_.add(place, "light '" + name_of_light(light) + "' is fitted twice", "name each light once");
       continue;
     }
-    const int material = material_of_light(scene_, light);
+    const int material = view::material_of_light(scene_, light);
     if (material >= 0) {
       if (std::find(materials_.begin(), materials_.end(), material) != materials_.end()) continue;
       materials_.push_back(material);
       if (like.position || like.rotation || like.size || like.color)
         problems_.add(place, "light '" + name_of_light(light) + "' is an emissive mesh, whose power alone is fitted", "name power");
       LightTie tie{{light}};
-      for (std::size_t i = 0; i < scene_.area_lights.size(); ++i)
-        if (i != light && material_of_light(scene_, i) == material) tie.lights.push_back(i);
+      for (const std::size_t other : view::lights_of_material(scene_, material))
+        if (other != light) tie.lights.push_back(other);
       if (tie.lights.size() > 1) job_.ties.push_back(std::move(tie));
     }
     job_.fits.push_back(like);
@@ -220,6 +220,7 @@ void SolveJobReader::add_strokes(const Place& place, const std::string& path, Ve
     } else if (const auto alpha = strokes.layers.find("alpha"); alpha != strokes.layers.end()) {
       strokes.pixels = alpha->second;
     }
+    target.painted = true;
     target.picture = Picture(strokes.width, strokes.height);
     for (std::size_t i = 0; i < strokes.pixels.size(); ++i) {
       const Vec3f& p = strokes.pixels[i];

@@ -126,9 +126,8 @@ GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const Sha
     return Slope{change.plain + side * dot(by_view.plain, across), change.fresnel + side * dot(by_view.fresnel, across)};
   };
   if (m.alpha_x == m.alpha_y) {
-    result.by_view = view_of_round_lobe(frame.z, normalized(at.view), turn_of(light, at.position, result.by_vertex), [&](const Vec3d& across) {
-      return along(frame.to_local(across));
-    });
+    result.by_view = view_of_round_lobe(frame.z, normalized(at.view), turn_of(light, at.position, result.by_vertex),
+                                        [&](const Vec3d& across) { return along(frame.to_local(across)); });
     return result;
   }
   const Frame about = Frame::from_normal(v);

@@ -107,8 +107,8 @@ slopes::Slope ltc_by_slant(LtcMethod method, const PreparedPolygon& light, int s
   auto moving = to_kernel<S>(view);
   moving.x.v.d[0] = view.z;
   moving.z.v.d[0] = -view.x;
-  const auto value = ltc_integral(method, m).operator()<S>(integrals::contours_in<S>(light, frame, at.position),
-                                                           integrals::shading_from<S>(side, moving));
+  const auto value =
+      ltc_integral(method, m).operator()<S>(integrals::contours_in<S>(light, frame, at.position), integrals::shading_from<S>(side, moving));
   return {value.x.v.d[0], value.y.v.d[0]};
 }
 

@@ -23,7 +23,10 @@ class PhongArc {
  public:
   // foreshortened: the light's cosine counts, too
   PhongArc(double exponent, Vec3d axis, bool foreshortened)
-      : exponent_(exponent), axis_(axis), longest_(kWidths / std::sqrt(exponent + 1)), foreshortened_(foreshortened),
+      : exponent_(exponent),
+        axis_(axis),
+        longest_(kWidths / std::sqrt(exponent + 1)),
+        foreshortened_(foreshortened),
         has_root_(exponent < kSmooth && exponent != std::floor(exponent)) {}
 
   // On the arc, l.r is c cos x, with x the angle from the foot. So the lobe falls like a normal distribution of x. A piece of four of its
