@@ -5,6 +5,7 @@
 
 #include "lamps.h"
 #include "node_pose.h"
+#include "outline.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 
@@ -99,6 +100,32 @@ void set_light(EditedDocument& document, const Lamp& lamp, const LightChange& ch
   set_values(document, lamp, values);
 }
 
+// The outline's corners are found among the vertices of the start by their places. A vertex on a straight line is no corner of the outline.
+void set_vertices(EditedDocument& document, const Lamp& lamp, const AreaLight& start, const std::vector<Vec3d>& moved) {
+  const auto fail = [&](const char* problem) {
+    throw Error(document.file().path, "light '" + lamp.name + "' " + problem, "leave its vertices out of the fit");
+  };
+  std::optional<Outline> outline = lamp.kind == LampKind::mesh ? outline_of(document, lamp) : std::nullopt;
+  if (!outline) return fail("is not one flat polygon of a mesh");
+  const PolygonLight before = flat_polygon(start);
+  std::vector<Vec3d> vertices = before.vertices;
+  for (const auto& hole : before.holes) vertices.insert(vertices.end(), hole.begin(), hole.end());
+  if (vertices.size() != moved.size()) return fail("has other vertices than the scene");
+  const Affine world = NodeTree(document).world(lamp.node);
+  std::size_t found = 0;
+  for (auto& contour : outline->contours)
+    for (Vec3d& corner : contour) {
+      const Vec3d place = world.point(corner);
+      const auto nearest = std::min_element(vertices.begin(), vertices.end(),
+                                            [&](const Vec3d& a, const Vec3d& b) { return length(a - place) < length(b - place); });
+      if (length(*nearest - place) > 1e-4 * length(vertices[0] - vertices[1])) return fail("has other vertices than the scene");
+      corner = inverse(world).point(moved[static_cast<std::size_t>(nearest - vertices.begin())]);
+      ++found;
+    }
+  if (found != vertices.size()) return fail("has other vertices than the scene");
+  if (!set_outline(document, lamp, *outline)) return fail("would cross itself");
+}
+
 }  // namespace
 
 int material_of_light(const Scene& scene, std::size_t light) {
@@ -129,6 +156,7 @@ void apply_changes(EditedDocument& document, const Scene& start, const std::vect
     set_light(document, lamp, change, radiance_in(start, change.light),
               change.light < start.area_lights.size() && start.area_lights[change.light].emission.has_value());
     if (lamp.kind != LampKind::mesh) set_place(document, lamp, change);
+    if (!change.vertices.empty()) set_vertices(document, lamp, start.area_lights[change.light], change.vertices);
   }
 }
 

@@ -8,8 +8,8 @@
 
 namespace steradian::view {
 
-// start: the scene of the document. Lights that nodes share get copies; the lights of one material change together. Throws Error for a light
-// that the file does not hold in a form that can be changed.
+// start: the scene of the document. Lights that nodes share get copies; the lights of one material change together. Throws Error for a
+// light that the file does not hold in a form that can be changed.
 void apply_changes(EditedDocument& document, const Scene& start, const std::vector<LightChange>& changes);
 
 // The file's material of a light of an emissive mesh; -1 for other lights.

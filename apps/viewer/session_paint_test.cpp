@@ -92,8 +92,9 @@ TEST(ViewStrokes, APaintedPlaceMovesTheLampThere) {
   // Strokes of the light that the lamp has half a metre away.
   Session wanted(room(), small());
   wanted.select({wanted.lamps().at(0).node, -1});
-  set_pose(wanted.document(), wanted.lamps().at(0).node,
-           moved(pose_of(wanted.document(), wanted.lamps().at(0).node), wanted.tree().parent_world(wanted.lamps().at(0).node), {0.5, 0, 0}));
+  set_pose(
+      wanted.document(), wanted.lamps().at(0).node,
+      moved(pose_of(wanted.document(), wanted.lamps().at(0).node), wanted.tree().parent_world(wanted.lamps().at(0).node), {0.5, 0, 0}));
   wanted.changed();
   wanted.wait_until_settled();
   s.fits_at_once = false;

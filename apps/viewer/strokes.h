@@ -9,17 +9,17 @@
 namespace steradian::view {
 
 struct Brush {
-  bool on = false;         // a left drag paints
-  double radius = 14;      // pixels
-  Vec3d radiance{};        // wanted; zero: twice the picture's mean when the brush is first taken
+  bool on = false;     // a left drag paints
+  double radius = 14;  // pixels
+  Vec3d radiance{};    // wanted; zero: twice the picture's mean when the brush is first taken
   LightPart part = LightPart::all;
 };
 
 struct Stroke {
   Camera camera;
-  int width = 0, height = 0;   // of the picture under it
-  std::vector<Vec2d> points;   // pixels
-  std::vector<Vec3d> places;   // on the surfaces, to show the stroke from other cameras
+  int width = 0, height = 0;  // of the picture under it
+  std::vector<Vec2d> points;  // pixels
+  std::vector<Vec3d> places;  // on the surfaces, to show the stroke from other cameras
   double radius = 0;
   Vec3d radiance{};
   LightPart part = LightPart::all;
