@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "shapes/triangulate.h"
 #include "steradian/error.h"
 #include "steradian/polygon_light.h"
 
@@ -121,6 +122,24 @@ std::vector<Vec3d*> vertices_of(Polygon& p) {
   return all;
 }
 
+// True if an outline crosses itself, or runs the other way round as seen along the axes.
+bool crosses(const Polygon& p, const PlaneAxes& axes) {
+  Contours contours;
+  const auto add = [&](const std::vector<Vec3d>& contour) {
+    auto& flat = contours.emplace_back();
+    for (const Vec3d& v : contour) flat.push_back({dot(v, axes.u), dot(v, axes.v)});
+  };
+  add(p.vertices);
+  for (const auto& hole : p.holes) {
+    add(hole);
+    double area = 0;
+    const auto& flat = contours.back();
+    for (std::size_t i = 0; i < flat.size(); ++i) area += cross(flat[i], flat[(i + 1) % flat.size()]);
+    if (area > 0) std::reverse(contours.back().begin(), contours.back().end());
+  }
+  return !triangles_of(contours);
+}
+
 // Emitting area of one side.
 double area_of(const PolygonLight& light) {
   Vec3d sum{};
@@ -173,7 +192,7 @@ std::string lack_of_vertices(const LightFit& fit, const FittedLight& light) {
   if (light.area.texture || light.area.emission) return "the vertices of a textured or profiled light are not fitted";
   if (light.area.node >= 0) return "the file has a rectangle, whose corners stay one (fit position, rotation and size)";
   if (fit.position || fit.rotation || fit.size) return "vertices include position, rotation and size (name vertices alone)";
-  return area_of(flat_polygon(light.area)) > 0 ? "" : "it has no area";
+  return crosses(std::get<Polygon>(light.area.shape), plane_of(light.area)) ? "its outline crosses itself, or has no area" : "";
 }
 
 std::string default_name(std::size_t number) { return "light " + std::to_string(number); }
@@ -348,6 +367,14 @@ std::vector<FittedLight> FittedLights::at(const std::vector<double>& x) const {
     result.push_back(std::move(light));
   }
   return result;
+}
+
+bool FittedLights::crosses_itself(const std::vector<double>& x) const {
+  const std::vector<FittedLight> lights = at(x);
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (!lights[i].change.vertices.empty() && crosses(std::get<Polygon>(lights[i].area.shape), plane_of(lights_[i].start.area)))
+      return true;
+  return false;
 }
 
 // The flux stays.

@@ -62,6 +62,8 @@ class FittedLights {
   std::size_t light_count() const { return lights_.size(); }
   // The lights at some values, in the order of light_numbers.
   std::vector<FittedLight> at(const std::vector<double>& x) const;
+  // True if vertices are where the outline of their light crosses itself.
+  bool crosses_itself(const std::vector<double>& x) const;
   // True if an unknown moves or scales a light.
   bool drives(std::size_t unknown, std::size_t light) const;
   // True if light `number` of the scene is fitted.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/random.h"
@@ -60,6 +61,8 @@ std::vector<double> random_place(const std::vector<Unknown>& unknowns, const Sce
       case UnknownKind::rotation_x:
       case UnknownKind::rotation_y:
       case UnknownKind::rotation_z: within(-0.5, 0.5); break;
+      case UnknownKind::vertex_u:
+      case UnknownKind::vertex_v: low = high = u.start; break;  // random outlines would cross themselves
       default: within(u.start - 0.5, u.start + 0.5); break;
     }
     x.push_back(std::clamp(low < high ? random.uniform(low, high) : u.start, u.low, u.high));
@@ -95,7 +98,9 @@ class Solver {
 
  private:
   BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings) {
-    const auto value = [&](const std::vector<double>& at) { return problem.evaluate(at, Wants::cost).cost; };
+    const auto value = [&](const std::vector<double>& at) {
+      return lights_.crosses_itself(at) ? std::numeric_limits<double>::infinity() : problem.evaluate(at, Wants::cost).cost;
+    };
     const auto quadratic = [&](const std::vector<double>& at) {
       Evaluation e = problem.evaluate(at, Wants::derivatives);
       return Quadratic{e.cost, std::move(e.gradient), std::move(e.hessian)};

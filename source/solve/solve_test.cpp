@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "solve/box_least_squares.h"
 #include "solve/lamp_room_test.h"
+#include "shapes/triangulate.h"
 #include "solve/least_power.h"
 #include "steradian/error.h"
 
@@ -63,6 +64,36 @@ TEST(Solve, RecoversTheVerticesOfAPolygon) {
   EXPECT_LT(off, 1e-3);
   EXPECT_LT(found.picture_error, 2e-6);
   EXPECT_NEAR(found.area_lights[0].radiance.x, 8, 8e-3);
+}
+
+// From corners far away, the shortest way often leads through outlines that cross themselves. Such a file could not be written.
+TEST(Solve, NeverLetsAnOutlineCrossItself) {
+  Scene scene = room();
+  AreaLight lamp = panel({0, 2.6, 0}, 1, 1, {8, 8, 8});
+  const auto pentagon = [](double radius, double by, double first) {
+    Polygon p;
+    for (int i = 0; i < 5; ++i) {
+      const double angle = first - 2 * std::numbers::pi * i / 5, r = i % 2 == 0 ? radius : radius * by;
+      p.vertices.push_back({r * std::cos(angle), 2.6, -r * std::sin(angle)});
+    }
+    return p;
+  };
+  lamp.shape = pentagon(1, 0.4, 0);
+  scene.area_lights = {lamp};
+  const PictureTarget target = picture_of(scene, 48, 27);
+  LightFit fit;
+  fit.vertices = true;
+  std::vector<double> costs;
+  for (int i = 0; i < 10; ++i) {
+    scene.area_lights[0].shape = pentagon(0.4 + 0.1 * i, 1 + 0.3 * (i % 3), 0.6 * i);
+    const Solution found = solve(scene, {fit}, {}, {target});
+    Contours contours(1);
+    for (const Vec3d& v : polygon_of(found.area_lights[0]).vertices) contours[0].push_back({v.x, v.z});
+    EXPECT_TRUE(triangles_of(contours)) << "start " << i;
+    costs.push_back(found.cost);
+  }
+  std::sort(costs.begin(), costs.end());
+  std::printf("costs %.1e to %.1e, median %.1e\n", costs.front(), costs.back(), costs[5]);
 }
 
 TEST(Solve, RefusesVerticesWithWhatTheyInclude) {
