@@ -31,7 +31,7 @@ struct Unknowns {
   std::vector<LightTie> ties;
 };
 
-// Lights of an emissive material have a power alone, and shine alike.
+// Lights of an emissive material shine alike. One that has a material of its own also has vertices.
 Unknowns unknowns_of(const LoadedScene& loaded, const FitTask& task) {
   const FitChoice& choice = task.choice;
   const Scene& scene = loaded.scene;
@@ -46,8 +46,10 @@ Unknowns unknowns_of(const LoadedScene& loaded, const FitTask& task) {
     if (material >= 0) {
       if (std::find(materials.begin(), materials.end(), material) != materials.end()) continue;
       materials.push_back(material);
-      fit.power = true;
-      if (const std::vector<std::size_t> alike = lights_of_material(scene, material); alike.size() > 1) result.ties.push_back({alike});
+      const std::vector<std::size_t> alike = lights_of_material(scene, material);
+      if (alike.size() > 1) result.ties.push_back({alike});
+      fit.vertices = choice.vertices && alike.size() == 1;
+      fit.power = choice.power || !fit.vertices;
     } else {
       fit.color = choice.color;
       fit.power = choice.power && !choice.color;
@@ -55,7 +57,7 @@ Unknowns unknowns_of(const LoadedScene& loaded, const FitTask& task) {
       fit.rotation = choice.rotation;
       fit.size = choice.size;
     }
-    result.fits.push_back(fit);
+    if (fit.power || fit.color || fit.position || fit.rotation || fit.size || fit.vertices) result.fits.push_back(fit);
   }
   return result;
 }
@@ -138,7 +140,8 @@ void Fitter::fit(const FitTask& task, std::uint64_t number) {
     const auto loaded = std::make_shared<LoadedScene>(scene::load_scene(task.file, load));
     const std::vector<LightTarget> targets = targets_of(task.strokes, loaded->scene);
     const Unknowns unknowns = unknowns_of(*loaded, task);
-    if (unknowns.fits.empty()) throw Error("fit", "there is no light to fit", task.choice.selected ? "select one" : "add one");
+    if (unknowns.fits.empty())
+      throw Error("fit", "there is no light with these parameters", task.choice.selected ? "select one" : "choose others, or add a light");
     news.scene = loaded;
     SolveOptions options;
     options.render = task.render;

@@ -275,6 +275,8 @@ void brush_controls(Session& s) {
   ImGui::Checkbox("rotation", &c.rotation);
   ImGui::SameLine();
   ImGui::Checkbox("size", &c.size);
+  ImGui::SameLine();
+  ImGui::Checkbox("vertices", &c.vertices);
   ImGui::Checkbox("selected light alone", &c.selected);
   ImGui::Checkbox("fit after each stroke", &s.fits_at_once);
   if (ImGui::SmallButton(s.fitting() ? "stop" : "fit")) s.fitting() ? s.stop_fit() : s.fit();

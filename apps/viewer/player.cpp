@@ -106,8 +106,9 @@ bool set_of_brush(Session& s, const std::string& what, const nlohmann::json& val
                         : name == "position" ? &choice.position
                         : name == "rotation" ? &choice.rotation
                         : name == "size"     ? &choice.size
+                        : name == "vertices" ? &choice.vertices
                                              : nullptr;
-      if (set == nullptr) throw Error("set fit", name + " is not a parameter", "power, color, position, rotation and size are");
+      if (set == nullptr) throw Error("set fit", name + " is not a parameter", "power, color, position, rotation, size and vertices are");
       *set = true;
     }
     s.fit_choice = choice;

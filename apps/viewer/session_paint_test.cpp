@@ -113,6 +113,31 @@ TEST(ViewStrokes, APaintedPlaceMovesTheLampThere) {
   EXPECT_GT(moved_by.x, 0.1) << s.fit_state();
 }
 
+TEST(ViewStrokes, APaintedPlaceMovesTheCornersOfAPolygon) {
+  Session s(room(), small());
+  s.wait_until_settled();
+  s.add_light("polygon");
+  s.wait_until_settled();
+  const std::vector<std::vector<Vec3d>> before = s.corners();
+  ASSERT_EQ(before.size(), 1u);
+  take_brush(s, 4 * light_at(s, {40, 75}));
+  s.fit_choice = {false};
+  s.fit_choice.vertices = true;
+  drag(s, {30, 75}, {50, 75});
+  s.wait_until_settled();
+  ASSERT_EQ(s.message(), "");
+  ASSERT_EQ(s.corners().size(), 1u);
+  double most = 0;
+  for (const Vec3d& corner : s.corners()[0]) {
+    double nearest = 1e9;
+    for (const Vec3d& old : before[0]) nearest = std::min(nearest, length(corner - old));
+    most = std::max(most, nearest);
+  }
+  EXPECT_GT(most, 1e-3) << s.fit_state();
+  s.undo();
+  EXPECT_EQ(s.corners(), before) << "one step";
+}
+
 TEST(ViewStrokes, AChangeByHandEndsTheFitAndIsKept) {
   Session s(room(), small());
   s.wait_until_settled();
@@ -140,7 +165,7 @@ TEST(ViewStrokes, SaysWhatCannotBeFitted) {
   s.fit_choice.selected = true;  // nothing is selected
   s.fit();
   s.wait_until_settled();
-  EXPECT_NE(s.message().find("there is no light to fit"), std::string::npos) << s.message();
+  EXPECT_NE(s.message().find("there is no light with these parameters"), std::string::npos) << s.message();
   s.remove_stroke();
   EXPECT_TRUE(s.strokes().empty());
   s.remove_stroke();

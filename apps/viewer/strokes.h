@@ -28,9 +28,10 @@ struct Stroke {
 // The parameters that a fit to strokes may change.
 struct FitChoice {
   bool power = true, color = false, position = false, rotation = false, size = false;
+  bool vertices = false;  // of polygons, whose place they include
   bool selected = false;  // of the selected light alone
 
-  bool moves() const { return position || rotation || size; }
+  bool moves() const { return position || rotation || size || vertices; }
 };
 
 // One target for the strokes of each camera and part, over a picture of at most 160 pixels a side. Their cameras take the place of the
