@@ -20,7 +20,7 @@ namespace steradian::view {
 
 struct FitTask {
   scene::GltfFile file;
-  std::vector<Stroke> strokes;
+  std::vector<PaintStroke> strokes;
   FitChoice choice;
   int node = -1;         // the selected one, for FitChoice::selected
   RenderOptions render;  // shadows, quality and bounces count

@@ -42,7 +42,7 @@ class Overlay {
   }
 
   // In its own color, translucent. From its own camera it lies where it was painted.
-  void stroke(const Stroke& stroke) const {
+  void stroke(const PaintStroke& stroke) const {
     const double most = std::max({stroke.radiance.x, stroke.radiance.y, stroke.radiance.z, 1e-30});
     const auto byte = [&](double v) { return static_cast<int>(std::lround(155 + 100 * v / most)); };
     const ImU32 color = IM_COL32(byte(stroke.radiance.x), byte(stroke.radiance.y), byte(stroke.radiance.z), 90);
@@ -161,7 +161,7 @@ void draw_overlay(ViewState& state, double scale) {
       overlay.mark(s.tree().world(lamp.node).t, lamp.node == s.selection().node);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const Vec2d pointer{static_cast<double>(mouse.x) * scale, static_cast<double>(mouse.y) * scale};
-  for (const Stroke& stroke : s.strokes()) overlay.stroke(stroke);
+  for (const PaintStroke& stroke : s.strokes()) overlay.stroke(stroke);
   if (s.brush.on) overlay.brush(pointer, s.brush.radius);
   if (const auto gizmo = s.gizmo(); gizmo && !s.brush.on)
     overlay.handles(*gizmo, s.dragging() ? s.dragged_handle() : s.handle_under(pointer));

@@ -262,7 +262,7 @@ void Session::take_brush(bool on) {
 
 // Places are a third of the brush apart.
 void Session::paint(Vec2d at) {
-  Stroke& stroke = strokes_.back();
+  PaintStroke& stroke = strokes_.back();
   if (!stroke.points.empty() && length(at - stroke.points.back()) < std::max(stroke.radius / 3, 1.0)) return;
   stroke.points.push_back(at);
   if (!frame_.scene) return;

@@ -98,7 +98,7 @@ class Session : public Stage {
   FitChoice fit_choice;
   bool fits_at_once = true;  // after each stroke
   void take_brush(bool on);
-  const std::vector<Stroke>& strokes() const { return strokes_; }
+  const std::vector<PaintStroke>& strokes() const { return strokes_; }
   void remove_stroke();  // the last one
   void clear_strokes() { strokes_.clear(); }
   void fit();
@@ -170,7 +170,7 @@ class Session : public Stage {
   mutable std::vector<std::vector<Vec3d>> corners_;
   mutable std::pair<std::uint64_t, int> corners_of_{0, -1};
 
-  std::vector<Stroke> strokes_;
+  std::vector<PaintStroke> strokes_;
   bool painting_ = false;  // the drag is a stroke
   std::string fit_state_;
   bool fit_applied_ = false;        // the open step of undo is the fit's

@@ -29,13 +29,13 @@ void take_brush(Session& s, double wanted) {
 
 TEST(ViewStrokes, MakeOneTargetForEachCameraAndPart) {
   Scene scene;
-  Stroke stroke;
+  PaintStroke stroke;
   stroke.width = 640;
   stroke.height = 320;
   stroke.points = {{100, 100}, {200, 100}};
   stroke.radius = 20;
   stroke.radiance = {2, 2, 2};
-  Stroke across = stroke, other = stroke, highlight = stroke;
+  PaintStroke across = stroke, other = stroke, highlight = stroke;
   across.points = {{150, 50}, {150, 150}};
   across.radiance = {3, 3, 3};
   other.camera.position = {1, 0, 0};

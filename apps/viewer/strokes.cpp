@@ -25,11 +25,11 @@ bool same(const Camera& a, const Camera& b) {
 }
 
 // Strokes that share a target.
-bool go_together(const Stroke& a, const Stroke& b) {
+bool go_together(const PaintStroke& a, const PaintStroke& b) {
   return a.width == b.width && a.height == b.height && a.part == b.part && same(a.camera, b.camera);
 }
 
-PictureTarget empty_target(const Stroke& like, const std::string& camera) {
+PictureTarget empty_target(const PaintStroke& like, const std::string& camera) {
   const double scale = std::min(1.0, kMostSide / std::max(like.width, like.height));
   const auto side = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(pixels * scale))); };
   PictureTarget target;
@@ -41,7 +41,7 @@ PictureTarget empty_target(const Stroke& like, const std::string& camera) {
   return target;
 }
 
-void draw(const Stroke& stroke, PictureTarget& target) {
+void draw(const PaintStroke& stroke, PictureTarget& target) {
   const double x_scale = static_cast<double>(stroke.width) / target.picture.width;
   const double y_scale = static_cast<double>(stroke.height) / target.picture.height;
   // A thin stroke covers a pixel at least.
@@ -56,13 +56,13 @@ void draw(const Stroke& stroke, PictureTarget& target) {
 
 }  // namespace
 
-std::vector<LightTarget> targets_of(const std::vector<Stroke>& strokes, Scene& scene) {
+std::vector<LightTarget> targets_of(const std::vector<PaintStroke>& strokes, Scene& scene) {
   std::vector<PictureTarget> targets;
-  std::vector<const Stroke*> first;  // of each target
+  std::vector<const PaintStroke*> first;  // of each target
   scene.cameras.clear();
-  for (const Stroke& stroke : strokes) {
+  for (const PaintStroke& stroke : strokes) {
     if (stroke.points.empty()) continue;
-    auto found = std::find_if(first.begin(), first.end(), [&](const Stroke* s) { return go_together(*s, stroke); });
+    auto found = std::find_if(first.begin(), first.end(), [&](const PaintStroke* s) { return go_together(*s, stroke); });
     if (found == first.end()) {
       Camera camera = stroke.camera;
       camera.name = "painted " + std::to_string(targets.size() + 1);

@@ -15,7 +15,7 @@ struct Brush {
   LightPart part = LightPart::all;
 };
 
-struct Stroke {
+struct PaintStroke {
   Camera camera;
   int width = 0, height = 0;  // of the picture under it
   std::vector<Vec2d> points;  // pixels
@@ -37,6 +37,6 @@ struct FitChoice {
 // One target for the strokes of each camera and part, over a picture of at most 160 pixels a side. Their cameras take the place of the
 // scene's. Later strokes cover earlier ones. Pixels without a stroke do not count; for the specular part, they want none with a tenth of
 // the weight.
-std::vector<LightTarget> targets_of(const std::vector<Stroke>& strokes, Scene& scene);
+std::vector<LightTarget> targets_of(const std::vector<PaintStroke>& strokes, Scene& scene);
 
 }  // namespace steradian::view

@@ -45,12 +45,12 @@ std::size_t stored_count(const PolygonLight& light) {
 }
 
 using integrals::to_kernel;
-using slopes::Both;
+using slopes::BothParts;
 using slopes::EdgeDerivatives;
 using slopes::to_vector;
 
 // By the vertices in walk order: the plain part is the irradiance's, the other one 0.
-std::vector<Both> irradiance_by_vertices(const PreparedPolygon& light, int side, Vec3d position, Vec3d normal) {
+std::vector<BothParts> irradiance_by_vertices(const PreparedPolygon& light, int side, Vec3d position, Vec3d normal) {
   return slopes::by_edges(light, side, position, Frame::from_normal(normal), [](const auto& a, const auto& b) {
     const auto s = Kernels<double>().polygon_edge_slopes(a, b);
     return EdgeDerivatives{{to_vector(s.normal * s.by_start), {}}, {to_vector(s.normal * s.by_end), {}}};
@@ -58,7 +58,7 @@ std::vector<Both> irradiance_by_vertices(const PreparedPolygon& light, int side,
 }
 
 // The density 1 has the integral tan(angle/2) by either end of an edge. The horizon does not clip.
-std::vector<Both> solid_angle_by_vertices(const PreparedPolygon& light, int side, Vec3d position) {
+std::vector<BothParts> solid_angle_by_vertices(const PreparedPolygon& light, int side, Vec3d position) {
   return slopes::by_edges(light, side, position, Frame::world(), [](const auto& start, const auto& end) {
     const Vec3d a = to_vector(start), b = to_vector(end);
     const Vec3d by_end = normalized(cross(a, b - a)) * (-length(b - a) / std::max(length(a + b), 1e-18));
@@ -67,10 +67,10 @@ std::vector<Both> solid_angle_by_vertices(const PreparedPolygon& light, int side
 }
 
 // Point and normal move opposite to the vertices: the integral sees only vertices relative to the point, turned into the normal's frame.
-LightDerivatives gather(const PreparedPolygon& light, Vec3d position, Vec3d normal, double value, const std::vector<Both>& by_vertex) {
+LightDerivatives gather(const PreparedPolygon& light, Vec3d position, Vec3d normal, double value, const std::vector<BothParts>& by_vertex) {
   LightDerivatives result;
   result.value = value;
-  for (const Both& derivative : by_vertex) {
+  for (const BothParts& derivative : by_vertex) {
     result.vertices.push_back(derivative.plain);
     result.position += -derivative.plain;
   }
@@ -164,7 +164,7 @@ RadianceDerivatives radiance_derivatives(const PreparedPolygon& light, const Sha
   if (side == 0) return RadianceDerivatives(light.vertices.size());
   if (m.brdf == Brdf::ggx) return ggx_radiance_derivatives(light, side, at, m, quality);
   if (m.brdf == Brdf::phong) return phong_radiance_derivatives(light, side, at, m);
-  const std::vector<Both> by_vertex = irradiance_by_vertices(light, side, at.position, normalized(at.normal));
+  const std::vector<BothParts> by_vertex = irradiance_by_vertices(light, side, at.position, normalized(at.normal));
   return slopes::gathered(light, at, {}, by_vertex, {}, {slopes::factors_of(light.radiance, m).plain / std::numbers::pi, {}});
 }
 RadianceDerivatives radiance_derivatives(const PolygonLight& stored, const ShadingPoint& at, const Material& material, Quality quality) {

@@ -12,21 +12,21 @@
 namespace steradian::slopes {
 
 // A vector for each part of an integral (integrals::Part).
-struct Both {
+struct BothParts {
   Vec3d plain, fresnel;
 };
 
 // A number for each part.
-struct Slope {
+struct PartSlopes {
   double plain = 0, fresnel = 0;
 
-  friend Slope operator-(Slope a, Slope b) { return {a.plain - b.plain, a.fresnel - b.fresnel}; }
-  friend Slope operator*(Slope a, double s) { return {a.plain * s, a.fresnel * s}; }
+  friend PartSlopes operator-(PartSlopes a, PartSlopes b) { return {a.plain - b.plain, a.fresnel - b.fresnel}; }
+  friend PartSlopes operator*(PartSlopes a, double s) { return {a.plain * s, a.fresnel * s}; }
 };
 
 // Derivatives by the unit directions of an edge's ends, in the frame.
 struct EdgeDerivatives {
-  Both a, b;
+  BothParts a, b;
 };
 
 inline Vec3d to_vector(const Kernels<double>::vec3& v) { return {v.x.v, v.y.v, v.z.v}; }
@@ -35,8 +35,8 @@ inline Vec3d to_vector(const Kernels<double>::vec3& v) { return {v.x.v, v.y.v, v
 //
 //   edge(a, b)  EdgeDerivatives of the unit directions of its ends in the frame
 template <class Edge>
-std::vector<Both> by_edges(const PreparedPolygon& light, int side, Vec3d position, const Frame& frame, const Edge& edge) {
-  std::vector<Both> result(light.vertices.size());
+std::vector<BothParts> by_edges(const PreparedPolygon& light, int side, Vec3d position, const Frame& frame, const Edge& edge) {
+  std::vector<BothParts> result(light.vertices.size());
   struct End {
     std::size_t index;
     Kernels<double>::vec3 direction;
@@ -47,7 +47,7 @@ std::vector<Both> by_edges(const PreparedPolygon& light, int side, Vec3d positio
     return End{static_cast<std::size_t>(&v - light.vertices.data()),
                Kernels<double>().polygon_direction(integrals::to_kernel<double>(local)), side / std::max(length(local), 1e-18)};
   };
-  const auto add = [&](const End& e, const Both& d) {
+  const auto add = [&](const End& e, const BothParts& d) {
     result[e.index].plain += d.plain * e.scale;
     result[e.index].fresnel += d.fresnel * e.scale;
   };
@@ -56,7 +56,7 @@ std::vector<Both> by_edges(const PreparedPolygon& light, int side, Vec3d positio
     add(a, d.a);
     add(b, d.b);
   });
-  for (Both& b : result) b = {frame.to_world(b.plain), frame.to_world(b.fresnel)};
+  for (BothParts& b : result) b = {frame.to_world(b.plain), frame.to_world(b.fresnel)};
   return result;
 }
 
@@ -64,7 +64,7 @@ std::vector<Both> by_edges(const PreparedPolygon& light, int side, Vec3d positio
 struct Factors {
   Vec3d plain, fresnel;
 
-  std::array<Vec3d, 3> of(const Both& b) const {
+  std::array<Vec3d, 3> of(const BothParts& b) const {
     return {b.plain * plain.x + b.fresnel * fresnel.x, b.plain * plain.y + b.fresnel * fresnel.y,
             b.plain * plain.z + b.fresnel * fresnel.z};
   }
@@ -75,8 +75,8 @@ inline Factors factors_of(Vec3d radiance, const Material& m) {
 }
 
 // The derivative by a rotation vector that turns the light about the point.
-inline Both turn_of(const PreparedPolygon& light, Vec3d position, const std::vector<Both>& by_vertex) {
-  Both turn{};
+inline BothParts turn_of(const PreparedPolygon& light, Vec3d position, const std::vector<BothParts>& by_vertex) {
+  BothParts turn{};
   for (std::size_t i = 0; i < by_vertex.size(); ++i) {
     turn.plain += cross(light.vertices[i] - position, by_vertex[i].plain);
     turn.fresnel += cross(light.vertices[i] - position, by_vertex[i].fresnel);
@@ -87,18 +87,18 @@ inline Both turn_of(const PreparedPolygon& light, Vec3d position, const std::vec
 // The derivative by the view, of a lobe that looks the same from all sides of the normal: a turn of the view about the normal is one of the
 // light the other way.
 //
-//   across_view(direction)  Slope as the view turns towards a unit direction across it
+//   across_view(direction)  PartSlopes as the view turns towards a unit direction across it
 template <class AcrossView>
-Both view_of_round_lobe(Vec3d normal, Vec3d view, const Both& light_turn, const AcrossView& across_view) {
+BothParts view_of_round_lobe(Vec3d normal, Vec3d view, const BothParts& light_turn, const AcrossView& across_view) {
   const Vec3d along = view - normal * dot(view, normal);
   const double slant = length(along);
   // About the normal itself, every direction leads outward.
   const bool is_normal = !(slant > 1e-5);
   const Frame frame = is_normal ? Frame::from_normal(normal) : Frame::from_normal_and_tangent(normal, along);
   const Vec3d outward = is_normal ? frame.x : frame.x * dot(view, normal) - normal * slant;
-  const Slope out = across_view(outward);
-  const Slope aside =
-      is_normal ? across_view(frame.y) : Slope{dot(normal, light_turn.plain), dot(normal, light_turn.fresnel)} * (-1 / slant);
+  const PartSlopes out = across_view(outward);
+  const PartSlopes aside =
+      is_normal ? across_view(frame.y) : PartSlopes{dot(normal, light_turn.plain), dot(normal, light_turn.fresnel)} * (-1 / slant);
   return {outward * out.plain + frame.y * aside.plain, outward * out.fresnel + frame.y * aside.fresnel};
 }
 
@@ -126,12 +126,12 @@ inline std::array<Vec3d, 3> by_normal(Vec3d normal, Vec3d tangent, Vec3d view, c
 inline Vec3d felt_tangent(const Material& m) { return m.alpha_x == m.alpha_y ? Vec3d{} : m.tangent; }
 
 // All derivatives of a light's radiance from those of the parts.
-inline RadianceDerivatives gathered(const PreparedPolygon& light, const ShadingPoint& at, Vec3d tangent, const std::vector<Both>& by_vertex,
-                                    const Both& by_view, const Factors& factors) {
+inline RadianceDerivatives gathered(const PreparedPolygon& light, const ShadingPoint& at, Vec3d tangent,
+                                    const std::vector<BothParts>& by_vertex, const BothParts& by_view, const Factors& factors) {
   RadianceDerivatives result(by_vertex.size());
   for (std::size_t i = 0; i < by_vertex.size(); ++i) result.vertices[i] = factors.of(by_vertex[i]);
   result.view = factors.of(by_view);
-  const Both turn = turn_of(light, at.position, by_vertex);
+  const BothParts turn = turn_of(light, at.position, by_vertex);
   const Vec3d n = normalized(at.normal), v = normalized(at.view);
   result.normal =
       factors.of({by_normal(n, tangent, v, turn.plain, by_view.plain), by_normal(n, tangent, v, turn.fresnel, by_view.fresnel)});

@@ -30,7 +30,7 @@ class GgxInside : public integrals::GgxArcs<double> {
       e_ = prepare();
     return to_vector(e_);
   }
-  Slope at(Vec3d view) const {
+  PartSlopes at(Vec3d view) const {
     K k;
     const auto moved = k.ggx_view(to_kernel<double>(view), alpha_x, alpha_y);
     if (quality == Quality::draft) return both(k.ggx_draft(moved, e_, smith, facing_));
@@ -39,14 +39,14 @@ class GgxInside : public integrals::GgxArcs<double> {
     return both(k.ggx_cubature_finish(c));
   }
   // The change as the view turns towards a direction across it. At fixed nodes, the mean is smooth. Its width is the view's height.
-  Slope along(Vec3d view, Vec3d across) const {
+  PartSlopes along(Vec3d view, Vec3d across) const {
     const double step = 1e-4 * view.z;
     const auto turned = [&](double angle) { return at(view * std::cos(angle) + across * std::sin(angle)); };
     return (turned(step) - turned(-step)) * (0.5 / step);
   }
 
  private:
-  static Slope both(const K::vec2& v) { return {v.x.v, v.y.v}; }
+  static PartSlopes both(const K::vec2& v) { return {v.x.v, v.y.v}; }
   V e_{};
   Real<double> facing_{1.0};
 };
@@ -61,7 +61,7 @@ EdgeRule rule_of(Quality quality) {
 
 // INT f (2 (N.h) h - N) ds along an edge, N its unit normal: with fixed half vectors, the view moves the light's directions by
 // 2 (h.dv) h - dv, and the region of half vectors the other way.
-void add_by_view(Both& sum, const K::GgxView& view, const K::EdgePart& part, const K::ConicArc& arc, double smith, EdgeRule rule) {
+void add_by_view(BothParts& sum, const K::GgxView& view, const K::EdgePart& part, const K::ConicArc& arc, double smith, EdgeRule rule) {
   if (!(arc.end.v > arc.begin.v)) return;
   K k;
   const Vec3d n = normalized(cross(to_vector(part.start), to_vector(part.end - part.start)));
@@ -95,7 +95,7 @@ GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const Sha
   const EdgeRule rule = rule_of(quality);
   GgxDerivatives result;
   GgxInside inside;
-  Both by_view{};
+  BothParts by_view{};
   bool crosses = false;
   result.by_vertex = by_edges(light, side, at.position, frame, [&](const V& a, const V& b) {
     const auto part = k.edge_above_horizon(a, b);
@@ -122,8 +122,8 @@ GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const Sha
   else
     inside.finish(shading.reversed);
   const auto along = [&](Vec3d across) {
-    const Slope change = inside.along(v, across);
-    return Slope{change.plain + side * dot(by_view.plain, across), change.fresnel + side * dot(by_view.fresnel, across)};
+    const PartSlopes change = inside.along(v, across);
+    return PartSlopes{change.plain + side * dot(by_view.plain, across), change.fresnel + side * dot(by_view.fresnel, across)};
   };
   if (m.alpha_x == m.alpha_y) {
     result.by_view = view_of_round_lobe(frame.z, normalized(at.view), turn_of(light, at.position, result.by_vertex),
@@ -131,7 +131,7 @@ GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const Sha
     return result;
   }
   const Frame about = Frame::from_normal(v);
-  const Slope x = along(about.x), y = along(about.y);
+  const PartSlopes x = along(about.x), y = along(about.y);
   result.by_view = {frame.to_world(about.x * x.plain + about.y * y.plain), frame.to_world(about.x * x.fresnel + about.y * y.fresnel)};
   return result;
 }

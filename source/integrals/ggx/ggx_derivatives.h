@@ -7,8 +7,8 @@
 namespace steradian::slopes {
 
 struct GgxDerivatives {
-  std::vector<Both> by_vertex;  // in walk order
-  Both by_view;                 // perpendicular to the view; only with shadowing, without which the horizon has a term
+  std::vector<BothParts> by_vertex;  // in walk order
+  BothParts by_view;                 // perpendicular to the view; only with shadowing, without which the horizon has a term
 };
 
 // By the vertices, these are derivatives of the lobe's true integral: shadowing and Fresnel count along the edges alone, where they are

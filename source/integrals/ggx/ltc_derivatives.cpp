@@ -13,7 +13,7 @@
 namespace steradian {
 
 using integrals::to_kernel;
-using slopes::Both;
+using slopes::BothParts;
 using slopes::Factors;
 using slopes::factors_of;
 
@@ -79,8 +79,8 @@ auto ltc_integral(LtcMethod method, const Material& m) {
 }
 
 // Derivatives of both parts, by the vertices.
-std::vector<Both> ltc_by_vertices(LtcMethod method, const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame,
-                                  const Material& m) {
+std::vector<BothParts> ltc_by_vertices(LtcMethod method, const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame,
+                                       const Material& m) {
   const auto shading = integrals::shading_from<double>(side, to_kernel<double>(frame.to_local(normalized(at.view))));
   const auto by_vertices = [&](const integrals::LtcLobe<double>& lobe) {
     return slopes::by_edges(light, side, at.position, frame, [&](const auto& a, const auto& b) {
@@ -91,17 +91,17 @@ std::vector<Both> ltc_by_vertices(LtcMethod method, const PreparedPolygon& light
       return slopes::EdgeDerivatives{{by_a * lobe.n_a.v, by_a * lobe.f_a.v}, {by_b * lobe.n_a.v, by_b * lobe.f_a.v}};
     });
   };
-  std::vector<Both> result = by_vertices(ltc_lobe_of<double>(method, m, shading));
+  std::vector<BothParts> result = by_vertices(ltc_lobe_of<double>(method, m, shading));
   if (method == LtcMethod::fresnel) {
-    const std::vector<Both> grazing = by_vertices(grazing_lobe_of<double>(m, shading));
+    const std::vector<BothParts> grazing = by_vertices(grazing_lobe_of<double>(m, shading));
     for (std::size_t i = 0; i < result.size(); ++i) result[i].fresnel = grazing[i].plain;
   }
   return result;
 }
 
 // The change of both parts as the view turns within the frame's plane of x and z, away from z.
-slopes::Slope ltc_by_slant(LtcMethod method, const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame,
-                           const Material& m) {
+slopes::PartSlopes ltc_by_slant(LtcMethod method, const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame,
+                                const Material& m) {
   using S = Dual<1>;
   const Vec3d view = frame.to_local(normalized(at.view));
   auto moving = to_kernel<S>(view);
@@ -121,9 +121,9 @@ RadianceDerivatives ltc_radiance_derivatives(LtcMethod method, const PreparedPol
   const int side = dot(at.view, at.normal) > 0 ? shapes::lit_side(light, at.position) : 0;
   if (side == 0) return RadianceDerivatives(light.vertices.size());
   const Frame frame = frame_of_view(normalized(at.normal), normalized(at.view));
-  const std::vector<Both> by_vertex = ltc_by_vertices(method, light, side, at, frame, m);
-  const Both turn = slopes::turn_of(light, at.position, by_vertex);
-  const Both by_view = slopes::view_of_round_lobe(frame.z, normalized(at.view), turn, [&](const Vec3d& across) {
+  const std::vector<BothParts> by_vertex = ltc_by_vertices(method, light, side, at, frame, m);
+  const BothParts turn = slopes::turn_of(light, at.position, by_vertex);
+  const BothParts by_view = slopes::view_of_round_lobe(frame.z, normalized(at.view), turn, [&](const Vec3d& across) {
     return ltc_by_slant(method, light, side, at, Frame::from_normal_and_tangent(frame.z, across), m);
   });
   return slopes::gathered(light, at, {}, by_vertex, by_view, factors_of(light.radiance, m));

@@ -109,11 +109,11 @@ class PhongArc {
 };
 
 // The middle of an arc above the horizon, the direction along it there, and half its angle.
-struct Arc {
+struct MiddleArc {
   Vec3d middle, along;
   double half_cosine = 0, half_sine = 0;
 
-  Arc(Vec3d start, Vec3d end) {
+  MiddleArc(Vec3d start, Vec3d end) {
     const Vec3d sum = start + end, chord = end - start;
     half_cosine = 0.5 * length(sum);
     half_sine = 0.5 * length(chord);
@@ -133,7 +133,7 @@ class TurnOfAll {
 
   V end(const V& u) const { return u; }
   void add(const V& a, const V& b) {
-    const Arc arc(to_vector(a), to_vector(b));
+    const MiddleArc arc(to_vector(a), to_vector(b));
     if (!arc.is_usable()) return;
     const ArcMoments m = lobe_.moments(arc.middle, arc.along, arc.half());
     sum_ += arc.along * m.cosine - arc.middle * m.sine;  // l x N = middle sin t - along cos t
@@ -158,7 +158,7 @@ PhongDerivatives phong_derivatives(const PreparedPolygon& light, int side, const
   result.by_vertex = by_edges(light, side, at.position, frame, [&](const V& a, const V& b) -> EdgeDerivatives {
     crosses = crosses || a.z.v < 0 || b.z.v < 0;
     const auto part = k.edge_above_horizon(a, b);
-    const Arc arc(to_vector(part.start), to_vector(part.end));
+    const MiddleArc arc(to_vector(part.start), to_vector(part.end));
     if (!arc.is_usable()) return {};
     const ArcMoments f = lobe.moments(arc.middle, arc.along, arc.half());
     // l = even (start + end) + odd (end - start)
