@@ -113,6 +113,24 @@ def squares(path):
     return found
 
 
+def paint():
+    """A stroke of a wanted brightness sets the power of the lamp, as one step of undo; the saved scene has it."""
+    play(SCENES / "diffuse_floor.glb", [
+        {"wait": "settled"}, {"picture": "paint-first.exr"}, {"key": "P"}, {"set": "brush", "value": 10}, {"set": "wanted", "value": 3},
+        {"drag": "left", "from": [150, 180], "to": [250, 180]}, {"wait": "settled"}, {"shot": "paint-strokes.png"},
+        {"picture": "paint.exr"}, {"save": "paint.glb"}, {"key": "Ctrl+Z"}, {"wait": "settled"}, {"picture": "paint-undone.exr"},
+        {"key": "Backspace"}, {"key": "P"}, {"wait": "settled"}, {"shot": "paint-rest.png"},
+    ], "--size", "400x225", "--exposure", "0", "--panel", "off", "--bounces", "0")
+    assert pixels(OUT / "paint-strokes.png") != pixels(OUT / "paint-rest.png"), "strokes are drawn"
+
+    def same(a, b):
+        return subprocess.run([PROGRAM, "diff", a, b, "--fail-above", "max=0"], cwd=OUT, capture_output=True).returncode == 0
+    assert same("paint-first.exr", "paint-undone.exr"), "one step takes the fit back"
+    assert not same("paint-first.exr", "paint.exr"), "the fit changes the light"
+    render("paint.glb", "paint-again.exr", "--size", "400x225")
+    assert same("paint.exr", "paint-again.exr"), "the saved scene has the fitted light"
+
+
 def moving():
     """A drawing that moves by itself, at two moments and played."""
     play(SCENES / "plane" / "carousel.svg", [
@@ -174,6 +192,7 @@ def main():
     space()
     polygon()
     plane()
+    paint()
     moving()
     life()
     lost()

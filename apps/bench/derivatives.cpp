@@ -1,5 +1,5 @@
-// kernel/{lambert,phong,ggx,ltc}/quad/double and .../derivatives: the radiance of a quad in double, without and with its derivatives by
-// vertices and point (for lambert by the normal too). The ratio of the two is the cost of derivatives.
+// kernel/{lambert,phong,ggx,ltc}/quad/double and .../derivatives: the radiance of a quad in double, and all its derivatives by vertices,
+// point, normal and view (for lambert with the value).
 #include <functional>
 #include <memory>
 
@@ -36,27 +36,26 @@ void derivatives_add(BenchList& list, const std::string& name, const std::functi
 }  // namespace
 
 void add_derivatives(BenchList& list) {
-  const auto light = std::make_shared<PolygonLight>(quad());
-  const auto prepared = std::make_shared<PreparedPolygon>(prepare_polygon(*light));
+  const auto prepared = std::make_shared<PreparedPolygon>(prepare_polygon(quad()));
   derivatives_add(list, "kernel/lambert/quad/double",
                   [=](const ShadingPoint& p) { return polygon_irradiance(*prepared, p.position, p.normal); });
   derivatives_add(list, "kernel/lambert/quad/derivatives",
-                  [=](const ShadingPoint& p) { return polygon_irradiance_derivatives(*light, p.position, p.normal).position.x; });
+                  [=](const ShadingPoint& p) { return polygon_irradiance_derivatives(*prepared, p.position, p.normal).position.x; });
 
   const Material phong{.brdf = Brdf::phong, .exponent = 20.0};
   derivatives_add(list, "kernel/phong/quad/double", [=](const ShadingPoint& p) { return phong_radiance(*prepared, p, phong).x; });
   derivatives_add(list, "kernel/phong/quad/derivatives",
-                  [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, phong))[0].x; });
+                  [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*prepared, p, phong))[0].x; });
 
   Material ggx{.brdf = Brdf::ggx};
   ggx.alpha_x = ggx.alpha_y = 0.3;
   derivatives_add(list, "kernel/ggx/quad/double", [=](const ShadingPoint& p) { return closed_form_radiance(*prepared, p, ggx).x; });
   derivatives_add(list, "kernel/ggx/quad/derivatives",
-                  [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*light, p, ggx))[0].x; });
+                  [=](const ShadingPoint& p) { return by_position(radiance_derivatives(*prepared, p, ggx))[0].x; });
   derivatives_add(list, "kernel/ltc/quad/double",
                   [=](const ShadingPoint& p) { return ltc_radiance(LtcMethod::classic, *prepared, p, ggx).x; });
   derivatives_add(list, "kernel/ltc/quad/derivatives",
-                  [=](const ShadingPoint& p) { return by_position(ltc_radiance_derivatives(LtcMethod::classic, *light, p, ggx))[0].x; });
+                  [=](const ShadingPoint& p) { return by_position(ltc_radiance_derivatives(LtcMethod::classic, *prepared, p, ggx))[0].x; });
 }
 
 }  // namespace steradian::bench

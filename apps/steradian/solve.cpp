@@ -117,7 +117,7 @@ void add_solve(CommandLine& line) {
   Verb verb = line.verb("solve", "Find lights from a wanted picture or from illuminances");
   verb.group("Question");
   verb.footer(
-      "Parameters: power (the default), color, position, rotation, size.\n"
+      "Parameters: power (the default), color, position, rotation, size, vertices.\n"
       "Example: steradian solve room.glb --target wanted.exr --fit 'lamp*:position,power' -o solved.glb\n"
       "Exit status: 0 solved, 1 error, 3 the tolerance was not reached (the file is written).");
   verb.add("SCENE", options->scene, "scene file: .gltf, .glb").existing_file().required();

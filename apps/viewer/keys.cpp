@@ -32,6 +32,9 @@ constexpr KeyBinding kBindings[] = {
     {"C", Action::split, "split screen with a second method"},
     {"M", Action::error_map, "map of the difference to it"},
     {"B", Action::bounce, "light between surfaces, on and off"},
+    {"P", Action::paint, "brush on and off: a left drag paints wanted light"},
+    {"G", Action::fit, "fit the lights to the strokes, or stop"},
+    {"Backspace", Action::remove_stroke, "remove the last stroke"},
     {"Space", Action::play, "play and pause the animation"},
     {"Ctrl+Q", Action::quit, "close the window"},
 };

@@ -28,6 +28,9 @@ enum class Action {
   error_map,
   bounce,
   play,
+  paint,
+  fit,
+  remove_stroke,
   fly,
   quit,
 };

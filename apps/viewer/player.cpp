@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/words.h"
 #include "steradian/error.h"
 
 namespace steradian::view {
@@ -83,7 +84,46 @@ bool set_of_picture(ViewState& state, const std::string& what, const nlohmann::j
   return true;
 }
 
+bool set_of_brush(Session& s, const std::string& what, const nlohmann::json& value) {
+  if (what == "brush") {
+    s.brush.radius = number_of(what, value);
+    if (!(s.brush.radius > 0 && s.brush.radius <= 1000)) throw Error("set brush", "needs a radius above 0", "at most 1000 pixels");
+  } else if (what == "wanted") {
+    s.brush.radiance = value.is_number() ? Vec3d{1, 1, 1} * number_of(what, value) : three_of(what, value);
+    const Vec3d& r = s.brush.radiance;
+    if (!(r.x >= 0 && r.y >= 0 && r.z >= 0)) throw Error("set wanted", "needs a radiance of 0 or more");
+  } else if (what == "part") {
+    const auto part = words::find<LightPart>(text_of(what, value));
+    if (!part) throw Error("set part", text_of(what, value) + " is none", words::choices<LightPart>());
+    s.brush.part = *part;
+  } else if (what == "fit") {
+    FitChoice choice{false};
+    choice.selected = s.fit_choice.selected;
+    for (const auto& word : value.is_array() ? value : nlohmann::json::array({value})) {
+      const std::string name = text_of(what, word);
+      bool* const set = name == "power"      ? &choice.power
+                        : name == "color"    ? &choice.color
+                        : name == "position" ? &choice.position
+                        : name == "rotation" ? &choice.rotation
+                        : name == "size"     ? &choice.size
+                        : name == "vertices" ? &choice.vertices
+                                             : nullptr;
+      if (set == nullptr) throw Error("set fit", name + " is not a parameter", "power, color, position, rotation, size and vertices are");
+      *set = true;
+    }
+    s.fit_choice = choice;
+  } else if (what == "fit_selected" && value.is_boolean()) {
+    s.fit_choice.selected = value.get<bool>();
+  } else if (what == "fit_at_once" && value.is_boolean()) {
+    s.fits_at_once = value.get<bool>();
+  } else {
+    return false;
+  }
+  return true;
+}
+
 bool set_of_session(Session& s, const std::string& what, const nlohmann::json& value) {
+  if (set_of_brush(s, what, value)) return true;
   if (what == "add") {
     s.add_light(text_of(what, value));
     return true;
@@ -238,6 +278,15 @@ void act(ViewState& state, Action action) {
         options.bounces = options.bounces == 0 ? kAllBounces : 0;
         choose_other(state);
       }
+      break;
+    case Action::paint:
+      if (s != nullptr) s->take_brush(!s->brush.on);
+      break;
+    case Action::fit:
+      if (s != nullptr) s->fitting() ? s->stop_fit() : s->fit();
+      break;
+    case Action::remove_stroke:
+      if (s != nullptr) s->remove_stroke();
       break;
     case Action::play: state.playing = !state.playing && stage.duration() > 0; break;
     case Action::fly: break;  // the window handles it while the key is held

@@ -1,7 +1,10 @@
 #include "session.h"
 
 #include <cmath>
+#include <cstdio>
+#include <utility>
 
+#include "document/light_changes.h"
 #include "steradian/error.h"
 
 namespace steradian::view {
@@ -32,6 +35,9 @@ void Session::take_document(std::unique_ptr<EditedDocument> document) {
   std::vector<scene::GltfAnimation> animations = read_animations(document->file());
   if (document_) base_revision_ += document_->revision() + 1;
   ++source_;
+  fitter_.stop();
+  fit_applied_ = false;
+  strokes_.clear();
   document_ = std::move(document);
   animations_ = std::move(animations);
   if (animation_ >= animations_.size()) animation_ = 0;
@@ -48,9 +54,9 @@ Json Session::shown_json() const {
 void Session::submit() {
   const bool same = submitted_ == wanted_ && submitted_moving_;
   submitted_ = wanted_;
-  RenderRequest request{document_->file(), base_revision_ + document_->revision(), source_, {}, options_, other_, moving_};
+  RenderRequest request{document_->file(), base_revision_ + document_->revision(), source_, {}, options_, other_, moves()};
   request.file.json = shown_json();
-  request.refine = same && !moving_ && frame_.request == request_;
+  request.refine = same && !moves() && frame_.request == request_;
   if (camera_) {
     request.camera = as_read(camera_->camera());
     request.file = with_camera(std::move(request.file), camera_->camera());
@@ -58,19 +64,20 @@ void Session::submit() {
     if (request.other) request.other->camera.clear();
   }
   request_ = worker_.submit(std::move(request));
-  submitted_moving_ = moving_;
+  submitted_moving_ = moves();
   settled_ = false;
 }
 
 bool Session::update() {
   bool fresh = false;
+  if (take_fit()) changed();
   if (auto frame = worker_.take()) {
     if (!frame->error.empty()) {
       say(frame->error);
       if (frame->request == request_) settled_ = true;
     } else {
       if (frame->request == request_ && frame->load_ms > 0 && frame->request != lost_at_) say({});
-      settled_ = frame->request == request_ && frame->last && submitted_ == wanted_ && !moving_;
+      settled_ = frame->request == request_ && frame->last && submitted_ == wanted_ && !moves();
       if (!frame->device_lost.empty() && options_.backend != Backend::cpu) {
         options_.backend = Backend::cpu;
         lost_at_ = frame->request;
@@ -85,11 +92,11 @@ bool Session::update() {
       }
     }
   }
-  if (submitted_ != wanted_ || (submitted_moving_ && !moving_)) try {
+  if (submitted_ != wanted_ || (submitted_moving_ && !moves())) try {
       submit();
     } catch (const std::exception& e) {  // the file is too broken to contain a camera
       say(e.what());
-      submitted_moving_ = moving_;
+      submitted_moving_ = moves();
       settled_ = true;
     }
   return fresh;
@@ -98,8 +105,11 @@ bool Session::update() {
 void Session::wait_until_settled() {
   do {
     update();
-    if (!settled_) worker_.wait();
-  } while (!settled_);
+    if (fitting())
+      fitter_.wait();
+    else if (!settled_)
+      worker_.wait();
+  } while (fitting() || !settled_);
 }
 
 void Session::resize(int width, int height) {
@@ -158,6 +168,12 @@ void Session::press(PointerButton button, bool shift, Vec2d at) {
   pressed_ = last_ = at;
   drags_corner_.reset();
   handle_ = Handle::none;
+  painting_ = brush.on && button == PointerButton::left && !shift;
+  if (painting_) {
+    stop_fit();
+    strokes_.push_back({camera_->camera(), options_.width, options_.height, {}, {}, brush.radius, brush.radiance, brush.part});
+    return paint(at);
+  }
   if (const auto corner = button == PointerButton::left && !shift ? corner_under(at) : std::nullopt) {
     corner_ = drags_corner_ = corner;
     drag_outline_ = *outline_;
@@ -199,6 +215,7 @@ void Session::drag_handle(Vec2d to) {
 
 void Session::drag(Vec2d to) {
   if (!button_) return;
+  if (painting_) return paint(to);
   constexpr double kClick = 3;  // tolerance of a click in pixels
   if (!moved_ && length(to - pressed_) <= kClick) return;
   moved_ = true;
@@ -221,11 +238,95 @@ void Session::drag(Vec2d to) {
 void Session::release(Vec2d at) {
   if (!button_) return;
   drag(at);
+  if (std::exchange(painting_, false)) {
+    button_.reset();
+    if (fits_at_once) fit();
+    return;
+  }
   if (!moved_ && *button_ == PointerButton::left && handle_ == Handle::none && !drags_corner_) click(at);
   button_.reset();
   drags_corner_.reset();
   handle_ = Handle::none;
   set_moving(false);
+}
+
+// ---- strokes and their fit
+
+void Session::take_brush(bool on) {
+  brush.on = on;
+  if (!on || !(brush.radiance == Vec3d{}) || picture().pixels.empty()) return;
+  double mean = 0;
+  for (const Vec3f& p : picture().pixels) mean += luminance(static_cast<Vec3d>(p)) / static_cast<double>(picture().pixels.size());
+  brush.radiance = Vec3d{1, 1, 1} * (2 * mean);
+}
+
+// Places are a third of the brush apart.
+void Session::paint(Vec2d at) {
+  PaintStroke& stroke = strokes_.back();
+  if (!stroke.points.empty() && length(at - stroke.points.back()) < std::max(stroke.radius / 3, 1.0)) return;
+  stroke.points.push_back(at);
+  if (!frame_.scene) return;
+  if (const auto hit = pick(frame_.scene->scene, ray(at))) stroke.places.push_back(hit->point);
+}
+
+void Session::remove_stroke() {
+  if (painting_ || strokes_.empty()) return;
+  stop_fit();
+  strokes_.pop_back();
+}
+
+void Session::fit() {
+  stop_fit();
+  if (strokes_.empty()) return say("there is no stroke to fit lights to");
+  document_->close_step();
+  FitTask task{document_->file(), strokes_, fit_choice, selection_.node, options_};
+  task.file.json = shown_json();
+  task.render.backend = Backend::cpu;
+  task.render.method = "auto";
+  // Places count direct light alone.
+  if (fit_choice.moves()) task.render.bounces = 0;
+  task.render.indirect.mode = IndirectMode::off;
+  fit_revision_ = document_->revision();
+  fit_state_ = "fitting";
+  fitter_.start(std::move(task));
+}
+
+void Session::stop_fit() {
+  if (fitting()) fit_state_ = "stopped";
+  fitter_.stop();
+  if (std::exchange(fit_applied_, false)) document_->close_step();
+}
+
+bool Session::take_fit() {
+  if (!fitting()) return false;
+  if (document_->revision() != fit_revision_) {  // changed by hand
+    stop_fit();
+    return true;
+  }
+  const auto news = fitter_.take();
+  if (!news) return false;
+  // The changes are those from the start.
+  if (!news->changes.empty()) {
+    if (std::exchange(fit_applied_, false)) document_->undo();
+    try {
+      apply_changes(*document_, news->scene->scene, news->changes);
+    } catch (const std::exception& e) {
+      say(e.what());
+      fitter_.stop();
+    }
+    fit_applied_ = true;
+    fit_revision_ = document_->revision();
+  }
+  char text[64];
+  std::snprintf(text, sizeof text, "step %d, cost %.4g", news->step, news->cost);
+  fit_state_ = news->ended && news->changes.empty() ? "not fitted" : text;
+  if (!news->ended) return true;
+  if (news->changes.empty())
+    say(news->message);
+  else
+    fit_state_ += ": " + news->message;
+  if (std::exchange(fit_applied_, false)) document_->close_step();
+  return true;
 }
 
 // ---- corners
@@ -432,12 +533,14 @@ void Session::remove_selected() {
 }
 
 void Session::undo() {
+  stop_fit();
   document_->undo();
   if (!tree().contains(selection_.node)) selection_ = {};
   changed();
 }
 
 void Session::redo() {
+  stop_fit();
   document_->redo();
   changed();
 }

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "paint/fitter.h"
 #include "gizmo.h"
-#include "outline.h"
+#include "document/outline.h"
 #include "pick.h"
 #include "scene/gltf/gltf_animation.h"
 #include "stage.h"
@@ -33,7 +34,7 @@ class Session : public Stage {
 
   bool update() override;
   void wait_until_settled() override;
-  bool settled() const override { return settled_; }
+  bool settled() const override { return settled_ && !fitting(); }
   const Picture& picture() const override { return frame_.picture; }
   const RenderedFrame& frame() const { return frame_; }
 
@@ -91,6 +92,20 @@ class Session : public Stage {
   double time() const override { return time_; }
   void set_time(double seconds) override;
 
+  // With the brush, a left drag paints strokes of a wanted radiance. A fit moves the lights towards them, in the background: its steps are
+  // one step of undo, and any other change ends it.
+  Brush brush;
+  FitChoice fit_choice;
+  bool fits_at_once = true;  // after each stroke
+  void take_brush(bool on);
+  const std::vector<PaintStroke>& strokes() const { return strokes_; }
+  void remove_stroke();  // the last one
+  void clear_strokes() { strokes_.clear(); }
+  void fit();
+  void stop_fit();
+  bool fitting() const { return fitter_.running(); }
+  const std::string& fit_state() const { return fit_state_; }  // of the fit that runs or ran last; empty: none
+
   void add_light(const std::string& type);  // above the orbited point, and selected; polygon: with five corners
   void remove_selected() override;
   void undo() override;
@@ -106,9 +121,12 @@ class Session : public Stage {
  private:
   Ray ray(Vec2d at) const { return ray_through(camera_->camera(), at, size().x, size().y); }
   void submit();
+  bool moves() const { return moving_ || fitting(); }
   void take_document(std::unique_ptr<EditedDocument> document);
   Json shown_json() const;  // the document at the displayed moment
   void click(Vec2d at);
+  void paint(Vec2d at);
+  bool take_fit();  // true if lights have moved
   void drag_handle(Vec2d to);
   const Lamp* selected_mesh() const;  // null if no emitting mesh is selected
   void drag_corner(Vec2d to);
@@ -152,7 +170,14 @@ class Session : public Stage {
   mutable std::vector<std::vector<Vec3d>> corners_;
   mutable std::pair<std::uint64_t, int> corners_of_{0, -1};
 
+  std::vector<PaintStroke> strokes_;
+  bool painting_ = false;  // the drag is a stroke
+  std::string fit_state_;
+  bool fit_applied_ = false;        // the open step of undo is the fit's
+  std::uint64_t fit_revision_ = 0;  // of the document, after the latest step of the fit
+
   Worker worker_;
+  Fitter fitter_;
 };
 
 }  // namespace steradian::view

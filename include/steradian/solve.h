@@ -8,8 +8,8 @@
 //   const Solution found = solve(scene, {lamp}, {}, {target});
 //   // found.area_lights[0], found.parameters, found.converged
 //
-// Powers and colours alone are linear: shadows and bounces may count. Places, rotations and sizes are found by Levenberg and Marquardt in a
-// box, with derivatives of the light without sampling. See docs/solve.md. Needs the layer `solve` (steradian::solve).
+// Powers and colours alone are linear: shadows and bounces may count. Places, rotations, sizes and vertices are found by Levenberg and
+// Marquardt in a box, with derivatives of the light without sampling. See docs/solve.md. Needs the layer `solve` (steradian::solve).
 #pragma once
 
 #include <cstddef>
@@ -42,10 +42,12 @@ struct LightFit {
   bool position = false;  // of the centre
   bool rotation = false;  // about the centre
   bool size = false;      // width and height of a rectangle, diameter of a disk or sphere, length and diameter of a tube
+  bool vertices = false;  // of a polygon, each in the light's plane; position, rotation and size must then be false
   FitRange position_x{}, position_y{}, position_z{};                 // [m]
   double most_degrees = 180;                                         // of the rotation, for each of its three components
   FitRange size_range{0, std::numeric_limits<double>::infinity()};   // [m]
   FitRange power_range{0, std::numeric_limits<double>::infinity()};  // of light_flux
+  double most_move = std::numeric_limits<double>::infinity();        // of a vertex along each of two directions [m]
   double keep = 0;  // weight of staying at the start: one residual a parameter, its change over its typical size
 };
 
@@ -74,6 +76,7 @@ struct PictureTarget {
   ResidualSpace space = ResidualSpace::root;
   ResidualLoss loss = ResidualLoss::squares;
   LightPart part = LightPart::all;
+  bool painted = false;  // its bright patches are strokes, not lamps that it shows
 };
 
 // Wanted illuminances [lux], where radiances are in nits. A band costs nothing inside.
@@ -101,9 +104,10 @@ struct SolveStep {
 };
 
 struct FittedParameter {
-  std::string name;             // "lamp: position x"
-  double start = 0, value = 0;  // metres, degrees, or the unit of light_flux; a colour's channel in the light's radiance
-  double sigma = 0;             // standard error of `value`, from the residuals; infinite where it is not determined
+  std::string name;  // "lamp: position x"
+  // Metres, degrees, or the unit of light_flux; a colour's channel in the light's radiance. A vertex: its move from the start.
+  double start = 0, value = 0;
+  double sigma = 0;  // standard error of `value`, from the residuals; infinite where it is not determined
   bool at_bound = false;
   bool determined = true;  // false: the targets hardly change with it, or only together with others
 };
@@ -121,6 +125,7 @@ struct LightChange {
   Vec3d move{};                   // of its centre [m]
   Vec3d rotation{};               // about the centre: axis times angle [rad]
   double size_1 = 1, size_2 = 1;  // factors on width or length, and on height or diameter
+  std::vector<Vec3d> vertices{};  // of a polygon whose vertices were fitted, as flat_polygon has them: the outline, then the holes
   bool color = false;             // false: `radiance` is a multiple of the scene's
   Vec3d radiance{};               // intensity of a punctual light
 };
@@ -133,6 +138,7 @@ struct SolveOptions {
   double tolerance = 1e-6;                           // relative change of the cost, and of the parameters, at which steps end
   bool least_power = false;                          // of all settings of powers that satisfy the illuminances, that of the least power
   std::function<bool(const SolveStep&)> progress{};  // returns false to stop; the best so far is the solution
+  std::function<void(const std::vector<LightChange>&)> moved{};  // called with the lights of each accepted step, before `progress`
 };
 
 struct Solution {

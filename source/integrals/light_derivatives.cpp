@@ -6,14 +6,13 @@
 
 #include "integrals/curved_light.h"
 #include "integrals/differences.h"
+#include "integrals/polygon_slopes.h"
 #include "steradian/capsule_light.h"
 #include "steradian/ellipse_light.h"
 #include "steradian/error.h"
 
 namespace steradian::methods {
 namespace {
-
-using ByChannel = OutlineDerivatives::ByChannel;
 
 // The outline of a light as a polygon that does not change with the lobe.
 struct FixedOutline {
@@ -37,12 +36,10 @@ struct FixedOutline {
   PolygonLight operator()(const Line&) const { return {}; }
 };
 
-PreparedPolygon fixed_outline(const AreaLight& light, const ShadingPoint& at, const LobeAxis& lobe) {
-  const AreaLight seen = seen_from(light, at.position);
-  const ShadingPoint origin = {{}, at.normal, at.view};
+PolygonLight fixed_outline(const AreaLight& seen, Vec3d radiance, const ShadingPoint& origin, const LobeAxis& lobe) {
   PolygonLight polygon = std::visit(FixedOutline{seen, origin, lobe}, seen.shape);
-  polygon.radiance = light.radiance;
-  return polygon.vertices.empty() ? PreparedPolygon{} : prepare_polygon(polygon);
+  polygon.radiance = radiance;
+  return polygon;
 }
 
 }  // namespace
@@ -59,22 +56,26 @@ LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPo
   if (light.emission) throw Error("derivatives", "there are none of a light with a profile", "leave the key out");
   if (std::holds_alternative<Line>(light.shape)) throw Error("derivatives", "a line has no outline", "give the capsule a radius");
   LightDerivativesOfLobe result;
-  const LobeAxis lobe = lobe_axis(m, at);
-  const bool by_vertices = std::holds_alternative<Polygon>(light.shape) && row.derivatives != nullptr && m.brdf != Brdf::phong;
-  if (by_vertices) {
-    const PolygonLight polygon = flat_polygon(light);
-    const RadianceDerivatives d = row.derivatives(polygon, at, m, options.quality);
+  const auto take = [&](const RadianceDerivatives& d) { result.normal = d.normal, result.view = d.view; };
+  if (row.derivatives != nullptr && std::holds_alternative<Polygon>(light.shape)) {
+    const RadianceDerivatives d = row.derivatives(flat_polygon(light), at, m, options.quality);
     result.light.by_vector = d.vertices;
     result.light.position = by_position(d);
-    result.normal = d.normal;
-  } else {
-    result.light = outline_derivatives(light, at, lobe, row.density(at, m, options.quality));
+    take(d);
+    return result;
   }
-  const auto perpendicular = [](Vec3d v, Vec3d unit) { return v - unit * dot(v, unit); };
+  const LobeAxis lobe = lobe_axis(m, at);
+  result.light = outline_derivatives(light, at, lobe, row.density(at, m, options.quality));
+  const Vec3d normal = normalized(at.normal), view = normalized(at.view);
   if (m.brdf == Brdf::lambert) {
-    // The lobe turns with the normal: as if the light turned the other way about the point.
-    if (!by_vertices)
-      for (std::size_t c = 0; c < 3; ++c) result.normal[c] = perpendicular(cross(at.normal, result.light.turn[c]), at.normal);
+    result.normal = slopes::by_normal(normal, {}, view, result.light.turn, {});
+    return result;
+  }
+  const AreaLight seen = seen_from(light, at.position);
+  const PolygonLight outline = fixed_outline(seen, light.radiance, {{}, at.normal, at.view}, lobe);
+  if (outline.vertices.empty()) return result;
+  if (row.derivatives != nullptr) {
+    take(row.derivatives(outline, {{}, at.normal, at.view}, m, options.quality));
     return result;
   }
   const FineMethod fine = fine_method(row.method, options.quality);
@@ -82,14 +83,11 @@ LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPo
   RadianceOptions in_double = options;
   in_double.precision = Precision::double_;
   in_double.quality = fine.quality;
-  const PreparedPolygon outline = fixed_outline(light, at, lobe);
-  const auto value = [&](Vec3d normal, Vec3d view) {
-    return !outline.vertices.empty() && dot(normal, view) > 0 ? smooth.polygon(outline, {{}, normal, view}, m, in_double).radiance
-                                                              : Vec3d{};
-  };
+  const PreparedPolygon fixed = prepare_polygon(outline);
+  const auto value = [&](Vec3d n, Vec3d v) { return dot(n, v) > 0 ? smooth.polygon(fixed, {{}, n, v}, m, in_double).radiance : Vec3d{}; };
   const double step = kStep * narrowest_width(m, at);
-  result.view = by_direction(at.view, step, [&](Vec3d view) { return value(at.normal, view); });
-  if (!by_vertices) result.normal = by_direction(at.normal, step, [&](Vec3d normal) { return value(normal, at.view); });
+  result.view = by_direction(at.view, step, [&](Vec3d v) { return value(at.normal, v); });
+  result.normal = by_direction(at.normal, step, [&](Vec3d n) { return value(n, at.view); });
   return result;
 }
 

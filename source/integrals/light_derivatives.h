@@ -12,9 +12,9 @@ struct LightDerivativesOfLobe {
   std::array<Vec3d, 3> view{};    // of the function of v/|v|, likewise
 };
 
-// The method's own derivatives by the vertices of polygons, where it has them. Else those of its density, by quadrature along the outline.
-// The normal and the view change the lobe, so their derivatives are central differences of the value. The outline of a round light is then
-// fixed (fine_method: by which method). Throws Error for a method without a density, for lights with a profile, and for lines.
+// The row's own derivatives of polygons, where it has them. Else those of its density, by quadrature along the outline. By normal and view,
+// the outline of a round light is fixed. Rows without derivatives of their own have central differences there (fine_method: by which
+// method). Throws Error for a method without a density, for lights with a profile, and for lines.
 LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPoint& at, const Material& material, const Row& row,
                                          const RadianceOptions& options);
 

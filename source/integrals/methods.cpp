@@ -151,11 +151,11 @@ constexpr const char* kNoQualities = "";
 // A new method is a row here and a name in include/steradian/method.h.
 constexpr Row kMethods[] = {
     {Method::series, "series", "phong", phong_lobes, true, "normal, high", "1.3e-3; high: 4.5e-4", "constant an edge",
-     Procedure::phong_lobe, phong<Method::series>, nullptr, any_density},
+     Procedure::phong_lobe, phong<Method::series>, radiance_derivatives, any_density},
     {Method::exact, "exact", "lambert; phong; ggx without shadowing and with f0 = f90", exact_lobes, true, kNoQualities,
      "rounding; phong: 1e-10", "phong: quadrature", Procedure::diffuse, exact, radiance_derivatives, any_density},
     {Method::arvo, "arvo", "phong with an integer exponent", phong_of_integer_exponent, true, kNoQualities, "rounding",
-     "grows with exponent", Procedure::phong_lobe, phong<Method::arvo>, nullptr, any_density},
+     "grows with exponent", Procedure::phong_lobe, phong<Method::arvo>, radiance_derivatives, any_density},
     {Method::lorentzian, "lorentzian", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",
      Procedure::phong_lobe, phong<Method::lorentzian>},
     {Method::pearson, "pearson", "phong without foreshortening", plain_phong, true, kNoQualities, "1e-2", "constant an edge",

@@ -31,7 +31,7 @@ struct Row {
   Procedure procedure;    // computes it on packs and on a device
   // Radiance that the lobe sends to the view under a light. Precondition: serves(lobe).
   RadianceResult (*polygon)(const PreparedPolygon&, const ShadingPoint&, const Material&, const RadianceOptions&);
-  // Derivatives by a polygon's vertices and the normal where they are faster than those of the density; null: they are not.
+  // Derivatives of a polygon by its vertices, the normal and the view; null: only those of the density.
   RadianceDerivatives (*derivatives)(const PolygonLight&, const ShadingPoint&, const Material&, Quality) = nullptr;
   // Density of the derivatives by any light, or by the visible part of one; null: the method has no derivatives.
   LobeDensity (*density)(const ShadingPoint&, const Material&, Quality) = nullptr;

@@ -169,9 +169,10 @@ void FitProblem::add_picture(const PictureTarget& target, const std::string& nam
   if (!(luminances > 0)) return complain("the picture is black (give one with light)");
   tiles_->add_camera(target.camera, picture.width, picture.height, target.part, least_alpha_);
   const std::vector<char> fitted = tiles_->pixels_of_fitted(target.camera, picture.width, picture.height);
-  // A painted part shows no lamps.
-  const std::vector<char> shown =
-      target.part == LightPart::all ? lamps_shown(picture, luminances / static_cast<double>(count)) : std::vector<char>(count, 0);
+  // A painted picture, and a part of the light, show no lamps.
+  const std::vector<char> shown = target.part == LightPart::all && !target.painted
+                                      ? lamps_shown(picture, luminances / static_cast<double>(count))
+                                      : std::vector<char>(count, 0);
   for (std::size_t i = 0; i < count; ++i)
     if (shown[i] != 0 || fitted[i] != 0) part.weights[i] = 0;
   double sum = 0, counted = 0;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "shapes/triangulate.h"
 #include "steradian/error.h"
+#include "steradian/polygon_light.h"
 
 namespace steradian {
 
@@ -102,6 +105,57 @@ Shape moved(const Capsule& c, const Motion& m) {
 }
 Shape moved(const Line& l, const Motion& m) { return Line{m.moved(l.end_a), m.moved(l.end_b)}; }
 
+// Directions in the plane of a polygon, along which its vertices move.
+struct PlaneAxes {
+  Vec3d u, v;
+};
+PlaneAxes plane_of(const AreaLight& light) {
+  const Frame frame = Frame::from_normal(prepare_polygon(flat_polygon(light)).normal);
+  return {frame.x, frame.y};
+}
+
+std::vector<Vec3d*> vertices_of(Polygon& p) {
+  std::vector<Vec3d*> all;
+  for (Vec3d& v : p.vertices) all.push_back(&v);
+  for (auto& hole : p.holes)
+    for (Vec3d& v : hole) all.push_back(&v);
+  return all;
+}
+
+// True if an outline crosses itself, or runs the other way round as seen along the axes.
+bool crosses(const Polygon& p, const PlaneAxes& axes) {
+  Contours contours;
+  const auto add = [&](const std::vector<Vec3d>& contour) {
+    auto& flat = contours.emplace_back();
+    for (const Vec3d& v : contour) flat.push_back({dot(v, axes.u), dot(v, axes.v)});
+  };
+  add(p.vertices);
+  for (const auto& hole : p.holes) {
+    add(hole);
+    double area = 0;
+    const auto& flat = contours.back();
+    for (std::size_t i = 0; i < flat.size(); ++i) area += cross(flat[i], flat[(i + 1) % flat.size()]);
+    if (area > 0) std::reverse(contours.back().begin(), contours.back().end());
+  }
+  return !triangles_of(contours);
+}
+
+// Emitting area of one side.
+double area_of(const PolygonLight& light) {
+  Vec3d sum{};
+  const auto add = [&](const std::vector<Vec3d>& contour) {
+    for (std::size_t i = 0; i < contour.size(); ++i) sum += cross(contour[i], contour[(i + 1) % contour.size()]) * 0.5;
+  };
+  add(light.vertices);
+  double area = length(sum);
+  for (const auto& hole : light.holes) {
+    sum = {};
+    add(hole);
+    area -= length(sum);
+  }
+  return area;
+}
+
 Vec3d center_of(const FittedLight& light) {
   return light.is_punctual ? light.punctual.position : std::visit([](const auto& s) { return center_of(s); }, light.area.shape);
 }
@@ -131,6 +185,14 @@ std::string lack_of_size(const FittedLight& light) {
   if (light.is_punctual) return "a point, spot or directional light has no size";
   if (light.area.texture || light.area.emission) return "the size of a textured or profiled light is not fitted";
   return sizes_of(light.area.shape).empty() ? "this shape has no size to fit" : "";
+}
+
+std::string lack_of_vertices(const LightFit& fit, const FittedLight& light) {
+  if (light.is_punctual || !std::holds_alternative<Polygon>(light.area.shape)) return "only polygons have vertices";
+  if (light.area.texture || light.area.emission) return "the vertices of a textured or profiled light are not fitted";
+  if (light.area.node >= 0) return "the file has a rectangle, whose corners stay one (fit position, rotation and size)";
+  if (fit.position || fit.rotation || fit.size) return "vertices include position, rotation and size (name vertices alone)";
+  return crosses(std::get<Polygon>(light.area.shape), plane_of(light.area)) ? "its outline crosses itself, or has no area" : "";
 }
 
 std::string default_name(std::size_t number) { return "light " + std::to_string(number); }
@@ -184,6 +246,9 @@ FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits
       }
       add_light(tie.lights[i]);
       lights_.back().leader = number;
+      if (std::any_of(lights_[number].unknowns.begin(), lights_[number].unknowns.end(),
+                      [&](std::size_t u) { return unknowns_[u].kind == UnknownKind::vertex_u; }))
+        problems.push_back("'" + lights_.back().name + "' cannot follow the vertices of another light (leave the tie out)");
       lights_.back().mirrored = tie.has_mirror;
       lights_.back().mirror_point = tie.mirror_point;
       lights_.back().mirror_normal = normalized(tie.mirror_normal);
@@ -197,7 +262,7 @@ FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits
     }
   }
   if (problems.empty() && unknowns_.empty())
-    problems.push_back("nothing to fit (name a parameter: power, color, position, rotation, size)");
+    problems.push_back("nothing to fit (name a parameter: power, color, position, rotation, size, vertices)");
   if (!problems.empty()) {
     std::string text;
     for (const std::string& p : problems) text += (text.empty() ? "" : "\n") + p;
@@ -270,6 +335,15 @@ void FittedLights::add_unknowns(const LightFit& fit, std::size_t light, double r
       kind = UnknownKind::size_2;
     }
   }
+  if (fit.vertices && !complain(lack_of_vertices(fit, d.start))) {
+    auto polygon = std::get<Polygon>(d.start.area.shape);
+    const double most = std::max(fit.most_move, 0.0), size = std::sqrt(area_of(flat_polygon(d.start.area)));
+    for (std::size_t i = 0; i < vertices_of(polygon).size(); ++i)
+      for (const UnknownKind kind : {UnknownKind::vertex_u, UnknownKind::vertex_v}) {
+        add("vertex " + std::to_string(i + 1) + (kind == UnknownKind::vertex_u ? " u" : " v"), kind, 0, -most, most, size);
+        unknowns_.back().vertex = i;
+      }
+  }
   if (!(fit.keep >= 0 && fit.keep < infinite)) complain("keep must be 0 or more");
 }
 
@@ -295,6 +369,27 @@ std::vector<FittedLight> FittedLights::at(const std::vector<double>& x) const {
   return result;
 }
 
+bool FittedLights::crosses_itself(const std::vector<double>& x) const {
+  const std::vector<FittedLight> lights = at(x);
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (!lights[i].change.vertices.empty() && crosses(std::get<Polygon>(lights[i].area.shape), plane_of(lights_[i].start.area)))
+      return true;
+  return false;
+}
+
+// The flux stays.
+void FittedLights::move_vertices(const std::vector<std::pair<std::size_t, double>>& by, FittedLight& light) const {
+  constexpr double kLeastArea = 1e-3;  // of the start's: a light that collapses in a step keeps a finite radiance
+  const PlaneAxes axes = plane_of(light.area);
+  const double area = area_of(flat_polygon(light.area));
+  auto& polygon = std::get<Polygon>(light.area.shape);
+  const std::vector<Vec3d*> all = vertices_of(polygon);
+  for (const auto& [unknown, value] : by)
+    *all[unknowns_[unknown].vertex] += (unknowns_[unknown].kind == UnknownKind::vertex_u ? axes.u : axes.v) * value;
+  for (const Vec3d* v : all) light.change.vertices.push_back(*v);
+  light.scale = light.scale * (area / std::max(area_of(flat_polygon(light.area)), kLeastArea * area));
+}
+
 // Moves a light as its leader's unknowns say.
 void FittedLights::move(const Driven& leader, const std::vector<double>& x, FittedLight& light, const Driven& driven) const {
   Motion motion;
@@ -302,6 +397,7 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
   const Vec3d from = center_of(leader.start);
   Vec3d by{}, rotation{};
   bool moves = false, has_second = false;
+  std::vector<std::pair<std::size_t, double>> vertices;  // numbers of unknowns, and their values
   for (const std::size_t i : leader.unknowns) {
     const double value = x[i], factor = linear_ ? value : std::exp(value);
     switch (unknowns_[i].kind) {
@@ -317,9 +413,12 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
       case UnknownKind::rotation_z: rotation.z = value; break;
       case UnknownKind::size_1: motion.f1 = factor; break;
       case UnknownKind::size_2: motion.f2 = factor, has_second = true; break;
+      case UnknownKind::vertex_u:
+      case UnknownKind::vertex_v: vertices.emplace_back(i, value); continue;
     }
     moves = true;
   }
+  if (!vertices.empty()) move_vertices(vertices, light);
   if (!moves) return;
   if (!has_second && !(light.is_punctual) && !std::holds_alternative<Capsule>(light.area.shape)) motion.f2 = motion.f1;
   if (driven.mirrored) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "steradian/solve.h"
@@ -9,7 +10,22 @@
 namespace steradian::solving {
 
 // Scale: the logarithm of a factor on power, or the factor itself where all unknowns are powers and colours.
-enum class UnknownKind { power, red, green, blue, position_x, position_y, position_z, rotation_x, rotation_y, rotation_z, size_1, size_2 };
+enum class UnknownKind {
+  power,
+  red,
+  green,
+  blue,
+  position_x,
+  position_y,
+  position_z,
+  rotation_x,
+  rotation_y,
+  rotation_z,
+  size_1,
+  size_2,
+  vertex_u,
+  vertex_v
+};
 
 inline bool is_scale(UnknownKind kind) { return kind <= UnknownKind::blue; }
 
@@ -18,8 +34,9 @@ struct Unknown {
   std::size_t fit = 0;  // number of its light in FittedLights
   UnknownKind kind = UnknownKind::power;
   double start = 0, low = 0, high = 0;
-  double typical = 1;  // change that is felt: 1 in logarithms, the room's size in metres, 1 radian
+  double typical = 1;  // change that is felt: 1 in logarithms, the room's size in metres, 1 radian; a vertex: the light's size
   double keep = 0;
+  std::size_t vertex = 0;  // of vertex_u and vertex_v: number among the outline's and the holes'
 };
 
 // One fitted light: its moved shape with the file's radiance, and the factor on it.
@@ -45,6 +62,8 @@ class FittedLights {
   std::size_t light_count() const { return lights_.size(); }
   // The lights at some values, in the order of light_numbers.
   std::vector<FittedLight> at(const std::vector<double>& x) const;
+  // True if vertices are where the outline of their light crosses itself.
+  bool crosses_itself(const std::vector<double>& x) const;
   // True if an unknown moves or scales a light.
   bool drives(std::size_t unknown, std::size_t light) const;
   // True if light `number` of the scene is fitted.
@@ -64,6 +83,7 @@ class FittedLights {
     std::vector<std::size_t> unknowns;  // of a leader
   };
   void add_unknowns(const LightFit& fit, std::size_t light, double room, std::vector<std::string>& problems);
+  void move_vertices(const std::vector<std::pair<std::size_t, double>>& by, FittedLight& light) const;
   void move(const Driven& leader, const std::vector<double>& x, FittedLight& light, const Driven& driven) const;
 
   std::vector<Driven> lights_;

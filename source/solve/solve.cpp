@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/random.h"
@@ -60,6 +61,8 @@ std::vector<double> random_place(const std::vector<Unknown>& unknowns, const Sce
       case UnknownKind::rotation_x:
       case UnknownKind::rotation_y:
       case UnknownKind::rotation_z: within(-0.5, 0.5); break;
+      case UnknownKind::vertex_u:
+      case UnknownKind::vertex_v: low = high = u.start; break;  // random outlines would cross themselves
       default: within(u.start - 0.5, u.start + 0.5); break;
     }
     x.push_back(std::clamp(low < high ? random.uniform(low, high) : u.start, u.low, u.high));
@@ -95,13 +98,16 @@ class Solver {
 
  private:
   BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings) {
-    const auto value = [&](const std::vector<double>& at) { return problem.evaluate(at, Wants::cost).cost; };
+    const auto value = [&](const std::vector<double>& at) {
+      return lights_.crosses_itself(at) ? std::numeric_limits<double>::infinity() : problem.evaluate(at, Wants::cost).cost;
+    };
     const auto quadratic = [&](const std::vector<double>& at) {
       Evaluation e = problem.evaluate(at, Wants::derivatives);
       return Quadratic{e.cost, std::move(e.gradient), std::move(e.hessian)};
     };
     BoxMinimum found =
-        minimize_in_box(value, quadratic, x, settings, [&](int step, double cost, double damping, const std::vector<double>&) {
+        minimize_in_box(value, quadratic, x, settings, [&](int step, double cost, double damping, const std::vector<double>& at) {
+          if (options_.moved) options_.moved(changes_at(at));
           const SolveStep done{start, step, cost, damping};
           solution_.steps.push_back(done);
           return !options_.progress || options_.progress(done);
@@ -231,13 +237,21 @@ class Solver {
     }
   }
 
+  std::vector<LightChange> changes_at(const std::vector<double>& x) const {
+    std::vector<LightChange> changes;
+    for (const FittedLight& light : lights_.at(x)) {
+      LightChange& change = changes.emplace_back(light.change);
+      change.light = light.number;
+      change.radiance = (light.is_punctual ? light.punctual.intensity : light.area.radiance) * light.scale;
+    }
+    return changes;
+  }
+
   void gather(const BoxMinimum& found) {
+    solution_.changes = changes_at(found.x);
     solution_.area_lights = scene_.area_lights;
     solution_.punctual_lights = scene_.punctual_lights;
     for (const FittedLight& light : lights_.at(found.x)) {
-      LightChange& change = solution_.changes.emplace_back(light.change);
-      change.light = light.number;
-      change.radiance = (light.is_punctual ? light.punctual.intensity : light.area.radiance) * light.scale;
       if (light.is_punctual) {
         PunctualLight& to = solution_.punctual_lights[light.number - scene_.area_lights.size()];
         to = light.punctual;

@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "solve/box_least_squares.h"
 #include "solve/lamp_room_test.h"
+#include "shapes/triangulate.h"
 #include "solve/least_power.h"
 #include "steradian/error.h"
 
@@ -32,6 +33,83 @@ TEST(Solve, RecoversALampFromItsPicture) {
   EXPECT_LT(found.picture_error, 1e-5);
   ASSERT_EQ(found.parameters.size(), 9u);
   for (const FittedParameter& p : found.parameters) EXPECT_TRUE(p.determined) << p.name;
+}
+
+// A pentagon whose corners all lie elsewhere, and its power.
+TEST(Solve, RecoversTheVerticesOfAPolygon) {
+  Scene scene = room();
+  AreaLight lamp = panel({0, 2.6, 0}, 1, 1, {8, 8, 8});
+  lamp.shape = Polygon{{{-0.9, 2.6, -0.4}, {0.1, 2.6, -0.9}, {0.8, 2.6, -0.2}, {0.5, 2.6, 0.6}, {-0.6, 2.6, 0.5}}, {}};
+  scene.area_lights = {lamp};
+  const std::vector<Vec3d> wanted = polygon_of(lamp).vertices;
+  const PictureTarget target = picture_of(scene, 64, 36);
+  auto& polygon = std::get<Polygon>(scene.area_lights[0].shape);
+  const Vec3d away[] = {{0.2, 0, 0.1}, {-0.1, 0, 0.2}, {-0.2, 0, 0.1}, {0.1, 0, -0.2}, {0.2, 0, 0.2}};
+  for (std::size_t i = 0; i < 5; ++i) polygon.vertices[i] += away[i];
+  scene.area_lights[0].radiance = {5, 5, 5};
+  LightFit fit;
+  fit.power = fit.vertices = true;
+  fit.most_move = 0.5;
+  const Solution found = solve(scene, {fit}, {}, {target});
+  EXPECT_TRUE(found.converged);
+  ASSERT_EQ(found.parameters.size(), 11u);
+  ASSERT_EQ(found.changes[0].vertices.size(), 5u);
+  double off = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    off = std::max(off, length(polygon_of(found.area_lights[0]).vertices[i] - wanted[i]));
+    EXPECT_EQ(found.changes[0].vertices[i], polygon_of(found.area_lights[0]).vertices[i]);
+  }
+  std::printf("five vertices recovered to %.1e m, picture to %.1e, %zu steps\n", off, found.picture_error, found.steps.size() - 1);
+  // The picture has single precision, and tells two near corners of one edge apart to some tenths of a millimetre.
+  EXPECT_LT(off, 1e-3);
+  EXPECT_LT(found.picture_error, 2e-6);
+  EXPECT_NEAR(found.area_lights[0].radiance.x, 8, 8e-3);
+}
+
+// From corners far away, the shortest way often leads through outlines that cross themselves. Such a file could not be written.
+TEST(Solve, NeverLetsAnOutlineCrossItself) {
+  Scene scene = room();
+  AreaLight lamp = panel({0, 2.6, 0}, 1, 1, {8, 8, 8});
+  const auto pentagon = [](double radius, double by, double first) {
+    Polygon p;
+    for (int i = 0; i < 5; ++i) {
+      const double angle = first - 2 * std::numbers::pi * i / 5, r = i % 2 == 0 ? radius : radius * by;
+      p.vertices.push_back({r * std::cos(angle), 2.6, -r * std::sin(angle)});
+    }
+    return p;
+  };
+  lamp.shape = pentagon(1, 0.4, 0);
+  scene.area_lights = {lamp};
+  const PictureTarget target = picture_of(scene, 48, 27);
+  LightFit fit;
+  fit.vertices = true;
+  std::vector<double> costs;
+  for (int i = 0; i < 10; ++i) {
+    scene.area_lights[0].shape = pentagon(0.4 + 0.1 * i, 1 + 0.3 * (i % 3), 0.6 * i);
+    const Solution found = solve(scene, {fit}, {}, {target});
+    Contours contours(1);
+    for (const Vec3d& v : polygon_of(found.area_lights[0]).vertices) contours[0].push_back({v.x, v.z});
+    EXPECT_TRUE(triangles_of(contours)) << "start " << i;
+    costs.push_back(found.cost);
+  }
+  std::sort(costs.begin(), costs.end());
+  std::printf("costs %.1e to %.1e, median %.1e\n", costs.front(), costs.back(), costs[5]);
+}
+
+TEST(Solve, RefusesVerticesWithWhatTheyInclude) {
+  Scene scene = room();
+  scene.area_lights = {panel({0, 2.6, 0}, 1, 1, {8, 8, 8}), panel({1, 2.6, 0}, 1, 1, {8, 8, 8})};
+  const std::vector<LightTarget> targets = {picture_of(scene, 16, 9)};
+  LightFit fit;
+  fit.vertices = fit.size = true;
+  EXPECT_THROW(solve(scene, {fit}, {}, targets), Error);
+  fit.size = false;
+  EXPECT_THROW(solve(scene, {fit}, {LightTie{{0, 1}}}, targets), Error);
+  scene.area_lights[0].node = 3;  // a rectangle of a file
+  EXPECT_THROW(solve(scene, {fit}, {}, targets), Error);
+  scene.area_lights[0].shape = Ellipse{{0, 2.6, 0}, {1, 0, 0}, {0, 0, -1}};
+  scene.area_lights[0].node = -1;
+  EXPECT_THROW(solve(scene, {fit}, {}, targets), Error);
 }
 
 // Derivatives by the boundary on packs against central differences of the values. Where the lamp's plane crosses a wall, differences meet a

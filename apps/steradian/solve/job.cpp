@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/words.h"
-#include "solve/solved_file.h"
+#include "document/light_changes.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 #include "wrong_use.h"
@@ -41,12 +41,13 @@ bool set_parameter(const std::string& word, LightFit& fit) {
                       : word == "position" ? &fit.position
                       : word == "rotation" ? &fit.rotation
                       : word == "size"     ? &fit.size
+                      : word == "vertices" ? &fit.vertices
                                            : nullptr;
   if (value != nullptr) *value = true;
   return value != nullptr;
 }
 
-const std::vector<std::string> kParameters = {"power", "color", "position", "rotation", "size"};
+const std::vector<std::string> kParameters = {"power", "color", "position", "rotation", "size", "vertices"};
 
 // Calls use(pixel, fraction) for the pixels of a picture within pixel (x, y) of another size.
 template <class Use>
@@ -135,16 +136,21 @@ void SolveJobReader::add_fits(const std::string& glob, const LightFit& like, con
       problems_.add(place, "light '" + name_of_light(light) + "' is fitted twice", "name each light once");
       continue;
     }
-    const int material = material_of_light(scene_, light);
+    const int material = view::material_of_light(scene_, light);
     if (material >= 0) {
       if (std::find(materials_.begin(), materials_.end(), material) != materials_.end()) continue;
       materials_.push_back(material);
       if (like.position || like.rotation || like.size || like.color)
-        problems_.add(place, "light '" + name_of_light(light) + "' is an emissive mesh, whose power alone is fitted", "name power");
+        problems_.add(place, "light '" + name_of_light(light) + "' is an emissive mesh, whose power and vertices alone are fitted",
+                      "name power");
       LightTie tie{{light}};
-      for (std::size_t i = 0; i < scene_.area_lights.size(); ++i)
-        if (i != light && material_of_light(scene_, i) == material) tie.lights.push_back(i);
-      if (tie.lights.size() > 1) job_.ties.push_back(std::move(tie));
+      for (const std::size_t other : view::lights_of_material(scene_, material))
+        if (other != light) tie.lights.push_back(other);
+      if (tie.lights.size() > 1 && like.vertices)
+        problems_.add(place, "light '" + name_of_light(light) + "' shares its material with others, so its vertices are not fitted",
+                      "name power");
+      else if (tie.lights.size() > 1)
+        job_.ties.push_back(std::move(tie));
     }
     job_.fits.push_back(like);
     job_.fits.back().light = light;
@@ -161,7 +167,7 @@ void SolveJobReader::add_fit(const std::string& text) {
     if (set_parameter(word, fit)) continue;
     const std::string near = nearest_word(word, kParameters);
     problems_.add(place, eval::quoted(word) + " is not a parameter",
-                  near.empty() ? "power, color, position, rotation and size are" : "did you mean " + near + "?");
+                  near.empty() ? "power, color, position, rotation, size and vertices are" : "did you mean " + near + "?");
   }
   add_fits(text.substr(0, colon), fit, place);
 }
@@ -220,6 +226,7 @@ void SolveJobReader::add_strokes(const Place& place, const std::string& path, Ve
     } else if (const auto alpha = strokes.layers.find("alpha"); alpha != strokes.layers.end()) {
       strokes.pixels = alpha->second;
     }
+    target.painted = true;
     target.picture = Picture(strokes.width, strokes.height);
     for (std::size_t i = 0; i < strokes.pixels.size(); ++i) {
       const Vec3f& p = strokes.pixels[i];

@@ -73,6 +73,12 @@ void read_rotation(Problems& problems, const Place& place, Json value, LightFit&
   if (!is_true(problems, place, value)) read_fields(problems, place, value, {}, std::span<const Field<LightFit>>(kRotationFields), fit);
 }
 
+constexpr Field<LightFit> kVertexFields[] = {{"max", into<read_not_negative, &LightFit::most_move>}};
+void read_vertices(Problems& problems, const Place& place, Json value, LightFit& fit) {
+  fit.vertices = true;
+  if (!is_true(problems, place, value)) read_fields(problems, place, value, {}, std::span<const Field<LightFit>>(kVertexFields), fit);
+}
+
 struct FitKeys {
   std::string light;
   LightFit fit;
@@ -96,6 +102,7 @@ constexpr Field<FitKeys> kFitFields[] = {
        k.fit.color = true;
        k.fit.power_range = read_range(p, at, v);
      }},
+    {"vertices", [](Problems& p, const Place& at, Json v, FitKeys& k) { read_vertices(p, at, v, k.fit); }},
     {"keep", [](Problems& p, const Place& at, Json v, FitKeys& k) { k.fit.keep = read_not_negative(p, at, v); }},
 };
 

@@ -10,7 +10,4 @@ namespace steradian::app {
 // Throws Error for a light that the file does not hold in a form that can be changed. `start`: the scene of `input`.
 void write_solved(const std::string& input, const Scene& start, const Solution& found, const std::string& output);
 
-// The file's material of a light of an emissive mesh; -1 for other lights.
-int material_of_light(const Scene& scene, std::size_t light);
-
 }  // namespace steradian::app

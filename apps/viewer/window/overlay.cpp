@@ -1,10 +1,12 @@
 // Overlay on the picture: the handles of the selected object, and marks for lamps without an extent.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "view_state.h"
 
@@ -37,6 +39,26 @@ class Overlay {
         list_->AddRectFilled({p->x - 5, p->y - 5}, {p->x + 5, p->y + 5}, kEdge);
         list_->AddRectFilled({p->x - 4, p->y - 4}, {p->x + 4, p->y + 4}, bright ? kBright : kMark);
       }
+  }
+
+  // In its own color, translucent. From its own camera it lies where it was painted.
+  void stroke(const PaintStroke& stroke) const {
+    const double most = std::max({stroke.radiance.x, stroke.radiance.y, stroke.radiance.z, 1e-30});
+    const auto byte = [&](double v) { return static_cast<int>(std::lround(155 + 100 * v / most)); };
+    const ImU32 color = IM_COL32(byte(stroke.radiance.x), byte(stroke.radiance.y), byte(stroke.radiance.z), 90);
+    const double zoom = session_.size().y / stroke.height;
+    const auto wide = static_cast<float>(2 * stroke.radius * zoom / scale_);
+    std::vector<ImVec2> line;
+    for (const Vec3d& place : stroke.places)
+      if (const auto p = at(place)) line.push_back(*p);
+    if (line.size() == 1) list_->AddCircleFilled(line[0], wide / 2, color);
+    if (line.size() > 1) list_->AddPolyline(line.data(), static_cast<int>(line.size()), color, 0, wide);
+  }
+
+  void brush(Vec2d pointer, double radius) const {
+    const ImVec2 p(static_cast<float>(pointer.x / scale_), static_cast<float>(pointer.y / scale_));
+    list_->AddCircle(p, static_cast<float>(radius / scale_), kEdge, 0, 3);
+    list_->AddCircle(p, static_cast<float>(radius / scale_), kBright, 0, 1.5f);
   }
 
   void handles(const Gizmo& gizmo, Handle hot) const {
@@ -139,7 +161,10 @@ void draw_overlay(ViewState& state, double scale) {
       overlay.mark(s.tree().world(lamp.node).t, lamp.node == s.selection().node);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const Vec2d pointer{static_cast<double>(mouse.x) * scale, static_cast<double>(mouse.y) * scale};
-  if (const auto gizmo = s.gizmo()) overlay.handles(*gizmo, s.dragging() ? s.dragged_handle() : s.handle_under(pointer));
+  for (const PaintStroke& stroke : s.strokes()) overlay.stroke(stroke);
+  if (s.brush.on) overlay.brush(pointer, s.brush.radius);
+  if (const auto gizmo = s.gizmo(); gizmo && !s.brush.on)
+    overlay.handles(*gizmo, s.dragging() ? s.dragged_handle() : s.handle_under(pointer));
   overlay.corners(s.corners(), s.corner(), s.corner_under(pointer));
   if (state.split && !state.error_map) {
     const float x = state.split_at * ImGui::GetIO().DisplaySize.x;

@@ -255,6 +255,38 @@ void render_controls(ViewState& state, Session& s) {
   }
 }
 
+// The brush, the parameters of the fit, and its state.
+void brush_controls(Session& s) {
+  bool on = s.brush.on;
+  if (ImGui::Checkbox("brush", &on)) s.take_brush(on);
+  drag_double("radius", s.brush.radius, 0.2f, 1, 200, "%.0f pixels");
+  Vec3d& wanted = s.brush.radiance;
+  double value = std::max({wanted.x, wanted.y, wanted.z});
+  Vec3d color = value > 0 ? wanted / value : Vec3d{1, 1, 1};
+  if (drag_double("wanted", value, std::max(0.01f, static_cast<float>(value) * 0.01f), 0, 1e9)) wanted = color * value;
+  if (edit_color("wanted colour", color)) wanted = color * value;
+  choose_word("part", s.brush.part);
+  FitChoice& c = s.fit_choice;
+  ImGui::Checkbox("power", &c.power);
+  ImGui::SameLine();
+  ImGui::Checkbox("color", &c.color);
+  ImGui::SameLine();
+  ImGui::Checkbox("position", &c.position);
+  ImGui::Checkbox("rotation", &c.rotation);
+  ImGui::SameLine();
+  ImGui::Checkbox("size", &c.size);
+  ImGui::SameLine();
+  ImGui::Checkbox("vertices", &c.vertices);
+  ImGui::Checkbox("selected light alone", &c.selected);
+  ImGui::Checkbox("fit after each stroke", &s.fits_at_once);
+  if (ImGui::SmallButton(s.fitting() ? "stop" : "fit")) s.fitting() ? s.stop_fit() : s.fit();
+  ImGui::SameLine();
+  if (ImGui::SmallButton("remove last")) s.remove_stroke();
+  ImGui::SameLine();
+  if (ImGui::SmallButton("clear")) s.clear_strokes();
+  ImGui::TextWrapped("%zu strokes%s%s", s.strokes().size(), s.fit_state().empty() ? "" : ", ", s.fit_state().c_str());
+}
+
 void choose_animation(Session& s) {
   const auto& animations = s.animations();
   if (!ImGui::BeginCombo("animation", animations[s.animation()].name.c_str())) return;
@@ -415,6 +447,7 @@ void draw_panel(ViewState& state) {
     Session& s = *state.session;
     if (ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) light_list(s);
     if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) selected_controls(s);
+    if (ImGui::CollapsingHeader("Wanted light", s.brush.on ? ImGuiTreeNodeFlags_DefaultOpen : 0)) brush_controls(s);
     if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) render_controls(state, s);
   }
   if (state.drawing != nullptr) {

@@ -25,8 +25,9 @@ using Clock = std::chrono::steady_clock;
 
 // The name of a key as in keys.h; empty for keys without a name.
 std::string name_of_key(int key, int mods) {
-  static const std::map<int, const char*> kNamed = {
-      {GLFW_KEY_TAB, "Tab"}, {GLFW_KEY_HOME, "Home"}, {GLFW_KEY_DELETE, "Delete"}, {GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_SPACE, "Space"}};
+  static const std::map<int, const char*> kNamed = {{GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_HOME, "Home"},
+                                                    {GLFW_KEY_DELETE, "Delete"}, {GLFW_KEY_BACKSPACE, "Backspace"},
+                                                    {GLFW_KEY_ESCAPE, "Escape"}, {GLFW_KEY_SPACE, "Space"}};
   std::string name;
   if ((mods & GLFW_MOD_CONTROL) != 0) name += "Ctrl+";
   if ((mods & GLFW_MOD_SHIFT) != 0) name += "Shift+";

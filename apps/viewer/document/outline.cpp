@@ -1,4 +1,4 @@
-#include "outline.h"
+#include "document/outline.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,139 @@
+#include "integrals/ggx/ggx_derivatives.h"
+
+#include <cmath>
+
+#include "integrals/ggx/ggx.h"
+#include "integrals/methods.h"
+
+namespace steradian::slopes {
+namespace {
+
+using integrals::to_kernel;
+using K = Kernels<double>;
+using V = K::vec3;
+
+// The closed form under a view that moves while the region of half vectors stays.
+class GgxInside : public integrals::GgxArcs<double> {
+ public:
+  double smith = 1;
+  Quality quality = Quality::normal;
+
+  void take(const K::ConicArc& arc) {
+    if (arc.end.v > arc.begin.v) arcs_.push_back(arc);
+  }
+  // After all arcs: of those taken, if there are some, else of the edges.
+  Vec3d finish(Mask<double> reversed) {
+    facing_ = facing(reversed);
+    if (edges_.empty())
+      for (const K::ConicArc& arc : arcs_) e_ = e_ + K().conic_vector(arc);
+    else
+      e_ = prepare();
+    return to_vector(e_);
+  }
+  PartSlopes at(Vec3d view) const {
+    K k;
+    const auto moved = k.ggx_view(to_kernel<double>(view), alpha_x, alpha_y);
+    if (quality == Quality::draft) return both(k.ggx_draft(moved, e_, smith, facing_));
+    auto c = k.ggx_cubature_begin(moved, e_, smith, facing_);
+    for (const K::ConicArc& arc : arcs_) c = k.ggx_cubature_edge(c, arc, quality == Quality::high ? 2 : 0);
+    return both(k.ggx_cubature_finish(c));
+  }
+  // The change as the view turns towards a direction across it. At fixed nodes, the mean is smooth. Its width is the view's height.
+  PartSlopes along(Vec3d view, Vec3d across) const {
+    const double step = 1e-4 * view.z;
+    const auto turned = [&](double angle) { return at(view * std::cos(angle) + across * std::sin(angle)); };
+    return (turned(step) - turned(-step)) * (0.5 / step);
+  }
+
+ private:
+  static PartSlopes both(const K::vec2& v) { return {v.x.v, v.y.v}; }
+  V e_{};
+  Real<double> facing_{1.0};
+};
+
+// The rule along an edge (ggx_edge_slopes).
+struct EdgeRule {
+  int nodes, pieces;
+};
+EdgeRule rule_of(Quality quality) {
+  return {quality == Quality::draft ? 4 : quality == Quality::normal ? 6 : 8, quality == Quality::high ? 2 : 1};
+}
+
+// INT f (2 (N.h) h - N) ds along an edge, N its unit normal: with fixed half vectors, the view moves the light's directions by
+// 2 (h.dv) h - dv, and the region of half vectors the other way.
+void add_by_view(BothParts& sum, const K::GgxView& view, const K::EdgePart& part, const K::ConicArc& arc, double smith, EdgeRule rule) {
+  if (!(arc.end.v > arc.begin.v)) return;
+  K k;
+  const Vec3d n = normalized(cross(to_vector(part.start), to_vector(part.end - part.start)));
+  const Vec3d v = to_vector(view.v);
+  const double share = 1.0 / rule.pieces, total = arc.sweep.x.v + arc.sweep.y.v, unit = arc.scale.v;
+  for (int i = 0; i < rule.pieces; ++i)
+    for (int j = 0; j < rule.nodes; ++j) {
+      const auto at = k.gauss_legendre_node(rule.nodes, j);
+      const auto node = k.conic_node(arc, (at.x + static_cast<double>(i)) * share);
+      const V u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
+      const Vec3d p = {u.x.v * view.ax.v, u.y.v * view.ay.v, u.z.v};  // (l + v) times a positive factor
+      const Vec3d h = normalized(p);
+      const Vec3d l = h * (2 * dot(h, v)) - v;
+      const double t = node.tau.v * unit;
+      const double ds = at.y.v * share * total / std::max(node.density.v, 1e-300) * 2 * unit / (1 + t * t);
+      const auto f = k.ggx_lobe_and_fresnel(view, to_kernel<double>(l), smith);
+      const Vec3d across = h * (2 * dot(n, h)) - n;
+      sum.plain += across * (f.x.v * ds);
+      sum.fresnel += across * (f.y.v * ds);
+    }
+}
+
+}  // namespace
+
+GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const ShadingPoint& at, const Material& m, Quality quality) {
+  K k;
+  const Frame frame = Frame::from_normal_and_tangent(normalized(at.normal), m.tangent);
+  const Vec3d v = frame.to_local(normalized(at.view));
+  const auto view = k.ggx_view(to_kernel<double>(v), m.alpha_x, m.alpha_y);
+  const double smith = m.shadowing ? 1.0 : 0.0;
+  const EdgeRule rule = rule_of(quality);
+  GgxDerivatives result;
+  GgxInside inside;
+  BothParts by_view{};
+  bool crosses = false;
+  result.by_vertex = by_edges(light, side, at.position, frame, [&](const V& a, const V& b) {
+    const auto part = k.edge_above_horizon(a, b);
+    const auto arc = k.ggx_edge(view, part.start, part.end);
+    const auto s = k.ggx_edge_slopes_of_part(view, part, arc, smith, rule.nodes, rule.pieces);
+    if (m.shadowing) {
+      crosses = crosses || a.z.v < 0 || b.z.v < 0;
+      inside.take(arc);
+      add_by_view(by_view, view, part, arc, smith, rule);
+    }
+    return EdgeDerivatives{{to_vector(s.normal * s.by_start.x), to_vector(s.normal * s.by_start.y)},
+                           {to_vector(s.normal * s.by_end.x), to_vector(s.normal * s.by_end.y)}};
+  });
+  if (!m.shadowing) return result;
+  inside.alpha_x = m.alpha_x;
+  inside.alpha_y = m.alpha_y;
+  inside.smith = smith;
+  inside.quality = methods::fine_method(Method::closed_form, quality).quality;
+  const auto shading = integrals::shading_from<double>(side, to_kernel<double>(v));
+  inside.begin(shading);
+  // Only where the horizon cuts the light, its arcs close the outline.
+  if (crosses)
+    integrals::integrate_edges(integrals::contours_in<double>(light, frame, at.position), shading, inside);
+  else
+    inside.finish(shading.reversed);
+  const auto along = [&](Vec3d across) {
+    const PartSlopes change = inside.along(v, across);
+    return PartSlopes{change.plain + side * dot(by_view.plain, across), change.fresnel + side * dot(by_view.fresnel, across)};
+  };
+  if (m.alpha_x == m.alpha_y) {
+    result.by_view = view_of_round_lobe(frame.z, normalized(at.view), turn_of(light, at.position, result.by_vertex),
+                                        [&](const Vec3d& across) { return along(frame.to_local(across)); });
+    return result;
+  }
+  const Frame about = Frame::from_normal(v);
+  const PartSlopes x = along(about.x), y = along(about.y);
+  result.by_view = {frame.to_world(about.x * x.plain + about.y * y.plain), frame.to_world(about.x * x.fresnel + about.y * y.fresnel)};
+  return result;
+}
+
+}  // namespace steradian::slopes
