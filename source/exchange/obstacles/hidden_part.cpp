@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "shadow/edges/segments.h"
 #include "steradian/kernels.h"
@@ -17,6 +18,8 @@ constexpr double kFineCells = 0x1p40;
 constexpr std::int32_t kOutside = 1 << 24;  // weight of the outline: more than any number of triangles on a ray
 // Geometry nearer to the target's plane than this fraction of its size does not block; a triangle that touches the plane crosses it.
 constexpr double kNearPlane = 1e-12;
+// Numbers of lines that are no edges.
+constexpr std::uint32_t kSectionLine = std::uint32_t{1} << 30, kOutlineLine = std::uint32_t{1} << 31;
 constexpr double kBoxMargin = 1.0 / 64;  // the outline must not touch the sides of the box
 // Below this size of a determinant, double is not sure of its sign: products of 2^42 by 2^42 cells, with a few roundings of 2^-53 each.
 constexpr double kSureSign = 0x1p35;
@@ -38,9 +41,7 @@ enum IdKind : std::uint64_t {
 FineCell cell_at(double x, double y, std::uint64_t id) {
   // The displacement is that of the shadow's cells.
   const shadow::SnappedVertex tie = shadow::cell_of(id, 0, 0);
-  const auto whole = [](double v) {
-    return std::floor(std::clamp(v, -1.0, 1.0) * kFineCells + 0.5);
-  };
+  const auto whole = [](double v) { return std::floor(std::clamp(v, -1.0, 1.0) * kFineCells + 0.5); };
   return {whole(x), whole(y), tie.dx, tie.dy, id};
 }
 
@@ -78,6 +79,11 @@ inline SideOfLine side_of_line(const FineSegment& f, const ScaledPlace& p, int s
   const double quick = (f.b.x - f.a.x) * (p.y - scale * f.a.y) - (f.b.y - f.a.y) * (p.x - scale * f.a.x);
   if (std::fabs(quick) > kSureSign) return {quick < 0 ? -1 : 1, quick, 0.0};
   return close_side_of_line(f, p, scale);
+}
+
+std::uint64_t hash_of_piece(std::uint32_t line, std::uint32_t from, std::uint32_t to) {
+  const std::uint64_t all = (std::uint64_t{line} << 32 | from) * 0x9e3779b97f4a7c15u + to;
+  return (all ^ (all >> 29)) * 0xbf58476d1ce4e5b9u;
 }
 
 bool lies_above(const FineCell& c, const ScaledPlace& middle) {
@@ -146,7 +152,7 @@ double HiddenPart::shadow_near_plane(const std::array<std::uint32_t, 3>& corners
   return std::fabs(twice) / 2;
 }
 
-void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge,
+void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint32_t line,
                              std::int32_t weight) {
   double t0 = 0, t1 = 1;
   int side0 = 0, side1 = 0;
@@ -168,9 +174,10 @@ void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, s
   };
   const Homogeneous end = b;
   FineSegment s;
-  s.a = cell(t0, side0, side0 != 0 ? kStartClip | edge : id_a);
-  s.b = t1 == 1 ? cell_at(end.x / (end.w * box_x_), end.y / (end.w * box_y_), id_b) : cell(t1, side1, kEndClip | edge);
+  s.a = cell(t0, side0, side0 != 0 ? kStartClip | line : id_a);
+  s.b = t1 == 1 ? cell_at(end.x / (end.w * box_x_), end.y / (end.w * box_y_), id_b) : cell(t1, side1, kEndClip | line);
   s.weight = weight;
+  s.line = line;
   if (side0 == 1) crossings_.push_back({s.a.y, s.a.dy, weight});
   if (side1 == 1) crossings_.push_back({s.b.y, s.b.dy, -weight});
   segments_.push_back(s);
@@ -207,7 +214,8 @@ void HiddenPart::collect() {
     const auto& corners = mesh_.triangles[t];
     int leaving = -1, returning = -1;
     for (int c = 0; c < 3; ++c) {
-      const bool here = lies_below(corners[static_cast<std::size_t>(c)]), there = lies_below(corners[static_cast<std::size_t>((c + 1) % 3)]);
+      const bool here = lies_below(corners[static_cast<std::size_t>(c)]),
+                 there = lies_below(corners[static_cast<std::size_t>((c + 1) % 3)]);
       if (here && !there) leaving = c;
       if (!here && there) returning = c;
     }
@@ -223,7 +231,7 @@ void HiddenPart::collect() {
     if (same != segments_.end())
       same->weight += same->a.id == id_a ? weight : -weight;
     else
-      add_segment(seen(end(leaving)), seen(end(returning)), id_a, id_b, (std::uint64_t{1} << 40) | t, weight);
+      add_segment(seen(end(leaving)), seen(end(returning)), id_a, id_b, kSectionLine | t, weight);
   }
   std::uint64_t number = 0;
   for (const auto& contour : outline_) {
@@ -232,7 +240,8 @@ void HiddenPart::collect() {
       const auto& [x, y] = contour[i % contour.size()];
       return cell_at(x / box_x_, y / box_y_, kOutlineId | (first + i % contour.size()));
     };
-    for (std::size_t i = 0; i < contour.size(); ++i, ++number) segments_.push_back({corner(i), corner(i + 1), -kOutside});
+    for (std::size_t i = 0; i < contour.size(); ++i, ++number)
+      segments_.push_back({corner(i), corner(i + 1), -kOutside, kOutlineLine | static_cast<std::uint32_t>(number)});
   }
 }
 
@@ -270,7 +279,8 @@ void HiddenPart::add_crossings(std::size_t i, std::size_t j) {
   const auto crossing = [](const FineSegment& own, const FineSegment& other, const SideOfLine& start, const SideOfLine& end) {
     const auto between = [](double from, double to) { return std::clamp(from / (from - to), 0.0, 1.0); };
     const double t = start.value != end.value ? between(start.value, end.value) : start.tie != end.tie ? between(start.tie, end.tie) : 0.5;
-    return CrossedAt{side_of_line(other, twice_middle(own), 2).sign != end.sign, t, end.sign > 0 ? other.weight : -other.weight};
+    return CrossedAt{side_of_line(other, twice_middle(own), 2).sign != end.sign, t, end.sign > 0 ? other.weight : -other.weight,
+                     other.line};
   };
   crossed_[i].push_back(crossing(e, f, start_e, end_e));
   crossed_[j].push_back(crossing(f, e, start_f, end_f));
@@ -367,6 +377,7 @@ void HiddenPart::arrange(Vec3d normal) {
   const std::int32_t visible = level_of_visible();
   const auto is_hidden = [visible](std::int32_t count) { return count > visible && count < kOutside / 2; };
   sum_ = 0;
+  shape_ = 0;
   double end_x = 0, end_y = 0;
   find_crossings();
   for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -383,7 +394,9 @@ void HiddenPart::arrange(Vec3d normal) {
     const double sx = box_x_ / kFineCells, sy = box_y_ / kFineCells, ax = e.a.x * sx, ay = e.a.y * sy;
     const double fx = e.b.x * sx - ax, fy = e.b.y * sy - ay;
     double t = 0;
-    const auto piece_to = [&](double next) {
+    std::uint32_t from = e.line;
+    const auto piece_to = [&](double next, std::uint32_t to) {
+      const std::uint32_t start = std::exchange(from, to);
       if (!(next > t)) return;
       const bool on_left = is_hidden(left), on_right = is_hidden(left - e.weight);
       if (on_left != on_right) {
@@ -391,14 +404,15 @@ void HiddenPart::arrange(Vec3d normal) {
         sum_ += sign * edge_factor(ax + t * fx, ay + t * fy, ax + next * fx, ay + next * fy, normal);
         end_x += sign * (next - t) * fx;
         end_y += sign * (next - t) * fy;
+        shape_ += hash_of_piece(e.line, start, to);
       }
       t = next;
     };
     for (const CrossedAt& c : crossed) {
-      piece_to(c.t);
+      piece_to(c.t, c.line);
       left += c.change;
     }
-    piece_to(1);
+    piece_to(1, e.line);
   }
   closure_ = std::hypot(end_x / box_x_, end_y / box_y_);
 }

@@ -25,6 +25,7 @@ struct FineCell {
 struct FineSegment {
   FineCell a, b;
   std::int32_t weight = 0;
+  std::uint32_t line = 0;  // the same for all points: of an edge, of a section by the near plane, or of a side of the outline
 };
 
 class HiddenPart {
@@ -42,6 +43,9 @@ class HiddenPart {
   // Area of the target behind parts of obstacles that lie nearer to its plane than the finder tells apart. These parts are not hidden.
   double area_near_plane() const { return area_near_plane_; }
 
+  // Tells the last hidden parts apart by the lines and crossings that bound them. Where it changes, the factor is not smooth.
+  std::uint64_t shape() const { return shape_; }
+
   // True if the boundary of the last hidden part was closed to rounding. If not, the part is not known.
   bool is_proven() const;
 
@@ -55,6 +59,7 @@ class HiddenPart {
     bool after_middle;
     double t;
     std::int32_t change;
+    std::uint32_t line;  // of the other segment
   };
   struct Homogeneous {
     double x, y, w;
@@ -64,7 +69,7 @@ class HiddenPart {
   }
   bool lies_below(std::uint32_t vertex) const { return vertices_[vertex].z < -eta_; }
   double shadow_near_plane(const std::array<std::uint32_t, 3>& corners) const;
-  void add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge, std::int32_t weight);
+  void add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint32_t line, std::int32_t weight);
   void collect();
   void arrange(Vec3d normal);
   void bound_segments();
@@ -95,6 +100,7 @@ class HiddenPart {
   std::vector<double> low_, high_, left_, right_;
   std::vector<std::vector<CrossedAt>> crossed_;  // of each segment
   double sum_ = 0, closure_ = 0;
+  std::uint64_t shape_ = 0;
 };
 
 }  // namespace steradian::exchange
