@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""viewfactor_resume_test.py PROGRAM: `steradian viewfactor --resume` after SIGKILL.
+"""viewfactor_resume_test.py PROGRAM JOB_SCRIPT: `steradian viewfactor --resume` after SIGKILL, and a job array's script.
 
 A run is killed again and again as soon as it has finished more rows. The finished rows stay in the file, and the last run writes the same
 bytes as a run without interruption. Rows that were cut off or damaged are computed again, and rows of other settings are not taken up.
+The script for Slurm runs through bash, and joins its parts to the same bytes.
 """
+import os
 import signal
 import subprocess
 import sys
@@ -11,35 +13,14 @@ import tempfile
 import time
 from pathlib import Path
 
-OPTIONS = ["--eps", "1e-5", "--divide", "1.3"]
-
-
-def street():
-    """OBJ text: a road between boxes, which hide parts of each other."""
-    vertices, faces = [], []
-
-    def quad(*corners):
-        faces.append([len(vertices) + i + 1 for i in range(4)])
-        vertices.extend(corners)
-
-    for i in range(6):
-        x0, x1, height = 4 * i, 4 * i + 3, 2 + (i * 7 % 5) / 2
-        y0, y1 = (2, 5) if i % 2 == 0 else (-5, -2)
-        quad((x0, y0, height), (x1, y0, height), (x1, y1, height), (x0, y1, height))
-        quad((x0, y0, 0), (x1, y0, 0), (x1, y0, height), (x0, y0, height))
-        quad((x1, y0, 0), (x1, y1, 0), (x1, y1, height), (x1, y0, height))
-        quad((x1, y1, 0), (x0, y1, 0), (x0, y1, height), (x1, y1, height))
-        quad((x0, y1, 0), (x0, y0, 0), (x0, y0, height), (x0, y1, height))
-    quad((0, -2, 0), (23, -2, 0), (23, 2, 0), (0, 2, 0))
-    lines = ["v {} {} {}".format(*v) for v in vertices] + ["f {} {} {} {}".format(*f) for f in faces]
-    return "\n".join(lines) + "\n"
+OPTIONS = ["--eps", "1e-5", "--divide", "4"]
 
 
 class Runs:
-    def __init__(self, program, folder):
+    def __init__(self, program, street, folder):
         self.command = [program, "viewfactor", str(folder / "street.obj"), *OPTIONS]
         self.output, self.rows = folder / "killed.npz", folder / "killed.npz.part"
-        (folder / "street.obj").write_text(street())
+        (folder / "street.obj").write_bytes(subprocess.run([sys.executable, street, "3"], check=True, capture_output=True).stdout)
 
     def whole(self, output, *options):
         subprocess.run([*self.command, "-o", str(output), *options], check=True, capture_output=True)
@@ -62,10 +43,33 @@ class Runs:
         return False
 
 
+def check_jobs(program, script, folder, expected):
+    """Runs the jobs of an array of three one after another, and the job that joins them."""
+    (folder / "bin").mkdir()
+    (folder / "bin" / "steradian").symlink_to(Path(program).resolve())
+    environment = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "SLURM_ARRAY_TASK_COUNT": "3"}
+    joined = folder / "joined.npz"
+
+    def job(*arguments, **keys):
+        return subprocess.run(["bash", script, *map(str, arguments)], env={**environment, **keys}, capture_output=True, text=True)
+
+    for task in ("2", "1"):
+        done = job(folder / "street.obj", joined, *OPTIONS, SLURM_ARRAY_TASK_ID=task)
+        assert done.returncode == 0, done.stderr
+    gap = job("--merge", joined)
+    assert gap.returncode == 1 and "missing" in gap.stderr, f"a gap was joined: {gap.stderr}"
+    assert job(folder / "street.obj", joined, *OPTIONS, SLURM_ARRAY_TASK_ID="3").returncode == 0
+    done = job("--merge", joined)
+    assert done.returncode == 0, done.stderr
+    assert joined.read_bytes() == expected, "the jobs have other bytes than one run"
+    alone = job(folder / "street.obj", joined)
+    assert alone.returncode != 0 and "sbatch --array" in alone.stderr, alone.stderr
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        runs = Runs(sys.argv[1], folder)
+        runs = Runs(sys.argv[1], Path(sys.argv[2]).with_name("street.py"), folder)
         expected = runs.whole(folder / "whole.npz")
         kills, kept = 0, 100
         while kills < 5 and runs.kill_after(kept):
@@ -82,11 +86,13 @@ def main():
             assert runs.whole(runs.output, "--resume") == expected, f"{what}: other bytes than without interruption"
             assert not runs.rows.exists(), f"{what}: the finished rows are still there"
             runs.output.unlink()
+        check_jobs(sys.argv[1], sys.argv[2], folder, expected)
+
         # Rows of another tolerance are not those of this run.
         runs.rows.write_bytes(rows)
         runs.command[runs.command.index("1e-5")] = "1e-4"
         assert runs.whole(runs.output, "--resume") == runs.whole(folder / "other.npz"), "rows of other settings were taken up"
-    print(f"{kills} kills, the same bytes")
+    print(f"{kills} kills and three jobs, the same bytes")
     return 0
 
 
