@@ -248,6 +248,8 @@ std::vector<Sensor> read_sensors(const std::string& path, Budget& budget) {
     double v[6];
     bool good = true;
     for (double& x : v) good = good && static_cast<bool>(numbers >> x) && std::isfinite(x);
+    std::string rest;
+    good = good && !(numbers >> rest);
     // A first line of names is a heading.
     if (!good && sensors.empty() && number == 1) continue;
     const Vec3d normal = normalized(Vec3d{v[3], v[4], v[5]});

@@ -3,10 +3,12 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 #include "core/simd.h"
 #include "exchange/pairs/pair.h"
+#include "night.h"
 #include "steradian/error.h"
 #include "steradian/view_factors.h"
 #include "support/exchange_faces.h"
@@ -32,6 +34,24 @@ TEST(ViewFactors, RowsOfAClosedCubeAddUpToOneWithinTheirErrors) {
       EXPECT_LE(factors.row_errors[i], std::max(eps, 1e-12)) << i;
     }
   }
+}
+
+// Houses hide each other in part, by edges of several at a time: each entry is within its error of a much finer run.
+TEST(ViewFactors, ErrorsHoldInATown) {
+  const std::vector<ViewFactorFace> faces = town(test::by_day_or_night(4, 7));
+  ViewFactorOptions coarse, fine;
+  coarse.eps = 1e-4;
+  fine.eps = 1e-7;
+  const ViewFactors factors = view_factors(faces, coarse), judge = view_factors(faces, fine);
+  double largest = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double error = factors.error_between(i, j) + judge.error_between(i, j),
+                   difference = std::fabs(factors.between(i, j) - judge.between(i, j));
+      EXPECT_LE(difference, error + 1e-13) << i << ", " << j << ": " << factors.between(i, j) << " or " << judge.between(i, j);
+      if (difference > 1e-13) largest = std::max(largest, difference / error);
+    }
+  std::printf("largest difference over error %.2g\n", largest);
 }
 
 TEST(ViewFactors, PairsAgreeWithSinglePairs) {

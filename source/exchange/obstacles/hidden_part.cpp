@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "shadow/edges/segments.h"
 #include "steradian/kernels.h"
@@ -13,10 +14,12 @@ namespace {
 
 __extension__ typedef __int128 Wide;
 
-constexpr std::int64_t kFineCells = std::int64_t{1} << 40;
+constexpr double kFineCells = 0x1p40;
 constexpr std::int32_t kOutside = 1 << 24;  // weight of the outline: more than any number of triangles on a ray
 // Geometry nearer to the target's plane than this fraction of its size does not block; a triangle that touches the plane crosses it.
 constexpr double kNearPlane = 1e-12;
+// Numbers of lines that are no edges.
+constexpr std::uint32_t kSectionLine = std::uint32_t{1} << 30, kOutlineLine = std::uint32_t{1} << 31;
 constexpr double kBoxMargin = 1.0 / 64;  // the outline must not touch the sides of the box
 // Below this size of a determinant, double is not sure of its sign: products of 2^42 by 2^42 cells, with a few roundings of 2^-53 each.
 constexpr double kSureSign = 0x1p35;
@@ -38,15 +41,14 @@ enum IdKind : std::uint64_t {
 FineCell cell_at(double x, double y, std::uint64_t id) {
   // The displacement is that of the shadow's cells.
   const shadow::SnappedVertex tie = shadow::cell_of(id, 0, 0);
-  const auto whole = [](double v) {
-    return static_cast<std::int64_t>(std::floor(std::clamp(v, -1.0, 1.0) * static_cast<double>(kFineCells) + 0.5));
-  };
+  const auto whole = [](double v) { return std::floor(std::clamp(v, -1.0, 1.0) * kFineCells + 0.5); };
   return {whole(x), whole(y), tie.dx, tie.dy, id};
 }
 
 // A vertex (scale 1) or twice a midpoint (scale 2).
 struct ScaledPlace {
-  std::int64_t x, y, dx, dy;
+  double x, y;
+  std::int64_t dx, dy;
 };
 ScaledPlace once(const FineCell& c) { return {c.x, c.y, c.dx, c.dy}; }
 ScaledPlace twice_middle(const FineSegment& e) {
@@ -59,53 +61,38 @@ struct SideOfLine {
   int sign;
   double value, tie;
 };
-SideOfLine side_of_line(const FineSegment& f, const ScaledPlace& p, int scale) {
-  const std::int64_t fx = f.b.x - f.a.x, fy = f.b.y - f.a.y, px = p.x - scale * f.a.x, py = p.y - scale * f.a.y;
-  const double quick = static_cast<double>(fx) * static_cast<double>(py) - static_cast<double>(fy) * static_cast<double>(px);
-  if (std::fabs(quick) > kSureSign) return {quick < 0 ? -1 : 1, quick, 0.0};
-  const Wide d0 = Wide{fx} * py - Wide{fy} * px;
+
+SideOfLine close_side_of_line(const FineSegment& f, const ScaledPlace& p, int scale) {
+  const auto wide = [](double whole) { return Wide{static_cast<std::int64_t>(whole)}; };
+  const Wide fx = wide(f.b.x - f.a.x), fy = wide(f.b.y - f.a.y), px = wide(p.x - scale * f.a.x), py = wide(p.y - scale * f.a.y);
+  const Wide d0 = fx * py - fy * px;
   if (d0 != 0) return {d0 < 0 ? -1 : 1, static_cast<double>(d0), 0.0};
   const std::int64_t gx = f.b.dx - f.a.dx, gy = f.b.dy - f.a.dy, qx = p.dx - std::int64_t{scale} * f.a.dx,
                      qy = p.dy - std::int64_t{scale} * f.a.dy;
-  const Wide d1 = Wide{fx} * qy - Wide{fy} * qx + Wide{gx} * py - Wide{gy} * px;
+  const Wide d1 = fx * qy - fy * qx + gx * py - gy * px;
   const Wide d2 = Wide{gx} * qy - Wide{gy} * qx;
   const Wide d = d1 != 0 ? d1 : d2;
   return {d < 0 ? -1 : 1, 0.0, static_cast<double>(d1)};
 }
 
+inline SideOfLine side_of_line(const FineSegment& f, const ScaledPlace& p, int scale) {
+  const double quick = (f.b.x - f.a.x) * (p.y - scale * f.a.y) - (f.b.y - f.a.y) * (p.x - scale * f.a.x);
+  if (std::fabs(quick) > kSureSign) return {quick < 0 ? -1 : 1, quick, 0.0};
+  return close_side_of_line(f, p, scale);
+}
+
+std::uint64_t hash_of_piece(std::uint32_t line, std::uint32_t from, std::uint32_t to) {
+  const std::uint64_t all = (std::uint64_t{line} << 32 | from) * 0x9e3779b97f4a7c15u + to;
+  return (all ^ (all >> 29)) * 0xbf58476d1ce4e5b9u;
+}
+
 bool lies_above(const FineCell& c, const ScaledPlace& middle) {
-  const std::int64_t y = 2 * c.y;
+  const double y = 2 * c.y;
   return y > middle.y || (y == middle.y && 2 * std::int64_t{c.dy} > middle.dy);
 }
 
 bool meet_at_an_end(const FineSegment& e, const FineSegment& f) {
   return e.a.id == f.a.id || e.a.id == f.b.id || e.b.id == f.a.id || e.b.id == f.b.id;
-}
-
-bool boxes_apart(const FineSegment& e, const FineSegment& f) {
-  const auto out = [](std::int64_t ea, std::int64_t eb, std::int64_t fa, std::int64_t fb) {
-    return std::max(ea, eb) < std::min(fa, fb) || std::max(fa, fb) < std::min(ea, eb);
-  };
-  return out(e.a.x, e.b.x, f.a.x, f.b.x) || out(e.a.y, e.b.y, f.a.y, f.b.y);
-}
-
-// Crossing with another segment: fraction of the way, side of the middle, change of the count on the left.
-struct CrossedAt {
-  bool after_middle;
-  double t;
-  std::int32_t change;
-};
-
-bool crosses(const FineSegment& e, const FineSegment& f, CrossedAt& result) {
-  if (meet_at_an_end(e, f) || boxes_apart(e, f)) return false;
-  // The signs are taken in one order for both segments, so that both know the same.
-  const SideOfLine start = side_of_line(f, once(e.a), 1), end = side_of_line(f, once(e.b), 1);
-  if (start.sign == end.sign) return false;
-  if (side_of_line(e, once(f.a), 1).sign == side_of_line(e, once(f.b), 1).sign) return false;
-  const auto between = [](double from, double to) { return std::clamp(from / (from - to), 0.0, 1.0); };
-  const double t = start.value != end.value ? between(start.value, end.value) : start.tie != end.tie ? between(start.tie, end.tie) : 0.5;
-  result = {side_of_line(f, twice_middle(e), 2).sign != end.sign, t, end.sign > 0 ? f.weight : -f.weight};
-  return true;
 }
 
 }  // namespace
@@ -165,7 +152,7 @@ double HiddenPart::shadow_near_plane(const std::array<std::uint32_t, 3>& corners
   return std::fabs(twice) / 2;
 }
 
-void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge,
+void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint32_t line,
                              std::int32_t weight) {
   double t0 = 0, t1 = 1;
   int side0 = 0, side1 = 0;
@@ -187,9 +174,10 @@ void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, s
   };
   const Homogeneous end = b;
   FineSegment s;
-  s.a = cell(t0, side0, side0 != 0 ? kStartClip | edge : id_a);
-  s.b = t1 == 1 ? cell_at(end.x / (end.w * box_x_), end.y / (end.w * box_y_), id_b) : cell(t1, side1, kEndClip | edge);
+  s.a = cell(t0, side0, side0 != 0 ? kStartClip | line : id_a);
+  s.b = t1 == 1 ? cell_at(end.x / (end.w * box_x_), end.y / (end.w * box_y_), id_b) : cell(t1, side1, kEndClip | line);
   s.weight = weight;
+  s.line = line;
   if (side0 == 1) crossings_.push_back({s.a.y, s.a.dy, weight});
   if (side1 == 1) crossings_.push_back({s.b.y, s.b.dy, -weight});
   segments_.push_back(s);
@@ -198,7 +186,6 @@ void HiddenPart::add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, s
 void HiddenPart::collect() {
   segments_.clear();
   crossings_.clear();
-  const auto below = [&](std::uint32_t v) { return vertices_[v].z < -eta_; };
   const Vec3d at{eye_.x, eye_.y, -eye_.z};
   facing_.resize(faces_.size());
   for (std::size_t t = 0; t < faces_.size(); ++t) facing_[t] = dot(faces_[t].normal, at) - faces_[t].offset > 0 ? 1 : -1;
@@ -210,7 +197,7 @@ void HiddenPart::collect() {
   };
   for (std::uint32_t number = 0; number < mesh_.edges.size(); ++number) {
     const shadow::MeshEdge& edge = mesh_.edges[number];
-    const bool below0 = below(edge.v0), below1 = below(edge.v1);
+    const bool below0 = lies_below(edge.v0), below1 = lies_below(edge.v1);
     if (!below0 && !below1) continue;
     std::int32_t weight = 0;
     for (std::uint32_t i = edge.first; i < edge.first + edge.count; ++i)
@@ -227,7 +214,8 @@ void HiddenPart::collect() {
     const auto& corners = mesh_.triangles[t];
     int leaving = -1, returning = -1;
     for (int c = 0; c < 3; ++c) {
-      const bool here = below(corners[static_cast<std::size_t>(c)]), there = below(corners[static_cast<std::size_t>((c + 1) % 3)]);
+      const bool here = lies_below(corners[static_cast<std::size_t>(c)]),
+                 there = lies_below(corners[static_cast<std::size_t>((c + 1) % 3)]);
       if (here && !there) leaving = c;
       if (!here && there) returning = c;
     }
@@ -243,7 +231,7 @@ void HiddenPart::collect() {
     if (same != segments_.end())
       same->weight += same->a.id == id_a ? weight : -weight;
     else
-      add_segment(seen(end(leaving)), seen(end(returning)), id_a, id_b, (std::uint64_t{1} << 40) | t, weight);
+      add_segment(seen(end(leaving)), seen(end(returning)), id_a, id_b, kSectionLine | t, weight);
   }
   std::uint64_t number = 0;
   for (const auto& contour : outline_) {
@@ -252,47 +240,66 @@ void HiddenPart::collect() {
       const auto& [x, y] = contour[i % contour.size()];
       return cell_at(x / box_x_, y / box_y_, kOutlineId | (first + i % contour.size()));
     };
-    for (std::size_t i = 0; i < contour.size(); ++i, ++number) segments_.push_back({corner(i), corner(i + 1), -kOutside});
+    for (std::size_t i = 0; i < contour.size(); ++i, ++number)
+      segments_.push_back({corner(i), corner(i + 1), -kOutside, kOutlineLine | static_cast<std::uint32_t>(number)});
   }
 }
 
 // Bounds of all segments, apart from them, so that few are looked at closely.
 void HiddenPart::bound_segments() {
   const std::size_t count = segments_.size();
-  for (std::vector<std::int64_t>* bounds : {&low_, &high_, &left_}) bounds->resize(count);
-  near_.resize(count);
+  for (std::vector<double>* bounds : {&low_, &high_, &left_, &right_}) bounds->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const FineSegment& s = segments_[i];
     low_[i] = std::min(s.a.y, s.b.y);
     high_[i] = std::max(s.a.y, s.b.y);
     left_[i] = std::min(s.a.x, s.b.x);
+    right_[i] = std::max(s.a.x, s.b.x);
   }
 }
 
-// Segments that e, or a ray to the left from its middle, may cross: their heights overlap, and they do not lie to its right.
-std::span<const std::uint32_t> HiddenPart::near(const FineSegment& e) {
-  const std::int64_t low = std::min(e.a.y, e.b.y), high = std::max(e.a.y, e.b.y), right = std::max(e.a.x, e.b.x);
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < low_.size(); ++i) {
-    near_[found] = static_cast<std::uint32_t>(i);
-    found += static_cast<std::size_t>((low_[i] <= high) & (high_[i] >= low) & (left_[i] <= right));
+// The crossings of all segments, each pair once: both must know the same.
+void HiddenPart::find_crossings() {
+  if (crossed_.size() < segments_.size()) crossed_.resize(segments_.size());
+  for (std::size_t i = 0; i < segments_.size(); ++i) crossed_[i].clear();
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const double low = low_[i], high = high_[i], left = left_[i], right = right_[i];
+    for (std::size_t j = i + 1; j < segments_.size(); ++j)
+      if ((low_[j] <= high) & (high_[j] >= low) & (left_[j] <= right) & (right_[j] >= left)) add_crossings(i, j);
   }
-  return {near_.data(), found};
+}
+
+void HiddenPart::add_crossings(std::size_t i, std::size_t j) {
+  const FineSegment &e = segments_[i], &f = segments_[j];
+  if (e.weight == 0 || f.weight == 0 || meet_at_an_end(e, f)) return;
+  const SideOfLine start_e = side_of_line(f, once(e.a), 1), end_e = side_of_line(f, once(e.b), 1);
+  if (start_e.sign == end_e.sign) return;
+  const SideOfLine start_f = side_of_line(e, once(f.a), 1), end_f = side_of_line(e, once(f.b), 1);
+  if (start_f.sign == end_f.sign) return;
+  const auto crossing = [](const FineSegment& own, const FineSegment& other, const SideOfLine& start, const SideOfLine& end) {
+    const auto between = [](double from, double to) { return std::clamp(from / (from - to), 0.0, 1.0); };
+    const double t = start.value != end.value ? between(start.value, end.value) : start.tie != end.tie ? between(start.tie, end.tie) : 0.5;
+    return CrossedAt{side_of_line(other, twice_middle(own), 2).sign != end.sign, t, end.sign > 0 ? other.weight : -other.weight,
+                     other.line};
+  };
+  crossed_[i].push_back(crossing(e, f, start_e, end_e));
+  crossed_[j].push_back(crossing(f, e, start_f, end_f));
 }
 
 // The count on the side of -x of a segment's middle, from all that a ray to the left crosses.
-std::int32_t HiddenPart::count_left_of(const FineSegment& e, std::size_t own, std::span<const std::uint32_t> near) const {
+std::int32_t HiddenPart::count_left_of(const FineSegment& e, std::size_t own) const {
   const ScaledPlace m = twice_middle(e);
   std::int32_t count = kOutside;
   for (const LeftCrossing& c : crossings_) {
-    const std::int64_t y = 2 * c.y;
+    const double y = 2 * c.y;
     if (y < m.y || (y == m.y && 2 * std::int64_t{c.dy} < m.dy)) count += c.weight;
   }
-  for (const std::uint32_t j : near) {
-    if (j == own) continue;
+  const double middle_x = m.x / 2, middle_y = m.y / 2;
+  for (std::size_t j = 0; j < segments_.size(); ++j) {
+    if (!((low_[j] <= middle_y) & (high_[j] >= middle_y) & (left_[j] <= middle_x)) || j == own) continue;
     const FineSegment& f = segments_[j];
     const bool start_above = lies_above(f.a, m), end_above = lies_above(f.b, m);
-    if (start_above == end_above || 2 * std::min(f.a.x, f.b.x) > m.x) continue;
+    if (start_above == end_above) continue;
     const int side = side_of_line(f, m, 2).sign;
     if (end_above && side < 0) count -= f.weight;
     if (start_above && side > 0) count += f.weight;
@@ -331,9 +338,8 @@ std::int32_t HiddenPart::level_of_visible() {
     const double x = 0.98 * part(0.7548776662466927), y = 0.98 * part(0.5698402909980532);
     double least = std::numeric_limits<double>::infinity();
     for (const FineSegment& s : segments_) {
-      const double scale = 1.0 / static_cast<double>(kFineCells);
-      const double ax = static_cast<double>(s.a.x) * scale, ay = static_cast<double>(s.a.y) * scale;
-      const double fx = static_cast<double>(s.b.x) * scale - ax, fy = static_cast<double>(s.b.y) * scale - ay, l2 = fx * fx + fy * fy;
+      const double scale = 1.0 / kFineCells, ax = s.a.x * scale, ay = s.a.y * scale;
+      const double fx = s.b.x * scale - ax, fy = s.b.y * scale - ay, l2 = fx * fx + fy * fy;
       const double t = l2 > 0 ? std::clamp(((x - ax) * fx + (y - ay) * fy) / l2, 0.0, 1.0) : 0.0;
       const double dx = x - ax - t * fx, dy = y - ay - t * fy;
       least = std::min(least, dx * dx + dy * dy);
@@ -350,7 +356,7 @@ std::int32_t HiddenPart::level_of_visible() {
     FineSegment place;
     place.a = cell_at(trial.x, trial.y, std::numeric_limits<std::uint64_t>::max());
     place.b = place.a;
-    std::int32_t count = count_left_of(place, segments_.size(), near(place));
+    std::int32_t count = count_left_of(place, segments_.size());
     if (count > kOutside / 2) count -= kOutside;
     return count - hits_towards(trial.x, trial.y);
   };
@@ -371,28 +377,26 @@ void HiddenPart::arrange(Vec3d normal) {
   const std::int32_t visible = level_of_visible();
   const auto is_hidden = [visible](std::int32_t count) { return count > visible && count < kOutside / 2; };
   sum_ = 0;
+  shape_ = 0;
   double end_x = 0, end_y = 0;
-  std::vector<CrossedAt> crossed;
+  find_crossings();
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const FineSegment& e = segments_[i];
     if (e.weight == 0 || (e.a.x == e.b.x && e.a.y == e.b.y)) continue;
-    crossed.clear();
-    CrossedAt at{};
-    const std::span<const std::uint32_t> beside = near(e);
-    for (const std::uint32_t j : beside)
-      if (j != i && segments_[j].weight != 0 && crosses(e, segments_[j], at)) crossed.push_back(at);
+    std::vector<CrossedAt>& crossed = crossed_[i];
     std::sort(crossed.begin(), crossed.end(),
               [](const CrossedAt& a, const CrossedAt& b) { return a.after_middle != b.after_middle ? b.after_middle : a.t < b.t; });
-    const std::int32_t count = count_left_of(e, i, beside);
+    const std::int32_t count = count_left_of(e, i);
     const bool up = e.b.y > e.a.y || (e.b.y == e.a.y && e.b.dy > e.a.dy);
     std::int32_t left = up ? count : count + e.weight;
     for (const CrossedAt& c : crossed)
       if (!c.after_middle) left -= c.change;
-    const double sx = box_x_ / static_cast<double>(kFineCells), sy = box_y_ / static_cast<double>(kFineCells);
-    const double ax = static_cast<double>(e.a.x) * sx, ay = static_cast<double>(e.a.y) * sy;
-    const double fx = static_cast<double>(e.b.x) * sx - ax, fy = static_cast<double>(e.b.y) * sy - ay;
+    const double sx = box_x_ / kFineCells, sy = box_y_ / kFineCells, ax = e.a.x * sx, ay = e.a.y * sy;
+    const double fx = e.b.x * sx - ax, fy = e.b.y * sy - ay;
     double t = 0;
-    const auto piece_to = [&](double next) {
+    std::uint32_t from = e.line;
+    const auto piece_to = [&](double next, std::uint32_t to) {
+      const std::uint32_t start = std::exchange(from, to);
       if (!(next > t)) return;
       const bool on_left = is_hidden(left), on_right = is_hidden(left - e.weight);
       if (on_left != on_right) {
@@ -400,14 +404,15 @@ void HiddenPart::arrange(Vec3d normal) {
         sum_ += sign * edge_factor(ax + t * fx, ay + t * fy, ax + next * fx, ay + next * fy, normal);
         end_x += sign * (next - t) * fx;
         end_y += sign * (next - t) * fy;
+        shape_ += hash_of_piece(e.line, start, to);
       }
       t = next;
     };
     for (const CrossedAt& c : crossed) {
-      piece_to(c.t);
+      piece_to(c.t, c.line);
       left += c.change;
     }
-    piece_to(1);
+    piece_to(1, e.line);
   }
   closure_ = std::hypot(end_x / box_x_, end_y / box_y_);
 }

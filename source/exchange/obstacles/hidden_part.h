@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "exchange/pairs/plane_element.h"
@@ -14,9 +13,10 @@
 
 namespace steradian::exchange {
 
-// A place in cells, with the displacement by an infinitely small e (dx, dy) that breaks ties. Equal ids: the same vertex.
+// A place in cells, with the displacement by an infinitely small e (dx, dy) that breaks ties. Equal ids: the same vertex. The numbers are
+// whole; in double, their differences and doubles are exact.
 struct FineCell {
-  std::int64_t x = 0, y = 0;
+  double x = 0, y = 0;
   std::int32_t dx = 0, dy = 0;
   std::uint64_t id = 0;
 };
@@ -25,6 +25,7 @@ struct FineCell {
 struct FineSegment {
   FineCell a, b;
   std::int32_t weight = 0;
+  std::uint32_t line = 0;  // the same for all points: of an edge, of a section by the near plane, or of a side of the outline
 };
 
 class HiddenPart {
@@ -42,13 +43,23 @@ class HiddenPart {
   // Area of the target behind parts of obstacles that lie nearer to its plane than the finder tells apart. These parts are not hidden.
   double area_near_plane() const { return area_near_plane_; }
 
+  // Tells the last hidden parts apart by the lines and crossings that bound them. Where it changes, the factor is not smooth.
+  std::uint64_t shape() const { return shape_; }
+
   // True if the boundary of the last hidden part was closed to rounding. If not, the part is not known.
   bool is_proven() const;
 
  private:
   struct LeftCrossing {
-    std::int64_t y;
+    double y;
     std::int32_t dy, weight;
+  };
+  // Crossing of a segment with another one: fraction of the way, side of the middle, change of the count on the left.
+  struct CrossedAt {
+    bool after_middle;
+    double t;
+    std::int32_t change;
+    std::uint32_t line;  // of the other segment
   };
   struct Homogeneous {
     double x, y, w;
@@ -56,13 +67,15 @@ class HiddenPart {
   Homogeneous seen(Vec3d vertex) const {
     return {vertex.x * eye_.z + eye_.x * vertex.z, vertex.y * eye_.z + eye_.y * vertex.z, vertex.z + eye_.z};
   }
+  bool lies_below(std::uint32_t vertex) const { return vertices_[vertex].z < -eta_; }
   double shadow_near_plane(const std::array<std::uint32_t, 3>& corners) const;
-  void add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint64_t edge, std::int32_t weight);
+  void add_segment(Homogeneous a, Homogeneous b, std::uint64_t id_a, std::uint64_t id_b, std::uint32_t line, std::int32_t weight);
   void collect();
   void arrange(Vec3d normal);
   void bound_segments();
-  std::span<const std::uint32_t> near(const FineSegment& e);
-  std::int32_t count_left_of(const FineSegment& e, std::size_t own, std::span<const std::uint32_t> near) const;
+  void find_crossings();
+  void add_crossings(std::size_t i, std::size_t j);
+  std::int32_t count_left_of(const FineSegment& e, std::size_t own) const;
   std::int32_t hits_towards(double x, double y) const;
   std::int32_t level_of_visible();
   double edge_factor(double ax, double ay, double bx, double by, Vec3d normal) const;
@@ -84,9 +97,10 @@ class HiddenPart {
   Vec3d eye_;  // (x, y, -z) in the target's frame
   std::vector<FineSegment> segments_;
   std::vector<LeftCrossing> crossings_;
-  std::vector<std::int64_t> low_, high_, left_;
-  std::vector<std::uint32_t> near_;
+  std::vector<double> low_, high_, left_, right_;
+  std::vector<std::vector<CrossedAt>> crossed_;  // of each segment
   double sum_ = 0, closure_ = 0;
+  std::uint64_t shape_ = 0;
 };
 
 }  // namespace steradian::exchange

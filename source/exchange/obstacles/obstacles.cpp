@@ -240,6 +240,14 @@ std::vector<std::uint32_t> Obstacles::between(const PlaneElement& a, const Plane
   return result;
 }
 
+std::vector<std::uint32_t> Obstacles::between(const PlaneElement& a, const PlaneElement& b, const std::vector<std::uint32_t>& among) const {
+  PairShaft shaft(a, b);
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t t : among)
+    if (shaft.may_meet(triangles_[t], faces_[face_of_[t]])) result.push_back(t);
+  return result;
+}
+
 std::vector<std::uint32_t> Obstacles::before(Vec3d point, Vec3d normal, const PlaneElement& element) const {
   Box3d box;
   box.add(point);

@@ -34,6 +34,8 @@ class Obstacles {
 
   // Triangles that may lie between the fronts of two elements, each in front of the other's plane; ascending.
   std::vector<std::uint32_t> between(const PlaneElement& a, const PlaneElement& b) const;
+  // The same for some triangles only, in their order.
+  std::vector<std::uint32_t> between(const PlaneElement& a, const PlaneElement& b, const std::vector<std::uint32_t>& among) const;
   // True if the face of a triangle is convex and cuts all ways from one element to the other.
   bool covers(std::uint32_t triangle, const PlaneElement& a, const PlaneElement& b) const;
   // Triangles that may hide a part of an element from a point in front of it; the element lies above the point's horizon.
