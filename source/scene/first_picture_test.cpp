@@ -104,25 +104,6 @@ TEST(FirstPicture, AFileOfBlenderWithoutLampsSaysHowToExportThem) {
   EXPECT_FALSE(warns(steradian::load_scene(with_punctual("Khronos glTF Blender I/O v4.2.60").write()), part));
 }
 
-TEST(FirstPicture, BlurOfRoughGlassIsNamedAsMissing) {
-  const auto missing = [](float roughness, const json& extensions) {
-    GltfTestFile f = GltfTestFile::square();
-    f.material()["extensions"] = extensions;
-    f.material()["pbrMetallicRoughness"]["roughnessFactor"] = roughness;
-    f.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume"};
-    const LoadedScene loaded = steradian::load_scene(f.write());
-    const bool listed = !loaded.file.not_supported.empty() && loaded.file.not_supported[0].starts_with("blur of rough glass");
-    EXPECT_EQ(listed, warns(loaded, "left out: blur of rough glass"));
-    EXPECT_EQ(listed, !loaded.file.not_supported.empty());
-    return listed;
-  };
-  const json pane = {{"transmissionFactor", 1}}, thick = {{"thicknessFactor", 0.2}};
-  EXPECT_TRUE(missing(0.5f, {{"KHR_materials_transmission", pane}, {"KHR_materials_volume", thick}}));
-  EXPECT_FALSE(missing(0, {{"KHR_materials_transmission", pane}, {"KHR_materials_volume", thick}}));
-  EXPECT_FALSE(missing(0, {{"KHR_materials_transmission", pane}, {"KHR_materials_ior", {{"ior", 1.45}}}})) << "a thin wall";
-  EXPECT_FALSE(missing(0.5f, {{"KHR_materials_volume", thick}})) << "nothing passes";
-}
-
 TEST(FirstPicture, WhatAFileRequiresIsCheckedBeforeItsBuffers) {
   GltfTestFile f = GltfTestFile::square();
   f.json["buffers"] = {{{"byteLength", 40}, {"uri", "not_there.bin"}}};

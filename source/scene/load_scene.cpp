@@ -109,7 +109,7 @@ LoadedScene read_scene(const GltfDocument& document, const LoadOptions& options)
 
   Scene scene;
   GltfTextures textures(document, scene.images, warnings, options.pictures);
-  scene.materials = read_materials(document, textures, warnings);
+  scene.materials = read_materials(document, textures);
   const std::size_t materials = scene.materials.size();
   PlacedMeshes placed = read_meshes(document, nodes, scene.materials, warnings, options.meshes.get());
   const Vec3d origin = options.near_origin ? far_middle(box_around(placed.meshes)) : Vec3d{};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -78,7 +79,14 @@ double light_between_surfaces(const Scene& scene) {
 }
 
 void say_direct_only(const Scene& scene, const RenderOptions& options) {
-  if (options.indirect.mode != IndirectMode::off || options.bounces != 0 || light_between_surfaces(scene) < kMatters) return;
+  if (options.bounces != 0) return;
+  constexpr float kSharp = 0.05f;  // a roughness that shows no blur
+  const bool rough_glass = std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
+    const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+    return m.transmission > 0 && m.roughness > kSharp;
+  });
+  if (rough_glass) fmt::print(stderr, "steradian: rough glass shows a sharp image: --bounces all blurs it\n");
+  if (options.indirect.mode != IndirectMode::off || light_between_surfaces(scene) < kMatters) return;
   fmt::print(stderr, "steradian: direct light only, without what surfaces send to each other: --bounces all adds it\n");
 }
 

@@ -10,7 +10,8 @@ namespace steradian::app {
 // shadows, from 256 points spread over all surfaces that do not shine.
 double light_between_surfaces(const Scene& scene);
 
-// Prints one line if the picture has no light between surfaces and it would matter: a twentieth of the light, or more.
+// Prints one line for each thing that a picture without light between surfaces lacks: the blur of rough glass, and that light, where it is
+// a twentieth of all or more.
 void say_direct_only(const Scene& scene, const RenderOptions& options);
 
 }  // namespace steradian::app

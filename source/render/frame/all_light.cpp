@@ -29,8 +29,8 @@ AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, const F
       eye_(surfaces.camera().origin()),
       patches_(std::move(patches)),
       gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), {options.bounce_error, options.bounce_strict, options.aa}),
-      mirror_image_(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
-                    kFar * static_cast<float>(surfaces.rays().reach())),
+      mirror_images_(kMostLayers, radiosity::MirrorImage(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
+                                                         kFar * static_cast<float>(surfaces.rays().reach()))),
       surfaces_(surfaces),
       add_direct_(std::move(add_direct)) {}
 
@@ -92,8 +92,8 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
 }
 
 // Adds the light that a tile's mirrors show, and keeps it for the blur.
-void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, TileArea area, int sample, Arrives arrives,
-                            TileVector& light, TileVector& error) {
+void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, const Seen& seen, TileVector& light, TileVector& error) {
+  radiosity::MirrorImage& image = mirror_images_[static_cast<std::size_t>(seen.layer)];
   const auto mirrors = std::make_unique<radiosity::Mirrors>();
   if (!radiosity::find_mirrors(surfaces_.rays(), tile, distance, *mirrors)) return;
   const auto some = std::make_unique<radiosity::SomeMirrors>();
@@ -103,7 +103,7 @@ void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, 
   reach.fill(std::numeric_limits<float>::infinity());
   const auto trace = [&] {
     TileVector of_some{}, error_of_some{};
-    const TilePlane reach_of_some = follow_mirrors(some->mirrors, tile.seed, sample, reflections_, of_some, error_of_some);
+    const TilePlane reach_of_some = follow_mirrors(some->mirrors, tile.seed, seen.sample, reflections_, of_some, error_of_some);
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const std::uint32_t slot = some->source[i];
       if (slot == kNoSlot) continue;
@@ -112,38 +112,40 @@ void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, 
       put(error_of_mirrored, slot, get(error_of_some, i));
     }
   };
-  radiosity::choose_first(tile, *mirrors, mirror_image_.pixel(), stands_for, *some);
+  radiosity::choose_first(tile, *mirrors, image.pixel(), stands_for, *some);
   trace();
-  if (radiosity::choose_rest(*mirrors, mirror_image_.pixel(), reach, stands_for, *some)) trace();
+  if (radiosity::choose_rest(*mirrors, image.pixel(), reach, stands_for, *some)) trace();
   for (int y = 0; y < kTileSide; ++y)
     for (int x = 0; x < kTileSide; ++x) {
       const std::size_t slot = tile_slot(x, y), from = radiosity::traced_slot(stands_for, x, y);
       if (mirrors->ways.bent[slot] != 0) steradian::add(error, slot, get(error_of_mirrored, from));
     }
-  mirror_image_.take({tile, *mirrors, stands_for, reach, mirrored, arrives.shares, arrives.weight}, area);
+  image.take({tile, *mirrors, stands_for, reach, mirrored, seen.shares, seen.weight}, seen.area);
   for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(light, i, get(mirrored, i));
 }
 
-void AllLight::add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture) {
+void AllLight::add(SurfaceTile& tile, const Seen& seen, Picture& picture) {
   TileVector light{}, error{};
   clock_.run([&] {
-    gather(tile, sample, light, error);
+    gather(tile, seen.sample, light, error);
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
-    if (reflections_ > 0) add_mirrored(tile, distance, area, sample, {shares, weight}, light, error);
+    if (reflections_ > 0) add_mirrored(tile, distance, seen, light, error);
     for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));
   });
-  add_to_picture(light, area, shares, weight, picture.layers.at("indirect"), width_);
-  add_to_picture(error, area, shares, weight, picture.layers.at("bounce_error"), width_);
+  add_to_picture(light, seen.area, seen.shares, seen.weight, picture.layers.at("indirect"), width_);
+  add_to_picture(error, seen.area, seen.shares, seen.weight, picture.layers.at("bounce_error"), width_);
   const float left_out = patches_->left_out().value_or(0);
   TileVector bound{};
   for (std::size_t i = 0; i < kTilePixels; ++i)  // no surface reflects more than arrives
     if (tile.material[i] != nullptr) put(bound, i, {left_out, left_out, left_out});
-  add_to_picture(bound, area, shares, weight, picture.layers.at("bounce_bound"), width_);
+  add_to_picture(bound, seen.area, seen.shares, seen.weight, picture.layers.at("bounce_bound"), width_);
 }
 
 void AllLight::finish(Picture& picture) {
-  clock_.run([&] { mirror_image_.blur(picture); });
+  clock_.run([&] {
+    for (const radiosity::MirrorImage& image : mirror_images_) image.blur(picture);
+  });
 }
 
 void AllLight::report(int threads, RenderStats& stats, const Picture& picture) const {

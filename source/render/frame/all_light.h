@@ -21,8 +21,15 @@ class AllLight {
 
   // Makes the layers "indirect", "bounce_error" and "bounce_bound".
   static void begin(Picture& picture);
-  // Adds the light of other surfaces to a tile's radiance, and `weight` of it to the layers. shares: fraction that arrives; null for all.
-  void add(SurfaceTile& tile, TileArea area, int sample, const TileVector* shares, float weight, Picture& picture);
+  // Place of a tile's surfaces in the picture.
+  struct Seen {
+    TileArea area;
+    int sample, layer;         // layer: number of the surfaces before them that let light through
+    const TileVector* shares;  // fraction of their light that arrives at the camera; null: all
+    float weight;              // of the sample
+  };
+  // Adds the light of other surfaces to a tile's radiance and to the layers.
+  void add(SurfaceTile& tile, const Seen& seen, Picture& picture);
 
   // Blurs what mirrors show by their lobes, when all tiles have been added.
   void finish(Picture& picture);
@@ -31,13 +38,7 @@ class AllLight {
 
  private:
   void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
-  // Fraction of a tile's light that arrives at the camera (null: all), and the weight of its samples.
-  struct Arrives {
-    const TileVector* shares;
-    float weight;
-  };
-  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, TileArea area, int sample, Arrives arrives, TileVector& light,
-                    TileVector& error);
+  void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, const Seen& seen, TileVector& light, TileVector& error);
   TilePlane follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t seed, int sample, int depth, TileVector& light,
                            TileVector& error) const;
 
@@ -46,7 +47,7 @@ class AllLight {
   PassClock clock_{"bounces"};
   const std::shared_ptr<const radiosity::PatchLight> patches_;
   const radiosity::Gather gather_;
-  radiosity::MirrorImage mirror_image_;
+  std::vector<radiosity::MirrorImage> mirror_images_;  // by layer of surfaces
   const FrameSurfaces& surfaces_;
   const radiosity::AddDirect add_direct_;
 };

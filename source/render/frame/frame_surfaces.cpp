@@ -4,8 +4,18 @@
 #include <utility>
 
 namespace steradian {
+namespace {
 
-FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts, const ClassicTable* fitted)
+// Direct light alone would leave a lobe without what stands behind the glass.
+PassedRays::Rough rough_glass_in(const RenderOptions& options, bool estimates) {
+  if (options.bounces == 0) return PassedRays::Rough::sharp;
+  return estimates ? PassedRays::Rough::random : PassedRays::Rough::blurred;
+}
+
+}  // namespace
+
+FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts, const ClassicTable* fitted,
+                             bool estimates)
     : scene_(scene),
       options_(options),
       camera_(find_camera(scene, options.camera), options.width, options.height),
@@ -17,7 +27,7 @@ FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, c
       maps_(parts.maps),
       shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, maps_.get(),
                camera_.steps(options.aa)},
-      passed_(scene, *rays_, shading_, background()),
+      passed_(scene, *rays_, shading_, background(), rough_glass_in(options, estimates)),
       tiles_x_((options.width + kTileSide - 1) / kTileSide),
       tiles_y_((options.height + kTileSide - 1) / kTileSide) {
   halves_of_rays_.resize(static_cast<std::size_t>(tile_count()));

@@ -21,8 +21,9 @@ inline constexpr int kMostLayers = 8;  // layers of surfaces that let light pass
 
 class FrameSurfaces {
  public:
-  // Scene, options and table must outlive this object. fitted: as lobes_of.
-  FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts, const ClassicTable* fitted = nullptr);
+  // Scene, options and table must outlive this object. fitted: as lobes_of. estimates: paths estimate the light.
+  FrameSurfaces(const Scene& scene, const RenderOptions& options, const SceneParts& parts, const ClassicTable* fitted = nullptr,
+                bool estimates = false);
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
   int tiles_across() const { return tiles_x_; }

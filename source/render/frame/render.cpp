@@ -25,6 +25,7 @@
 #include "render/radiosity/kept_patches.h"
 #include "render/sampled/monte_carlo.h"
 #include "render/sampled/paths.h"
+#include "render/sampled/through_glass.h"
 #include "render/surface/gbuffer.h"
 #include "render/tile/pass_clock.h"
 #include "steradian/area_light.h"  // luminance
@@ -52,7 +53,7 @@ class Renderer {
         method_(choose_method(scene, options)),
         cache_(cache),
         parts_(cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted())),
-        surfaces_(scene, options, parts_, method_.table.get()),
+        surfaces_(scene, options, parts_, method_.table.get(), method_.estimates()),
         lights_(own_lights()),
         many_lights_(prepare_many_lights()),
         lighting_(scene, options, method_, lights_, parts_, many_lights_.get()),
@@ -257,7 +258,10 @@ class Renderer {
         const Vec3f view{tile.view.x[slot], tile.view.y[slot], tile.view.z[slot]};
         const Surface surface = surface_in(tile, slot);
         Estimate e = sampler.estimate(surface, view, method_.estimated_lobes, pairs, random);
-        if (options_.bounces != 0) e += trace_paths({scene_, surfaces_.rays(), sampler}, surface, view, options_.bounces, pairs, random);
+        const PathScene in{scene_, surfaces_.rays(), sampler};
+        if (options_.bounces != 0) e += trace_paths(in, surface, view, options_.bounces, pairs, random);
+        if (surfaces_.passed_rays().is_random(surface))
+          e += trace_through(in, surfaces_.passed_rays(), surface, view, get(tile.passes, slot), options_.bounces, pairs, random);
         use(x, y, slot, e);
       }
   }
@@ -403,7 +407,7 @@ class Renderer {
       }
     }
     if (!method_.estimates()) surfaces_.add_environment(index, sample, tile);
-    if (all_light_) all_light_->add(tile, a, sample, shares, weight, picture);
+    if (all_light_) all_light_->add(tile, {a, sample, layer, shares, weight}, picture);
     if (method_.estimates())
       sampling_clock_.run([&] {
         std::vector<Vec3f>& variance = picture.layers.at("variance");

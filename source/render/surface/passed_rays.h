@@ -1,13 +1,17 @@
 // PassedRays: the ways of a tile's camera rays beyond surfaces that let light through. Thin walls and blended surfaces leave a ray
-// straight; solids bend it where it enters and where it leaves.
+// straight; solids bend it where it enters and where it leaves. At rough glass the way ends at its lobe.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <vector>
 
+#include "core/random.h"
 #include "render/surface/camera_rays.h"
 #include "render/surface/gbuffer.h"
+#include "render/surface/rough_glass.h"
 
 namespace steradian {
 
@@ -15,8 +19,10 @@ class PassedRays {
  public:
   // The radiance that rays of a unit direction show that leave the scene.
   using Background = std::function<Vec3f(Vec3f direction)>;
+  // The image in rough glass. random: a solid ends rays; pass_at_random follows them.
+  enum class Rough { sharp, blurred, random };
   // Scene, rays and shading must outlive this object. background: empty: black.
-  PassedRays(const Scene& scene, const RayScene& rays, const HitShading& shading, Background background);
+  PassedRays(const Scene& scene, const RayScene& rays, const HitShading& shading, Background background, Rough rough = Rough::sharp);
 
   // Rays of one tile.
   struct Ways {
@@ -25,6 +31,11 @@ class PassedRays {
     std::array<std::uint8_t, kTilePixels> bent{};  // 1: the ray no longer is that of the camera
     TileVector origin, direction;                  // of bent rays
     TilePlane length;                              // of bent rays: way from the camera to the origin
+    struct LobeIn {
+      std::size_t slot;
+      RoughGlass::Lobe lobe;
+    };
+    std::vector<LobeIn> lobes;  // of rough glass, at which rays have ended
   };
   // The camera's rays up to their first surfaces.
   static void begin(const TilePlane& distances, Ways& ways);
@@ -34,18 +45,36 @@ class PassedRays {
   enum class Lamps { shown, hidden };
   void fill(const Ways& ways, Lamps lamps, SurfaceTile& tile) const;
 
- private:
   struct Ray {
     Vec3f origin, direction, weight;
     float length = 0;
   };
-  void pass_solid(Ray& ray) const;
+  // True if rays beyond a surface are random.
+  bool is_random(const Surface& surface) const;
+  // The ray behind a solid of rough glass, by a random facet of each face. The weight does not hold the share of the first face.
+  Ray pass_at_random(const Surface& face, Vec3f view, reference::Random& random) const;
+  // Light from where a ray meets nothing.
+  Vec3f background(Vec3f direction) const { return background_ ? background_(direction) : Vec3f{}; }
+
+ private:
+  struct Faces {
+    int count = 0;
+    float widest = 0;  // alpha of the roughest
+    Vec3f last;        // normal of the last one, towards the ray's end
+  };
+  template <class Facet>  // facet(surface, view, number of the face): the normal that bends the ray
+  Faces pass_solid(Ray& ray, Facet facet) const;
+  RoughGlass::Exit exit_of(const Ray& start, const Ray& end, const Faces& faces) const;
+  Ray before_face(Vec3f position, Vec3f view, float length) const;
+  void end_at_lobe(const SurfaceTile& tile, std::size_t slot, Ways& ways) const;
 
   const Scene& scene_;
   const RayScene& rays_;
   const HitShading& shading_;
   const Background background_;
   const float pixel_;  // size of a pixel at distance 1
+  const Rough rough_;
+  const std::optional<RoughGlass> rough_glass_;  // none: it shows sharp images
 };
 
 }  // namespace steradian

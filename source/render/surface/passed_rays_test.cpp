@@ -187,7 +187,14 @@ TEST(Glass, StandsDegenerateSolids) {
   scene.environment = std::make_shared<const Environment>(white_environment());
   RenderOptions options;
   options.width = options.height = 48;
-  for (const Vec3f& p : render(scene, options).pixels) ASSERT_TRUE(is_finite(p) && p.x >= 0);
+  for (const float roughness : {0.0f, 0.1f, 0.5f, 1.0f}) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      scene.materials[i].roughness = roughness;
+      scene.materials[i].solid = i % 2 == 0 || roughness == 0;
+    }
+    options.bounces = roughness > 0 ? kAllBounces : 0;
+    for (const Vec3f& p : render(scene, options).pixels) ASSERT_TRUE(is_finite(p) && p.x >= 0) << roughness;
+  }
 }
 
 }  // namespace steradian::passed_rays_test

@@ -190,7 +190,7 @@ Material read_lobe(const JsonCursor& lobe) {
   return draft.material;
 }
 
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings) {
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures) {
   std::vector<SurfaceMaterial> result;
   for (const JsonCursor& json : document.root().elements("materials")) {
     SurfaceMaterial m;
@@ -198,7 +198,6 @@ std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTe
     read_base(m, json, textures);
     read_alpha(m, json);
     read_extensions(m, json, textures);
-    if (m.solid && m.transmission > 0 && m.roughness > 0.05f) warnings.not_supported("blur of rough glass (it shows a sharp image)");
     read_extras(m, json);
     result.push_back(std::move(m));
   }

@@ -9,7 +9,7 @@
 namespace steradian::scene {
 
 // Names what a material asks for and the renderer lacks.
-std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures, Warnings& warnings);
+std::vector<SurfaceMaterial> read_materials(const GltfDocument& document, GltfTextures& textures);
 
 // Reads a lobe in the form of `steradian eval`: {"brdf": "phong", "exponent": 50}. Unknown keys are an Error.
 Material read_lobe(const JsonCursor& lobe);

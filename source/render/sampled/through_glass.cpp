@@ -1,0 +1,45 @@
+#include "render/sampled/through_glass.h"
+
+namespace steradian {
+namespace {
+
+Vec3d seen_along(const PathScene& in, const PassedRays& passed, const PassedRays::Ray& ray, int bounces, reference::Random& random) {
+  constexpr int kMostPassed = 8;
+  Vec3f origin = ray.origin;
+  for (int k = 0; k <= kMostPassed; ++k) {
+    RTCRayHit hit;
+    if (!in.rays.intersect(origin, ray.direction, hit)) return static_cast<Vec3d>(passed.background(ray.direction));
+    const Mesh& mesh = in.scene.meshes[hit.hit.geomID];
+    const Surface s = surface_at(in.scene, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -ray.direction);
+    if (light_passes(in.scene, mesh)) {
+      origin = static_cast<Vec3f>(in.rays.off_surface(static_cast<Vec3d>(s.position), -static_cast<Vec3d>(s.geometric_normal)));
+      continue;
+    }
+    Vec3d light = static_cast<Vec3d>(s.emission) + in.sampler.estimate(s, -ray.direction, LobeChoice::all, 1, random).mean;
+    const int left = bounces == kAllBounces ? kAllBounces : bounces - 1;
+    if (left != 0) light += trace_paths(in, s, -ray.direction, left, 1, random).mean;
+    return light;
+  }
+  return {};
+}
+
+}  // namespace
+
+Estimate trace_through(const PathScene& scene, const PassedRays& passed, const Surface& face, Vec3f view, Vec3f passes, int bounces,
+                       int paths, reference::Random& random) {
+  Estimate result;
+  Vec3d squares{};
+  for (int k = 0; k < paths; ++k) {
+    const PassedRays::Ray ray = passed.pass_at_random(face, view, random);
+    Vec3d x{};
+    if (ray.weight.x > 0 || ray.weight.y > 0 || ray.weight.z > 0)
+      x = seen_along(scene, passed, ray, bounces, random) * static_cast<Vec3d>(passes * ray.weight);
+    const Vec3d delta = x - result.mean;
+    result.mean += delta / static_cast<double>(k + 1);
+    squares += delta * (x - result.mean);
+  }
+  if (paths > 1) result.variance = squares / (static_cast<double>(paths) * (paths - 1));
+  return result;
+}
+
+}  // namespace steradian
