@@ -102,19 +102,13 @@ Vec3d follow(const PathScene& in, const Surface& receiver, Vec3f direction, int 
 
 Estimate trace_paths(const PathScene& scene, const Surface& receiver, Vec3f view, int bounces, int paths, reference::Random& random) {
   const LobesAt lobes(scene, receiver, view);
-  Estimate result;
-  if (lobes.count() == 0) return result;
-  Vec3d squares{};
-  for (int k = 0; k < paths; ++k) {
+  if (lobes.count() == 0) return {};
+  return mean_of_paths(paths, [&] {
     Vec3d x{};
     for (std::size_t i = 0; i < lobes.count(); ++i)  // one direction from each lobe: the multiple-sample balance heuristic
       if (const auto to = lobes.sample(i, random)) x += to->weight * follow(scene, receiver, to->to, bounces, random);
-    const Vec3d delta = x - result.mean;
-    result.mean += delta / static_cast<double>(k + 1);
-    squares += delta * (x - result.mean);
-  }
-  if (paths > 1) result.variance = squares / (static_cast<double>(paths) * (paths - 1));
-  return result;
+    return x;
+  });
 }
 
 }  // namespace steradian

@@ -27,19 +27,11 @@ Vec3d seen_along(const PathScene& in, const PassedRays& passed, const PassedRays
 
 Estimate trace_through(const PathScene& scene, const PassedRays& passed, const Surface& face, Vec3f view, Vec3f passes, int bounces,
                        int paths, reference::Random& random) {
-  Estimate result;
-  Vec3d squares{};
-  for (int k = 0; k < paths; ++k) {
+  return mean_of_paths(paths, [&]() -> Vec3d {
     const PassedRays::Ray ray = passed.pass_at_random(face, view, random);
-    Vec3d x{};
-    if (ray.weight.x > 0 || ray.weight.y > 0 || ray.weight.z > 0)
-      x = seen_along(scene, passed, ray, bounces, random) * static_cast<Vec3d>(passes * ray.weight);
-    const Vec3d delta = x - result.mean;
-    result.mean += delta / static_cast<double>(k + 1);
-    squares += delta * (x - result.mean);
-  }
-  if (paths > 1) result.variance = squares / (static_cast<double>(paths) * (paths - 1));
-  return result;
+    if (!(ray.weight.x > 0 || ray.weight.y > 0 || ray.weight.z > 0)) return {};
+    return seen_along(scene, passed, ray, bounces, random) * static_cast<Vec3d>(passes * ray.weight);
+  });
 }
 
 }  // namespace steradian
