@@ -179,12 +179,9 @@ void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLi
     else
       punctual.push_back(light);  // one ray decides
   }
-  const std::vector<std::uint32_t> slots = slots_with_surfaces(tile);
+  const std::vector<std::uint32_t> slots = find_whole(tile, work);
   double sum = 0;
-  for (WholeLight& w : whole) {
-    find_whole(tile, slots, work, w);
-    sum += w.sum;
-  }
+  for (const WholeLight& w : whole) sum += w.sum;
   for (const WholeLight& w : whole) {
     if (!(w.sum > 0)) continue;
     const std::size_t count = whole.size() <= kLightsWithAllRays ? rays : rays_by_share(rays, w.sum / sum);
@@ -261,8 +258,7 @@ std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, 
   for (const PackLight* light : add_past_blockers(tile, occluded, work)) plain.push_back(light);
   if (!plain.empty()) add(tile, plain);
 
-  const std::vector<std::uint32_t> slots = slots_with_surfaces(tile);
-  for (WholeLight& w : whole) find_whole(tile, slots, work, w);
+  const std::vector<std::uint32_t> slots = find_whole(tile, work);
   std::stable_sort(whole.begin(), whole.end(), [](const WholeLight& a, const WholeLight& b) { return a.sum > b.sum; });
   for (std::size_t k = whole.size(); k-- > 0;)
     for (const std::uint32_t i : slots)
@@ -288,14 +284,20 @@ std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, 
   return {};
 }
 
-// Finds the light that some slots would get of an area light without occluders.
-void TileLighting::find_whole(const SurfaceTile& tile, const std::vector<std::uint32_t>& slots, Work& work, WholeLight& whole) {
-  work.slots = slots;
-  const SurfaceTile& lit = light_slots(tile, *whole.light, work);
-  for (std::size_t k = 0; k < slots.size(); ++k) {
-    whole.all[slots[k]] = radiance_in(lit, k);
-    whole.sum += luminance(static_cast<Vec3d>(whole.all[slots[k]]));
+// Finds the light that every slot with a surface would get of each of work.whole's lights without occluders. Returns these slots.
+std::vector<std::uint32_t> TileLighting::find_whole(const SurfaceTile& tile, Work& work) {
+  std::vector<std::uint32_t> slots = slots_with_surfaces(tile);
+  if (work.whole.empty()) return slots;
+  work.filled = take_slots(tile, slots, work.filled, work.some);
+  for (WholeLight& whole : work.whole) {
+    for (TilePlane* plane : {&work.some.radiance.x, &work.some.radiance.y, &work.some.radiance.z}) plane->fill(0);
+    add(work.some, {whole.light});
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+      whole.all[slots[k]] = radiance_in(work.some, k);
+      whole.sum += luminance(static_cast<Vec3d>(whole.all[slots[k]]));
+    }
   }
+  return slots;
 }
 
 // Adds the light for slots that see all of it, or a fraction of it.

@@ -73,7 +73,7 @@ class TileLighting {
   void with_coats(SurfaceTile& tile, Work& work, Add add);
   void add_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample, Work& work,
                    EstimatedShadows& estimate);
-  void find_whole(const SurfaceTile& tile, const std::vector<std::uint32_t>& slots, Work& work, WholeLight& whole);
+  std::vector<std::uint32_t> find_whole(const SurfaceTile& tile, Work& work);
   void add_whole(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_parts(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_batch(SurfaceTile& tile, const PackLight& light, TileShadow::Batch& batch, Work& work);
