@@ -59,16 +59,21 @@ FewRays::FewRays(const RayScene& rays, const std::vector<PackLight>& lights) : r
   }
 }
 
-FewRays::PlaceOnLight FewRays::place_on(const PackLight& light, const shadow::Viewpoint& from, std::size_t number) const {
-  PlaceOnLight place;
+FewRays::SequencePlace FewRays::sequence_place(const PackLight& light, std::size_t number) const {
   const std::vector<Vec3d>& flat = flat_[light.index];
+  if (!flat.empty()) return {&flat[number % flat.size()], 0, 0};
   const auto [u, v] = r2_place(static_cast<double>(number + 1));
-  if (!flat.empty())
-    place.at = flat[number % flat.size()];
+  return {nullptr, u, v};
+}
+
+FewRays::PlaceOnLight FewRays::place_on(const PackLight& light, const shadow::Viewpoint& from, const SequencePlace& in_sequence) {
+  PlaceOnLight place;
+  if (in_sequence.flat != nullptr)
+    place.at = *in_sequence.flat;
   else if (const auto* ellipsoid = std::get_if<Ellipsoid>(&light.area->shape))
-    place.at = on_front(*ellipsoid, from.position, u, v);
+    place.at = on_front(*ellipsoid, from.position, in_sequence.u, in_sequence.v);
   else
-    place.at = on_front(std::get<Capsule>(light.area->shape), from.position, u, v);
+    place.at = on_front(std::get<Capsule>(light.area->shape), from.position, in_sequence.u, in_sequence.v);
   const Vec3d to = place.at - from.position;
   const double cosine = dot(to, from.normal), square = dot(to, to);
   if (cosine > 0 && square > 0) place.weight = static_cast<float>(cosine / (square * square));
@@ -84,10 +89,11 @@ void FewRays::find(const SurfaceTile& tile, const TilePoints& points, const Pack
       RayScene::Sixteen rays;
       std::uint32_t asked = 0;
       std::array<float, kLanes> weight{};
+      const SequencePlace in_sequence = sequence_place(light, static_cast<std::size_t>(sample) * count + k);
       for (std::size_t i = 0; i < kLanes; ++i) {
         if (tile.material[first + i] == nullptr) continue;
         const shadow::Viewpoint& from = points.points[first + i];
-        const PlaceOnLight place = place_on(light, from, static_cast<std::size_t>(sample) * count + k);
+        const PlaceOnLight place = place_on(light, from, in_sequence);
         if (!(place.weight > 0)) continue;
         weight[i] = place.weight;
         all[i][k % 2] += place.weight;

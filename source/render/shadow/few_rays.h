@@ -33,7 +33,13 @@ class FewRays {
     Vec3d at;
     float weight = 0;  // light of the place on the point's diffuse surface; 0: below its horizons
   };
-  PlaceOnLight place_on(const PackLight& light, const shadow::Viewpoint& from, std::size_t number) const;
+  // A place of the sequence: itself on a flat light, else where it stands on the front of a round one.
+  struct SequencePlace {
+    const Vec3d* flat;  // null: the light is round
+    double u, v;
+  };
+  SequencePlace sequence_place(const PackLight& light, std::size_t number) const;
+  static PlaceOnLight place_on(const PackLight& light, const shadow::Viewpoint& from, const SequencePlace& in_sequence);
 
   static constexpr std::size_t kPlaces = 256;  // places on a flat light
   const RayScene& rays_;
