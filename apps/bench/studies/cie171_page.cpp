@@ -1,0 +1,77 @@
+// The page of the study of CIE 171.
+#include <fmt/format.h>
+
+#include "bench/studies/cie171.h"
+
+namespace steradian::cie171 {
+namespace {
+
+const char* const kHead = R"(# Test cases of CIE 171, measured
+
+    steradian bench --cie171
+
+CIE 171:2006 has test cases for lighting programs. This command computes cases of its section 5, and prints this page. The geometry of
+each row is in the table. Sizes and points are this project's, except the formula of case 5.8. The tables of the standard are not repeated
+here.
+
+- "Exact" is a closed form or quadrature. It shares no code with the library.
+- "Ours" is the library's answer, by the calls of the commands that are named.
+- "Difference" is relative. `< 1e-12` names a derived bound, and the difference is below it.
+
+)";
+
+const char* const kDiffuse = R"(## 5.6: light from a diffuse surface
+
+A horizontal surface S2 sends diffuse light to a wall and to a ceiling. The values are configuration factors of points, and view factors
+of whole surfaces. The wall stands on an edge of S2 and is 3 m high. The ceiling is 3 m above S2. The points lie across from the middle of
+the edge, at a height (wall) or at a distance from the wall (ceiling).
+
+)";
+
+const char* const kObstructed = R"(## 5.7: with an obstruction inside
+
+The same with S2 of 4 x 4 m and an obstruction. The screen stands parallel to the wall at 1 m and is 4 m wide. The plate covers a quarter of
+the plane between S2 and the ceiling. What it hides is a rectangle of S2, so that factors of rectangles add up to the exact value.
+
+Table 19 of the standard is known to be wrong (the published errata of Lighting Analysts). Therefore nothing here is compared with it.
+
+)";
+
+const char* const kRoom = R"(## 5.8: a closed room
+
+A lamp of 10,000 lm in the middle of a room of 4 x 4 x 4 m shines alike in all directions. All sides have one reflectance rho. The mean
+indirect illuminance is flux x rho / (area x (1 - rho)): the formula of the standard. It is exact as a mean.
+
+)";
+
+void add_table(std::string& page, const std::vector<Comparison>& comparisons, const std::string& number) {
+  page += "| case | geometry | by | exact | ours | difference |\n|---|---|---|--:|--:|--:|\n";
+  for (const Comparison& c : comparisons) {
+    if (c.number != number) continue;
+    const bool holds = c.difference() <= c.bound && !c.is_estimate;
+    page += fmt::format("| {} | {} | {} | {:.10g}{} | {:.{}g}{} | {} |\n", c.number, c.geometry, c.way, c.exact, c.unit, c.ours,
+                        c.is_estimate ? 4 : 10, c.unit, holds ? fmt::format("< {:.1e}", c.bound) : fmt::format("{:.1e}", c.difference()));
+  }
+  page += "\n";
+}
+
+const char* const kFoot = R"(## Links
+
+- [View factors](../viewfactor.md), [their theory](../theory/view_factors.md), [how the tests judge](../testing.md).
+)";
+
+}  // namespace
+
+std::string cie171_page(const std::vector<Comparison>& comparisons) {
+  std::string page = kHead;
+  const auto section = [&](const char* text, std::initializer_list<const char*> numbers) {
+    page += text;
+    for (const char* number : numbers) add_table(page, comparisons, number);
+  };
+  section(kDiffuse, {"5.6"});
+  section(kObstructed, {"5.7"});
+  section(kRoom, {"5.8"});
+  return page + kFoot;
+}
+
+}  // namespace steradian::cie171
