@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/studies/cie171_cases.h"
 #include "bench/studies/cie171_exact.h"
-#include "exchange/obstacles/point_factors.h"
 #include "exchange/obstacles/scene_elements.h"
 #include "steradian/polygon_light.h"
 #include "steradian/view_factors.h"
@@ -15,24 +15,12 @@
 namespace steradian::cie171 {
 namespace {
 
-using exchange::AskedFrom;
-using exchange::Sensor;
-using exchange::SensorFactors;
 using std::numbers::pi;
 
-// Four edges have terms below 1/2, each off by three roundings: 6.7e-16 of factors above 1e-3.
-constexpr double kRounding = 1e-12;
 // Behind an obstacle, a boundary lies within a cell of its place: 2^-40 of the half size of S2, 2.6e-12 m. Boundaries are shorter than 20 m
 // and further than 0.5 m: less than 20 x 2.6e-12 / (pi 0.25) = 6.6e-11 of factors above 0.1.
 constexpr double kCells = 1e-9;
 constexpr double kEps = 1e-10;  // of view factors
-
-ViewFactorFace rectangle(Vec3d corner, Vec3d a, Vec3d b) { return {"", {corner, corner + a, corner + a + b, corner + b}}; }
-
-SensorFactors factors_at(Vec3d position, Vec3d normal, const std::vector<ViewFactorFace>& faces) {
-  const exchange::SceneElements scene = scene_elements(faces, {}, Obstruction::on, AskedFrom::points);
-  return sensor_factors({position, normal}, scene.elements, scene.obstacles);
-}
 
 double factor_between(const std::vector<ViewFactorFace>& faces, std::size_t from, std::size_t to) {
   ViewFactorOptions options;
@@ -53,8 +41,8 @@ void add_diffuse_reflection(std::vector<Comparison>& out) {
       out.push_back({"5.6", fmt::format("S2 {} x {} m, wall at {} m", side, side, z), kPoint, perpendicular_factor({0, side}, across, z),
                      factors_at({0, 0, z}, {1, 0, 0}, s2).fronts[0], kRounding});
     for (const double x : {0.25, 2.0, 3.75})
-      out.push_back({"5.6", fmt::format("S2 {} x {} m, ceiling at {} m", side, side, x), kPoint,
-                     parallel_factor({-x, side - x}, across, 3), factors_at({x, 0, 3}, {0, 0, -1}, s2).fronts[0], kRounding});
+      out.push_back({"5.6", fmt::format("S2 {} x {} m, ceiling at {} m", side, side, x), kPoint, parallel_factor({-x, side - x}, across, 3),
+                     factors_at({x, 0, 3}, {0, 0, -1}, s2).fronts[0], kRounding});
   }
   const std::vector<ViewFactorFace> sides = {rectangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}), rectangle({0, 0, 0}, {0, 4, 0}, {0, 0, 3}),
                                              rectangle({0, 0, 3}, {0, 4, 0}, {4, 0, 0})};
@@ -132,6 +120,13 @@ void add_closed_room(std::vector<Comparison>& out) {
 
 }  // namespace
 
+ViewFactorFace rectangle(Vec3d corner, Vec3d a, Vec3d b) { return {"", {corner, corner + a, corner + a + b, corner + b}}; }
+
+exchange::SensorFactors factors_at(Vec3d position, Vec3d normal, const std::vector<ViewFactorFace>& faces) {
+  const exchange::SceneElements scene = scene_elements(faces, {}, Obstruction::on, exchange::AskedFrom::points);
+  return sensor_factors({position, normal}, scene.elements, scene.obstacles);
+}
+
 double Comparison::difference() const { return std::fabs(ours - exact) / exact; }
 
 std::vector<Comparison> compare_with_cie171() {
@@ -139,6 +134,7 @@ std::vector<Comparison> compare_with_cie171() {
   add_diffuse_reflection(out);
   add_internal_obstruction(out);
   add_closed_room(out);
+  add_daylight(out);
   return out;
 }
 

@@ -1,6 +1,9 @@
 // The page of the study of CIE 171.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "bench/studies/cie171.h"
 
 namespace steradian::cie171 {
@@ -44,10 +47,30 @@ indirect illuminance is flux x rho / (area x (1 - rho)): the formula of the stan
 
 )";
 
-void add_table(std::string& page, const std::vector<Comparison>& comparisons, const std::string& number) {
+const char* const kSky = R"(## 5.9 to 5.14: the sky through openings without glass
+
+The room is 4 x 4 x 3 m, and its surfaces are black. The points lie on the floor and face up. Two values are given:
+
+- the configuration factor of the sky, which is the sky component under a uniform sky. The room and the masks are obstacles.
+- with "overcast", the sky component under the overcast sky of the CIE, (1 + 2 sin)/3. The moments of the visible part of the opening give
+  it (`double_axis_moment`). The study cuts this part itself.
+
+| case | opening | outside |
+|---|---|---|
+| 5.9 | roof, in its middle or all of it | nothing |
+| 5.11 | facade, 2 x 1 m with its sill at 1 m, or all of it | nothing |
+| 5.13 | facade, 2 x 1 m | a long overhang of 1 m at 2.5 m |
+| 5.14 | facade, 2 x 1 m | a long wall 6 m away, 5 m high |
+
+A point of the facade's cases lies across from the middle of the opening, at a distance from the facade. The rows of a mask have its
+configuration factor: times its radiance over that of the sky, this is the externally reflected component.
+
+)";
+
+void add_table(std::string& page, const std::vector<Comparison>& comparisons, std::initializer_list<const char*> numbers) {
   page += "| case | geometry | by | exact | ours | difference |\n|---|---|---|--:|--:|--:|\n";
   for (const Comparison& c : comparisons) {
-    if (c.number != number) continue;
+    if (std::find(numbers.begin(), numbers.end(), c.number) == numbers.end()) continue;
     const bool holds = c.difference() <= c.bound && !c.is_estimate;
     page += fmt::format("| {} | {} | {} | {:.10g}{} | {:.{}g}{} | {} |\n", c.number, c.geometry, c.way, c.exact, c.unit, c.ours,
                         c.is_estimate ? 4 : 10, c.unit, holds ? fmt::format("< {:.1e}", c.bound) : fmt::format("{:.1e}", c.difference()));
@@ -66,11 +89,12 @@ std::string cie171_page(const std::vector<Comparison>& comparisons) {
   std::string page = kHead;
   const auto section = [&](const char* text, std::initializer_list<const char*> numbers) {
     page += text;
-    for (const char* number : numbers) add_table(page, comparisons, number);
+    add_table(page, comparisons, numbers);
   };
   section(kDiffuse, {"5.6"});
   section(kObstructed, {"5.7"});
   section(kRoom, {"5.8"});
+  section(kSky, {"5.9", "5.11", "5.13", "5.14"});
   return page + kFoot;
 }
 

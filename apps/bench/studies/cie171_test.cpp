@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "bench/studies/cie171_exact.h"
 
 namespace steradian::cie171_test {
@@ -21,13 +24,16 @@ TEST(Cie171, JudgesHaveTheExactValues) {
 
 TEST(Cie171, EveryDifferenceIsWithinItsBound) {
   const std::vector<Comparison> all = compare_with_cie171();
-  EXPECT_GT(all.size(), 20u);
+  EXPECT_GT(all.size(), 50u);
+  double largest = 0, nearest = 0;
   for (const Comparison& c : all) {
+    if (!c.is_estimate) largest = std::max(largest, c.difference()), nearest = std::max(nearest, c.difference() / c.bound);
     EXPECT_LE(c.difference(), c.bound) << c.number << ": " << c.geometry << ", by " << c.way;
-    EXPECT_LT(c.bound, c.is_estimate ? 0.03 : 1e-7);
+    EXPECT_LT(c.bound, c.is_estimate ? 0.03 : 1e-6);
     // The derivations of the bounds need this.
-    EXPECT_GT(c.exact, c.number == "5.6" ? 1e-3 : c.number == "5.7" ? 0.1 : 0.01) << c.number << ": " << c.geometry;
+    EXPECT_GT(c.exact, c.number == "5.6" ? 1e-3 : c.number == "5.7" ? 0.1 : 1e-3) << c.number << ": " << c.geometry;
   }
+  std::printf("%zu rows, off by at most %.1e, and by at most %.1e of the bound\n", all.size(), largest, nearest);
 }
 
 }  // namespace steradian::cie171_test
