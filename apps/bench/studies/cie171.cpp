@@ -4,23 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bench/studies/cie171_cases.h"
 #include "bench/studies/cie171_exact.h"
 #include "exchange/obstacles/scene_elements.h"
-#include "steradian/polygon_light.h"
 #include "steradian/view_factors.h"
 
 namespace steradian::cie171 {
 namespace {
 
-using std::numbers::pi;
-
 // Behind an obstacle, a boundary lies within a cell of its place: 2^-40 of the half size of S2, 2.6e-12 m. Boundaries are shorter than 20 m
 // and further than 0.5 m: less than 20 x 2.6e-12 / (pi 0.25) = 6.6e-11 of factors above 0.1.
 constexpr double kCells = 1e-9;
-constexpr double kEps = 1e-10;  // of view factors
 
 double factor_between(const std::vector<ViewFactorFace>& faces, std::size_t from, std::size_t to) {
   ViewFactorOptions options;
@@ -72,50 +67,6 @@ void add_internal_obstruction(std::vector<Comparison>& out) {
   sides.push_back(rectangle({0, 0, 3}, {0, 4, 0}, {4, 0, 0}));
   out.push_back({"5.7", "plate 2 x 2 m half way, S2 to all of the ceiling", kFactors, 0.75 * facing_rectangles(4, 4, 3),
                  factor_between(sides, 0, 2), 2 * kEps});
-}
-
-// 5.8. A lamp of 10,000 lm that shines alike in all directions hangs in the middle of a closed room of 4 x 4 x 4 m. The mean indirect
-// illuminance is flux rho / (area (1 - rho)). Elements of 1 x 1 m exchange their light by view factors until nothing is left.
-void add_closed_room(std::vector<Comparison>& out) {
-  constexpr int kSide = 4;
-  std::vector<ViewFactorFace> faces;
-  const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  const auto add = [&](Vec3d corner, Vec3d a, Vec3d b) {
-    for (int i = 0; i < kSide; ++i)
-      for (int j = 0; j < kSide; ++j) faces.push_back(rectangle(corner + a * double(i) + b * double(j), a, b));
-  };
-  const double size = kSide;
-  add({}, x, y), add(z * size, y, x), add({}, y, z), add(x * size, z, y), add({}, z, x), add(y * size, x, z);
-  ViewFactorOptions options;
-  options.eps = kEps;
-  const ViewFactors factors = view_factors(faces, options);
-  const std::size_t n = faces.size();
-  const double flux = 10000, area = 6 * size * size;
-  double row_error = 0;
-  for (std::size_t i = 0; i < n; ++i) row_error = std::max(row_error, factors.row_errors[i]);
-  std::vector<double> direct(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    PolygonLight element;
-    element.vertices = faces[i].outline;
-    direct[i] = flux / (4 * pi) * polygon_solid_angle(prepare_polygon(element), {size / 2, size / 2, size / 2});
-  }
-  for (const double rho : {0.05, 0.3, 0.5, 0.8, 0.95}) {
-    std::vector<double> received(n, 0.0);  // indirect illuminance
-    for (double change = 1; change > 1e-12;) {
-      std::vector<double> next(n, 0.0);
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j)
-          if (i != j) next[i] += rho * (direct[j] + received[j]) * factors.between(i, j) / factors.areas[i];
-      change = 0;
-      for (std::size_t i = 0; i < n; ++i) change = std::max(change, std::fabs(next[i] - received[i]) / next[i]);
-      received = next;
-    }
-    double mean = 0;
-    for (const double e : received) mean += e / double(n);
-    // Rows that are off by their error act as a reflectance that is off by as much; the iterations leave 1e-12 / (1 - rho).
-    const double bound = (row_error + 2e-12) / (1 - rho);
-    out.push_back({"5.8", fmt::format("reflectance {}", rho), kFactors, flux * rho / (area * (1 - rho)), mean, bound, " lx"});
-  }
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct Comparison {
   double ours = 0;
   double bound = 0;          // of the relative difference, derived
   std::string unit = {};     // empty: a factor
-  bool is_estimate = false;  // the bound is not proven, and the page has the difference itself
+  bool is_estimate = false;  // the bound is the renderer's own estimate
 
   double difference() const;  // relative
 };

@@ -19,7 +19,8 @@ here.
 
 - "Exact" is a closed form or quadrature. It shares no code with the library.
 - "Ours" is the library's answer, by the calls of the commands that are named.
-- "Difference" is relative. `< 1e-12` names a derived bound, and the difference is below it.
+- "Difference" is relative. `< 1e-12` names a derived bound (of `render`, its own estimate), and the difference is below it.
+- The test `Cie171.EveryDifferenceIsWithinItsBound` prints the largest difference.
 
 )";
 
@@ -44,6 +45,9 @@ const char* const kRoom = R"(## 5.8: a closed room
 
 A lamp of 10,000 lm in the middle of a room of 4 x 4 x 4 m shines alike in all directions. All sides have one reflectance rho. The mean
 indirect illuminance is flux x rho / (area x (1 - rho)): the formula of the standard. It is exact as a mean.
+
+By `viewfactor`, elements of 1 x 1 m exchange their light. By `render`, the mean is of a picture of one side at 64 x 64 pixels. Its
+difference is within what the picture's layers `bounce_error` and `bounce_bound` say: an estimate.
 
 )";
 
@@ -71,9 +75,8 @@ void add_table(std::string& page, const std::vector<Comparison>& comparisons, st
   page += "| case | geometry | by | exact | ours | difference |\n|---|---|---|--:|--:|--:|\n";
   for (const Comparison& c : comparisons) {
     if (std::find(numbers.begin(), numbers.end(), c.number) == numbers.end()) continue;
-    const bool holds = c.difference() <= c.bound && !c.is_estimate;
-    page += fmt::format("| {} | {} | {} | {:.10g}{} | {:.{}g}{} | {} |\n", c.number, c.geometry, c.way, c.exact, c.unit, c.ours,
-                        c.is_estimate ? 4 : 10, c.unit, holds ? fmt::format("< {:.1e}", c.bound) : fmt::format("{:.1e}", c.difference()));
+    page += fmt::format("| {} | {} | {} | {:.10g}{} | {:.{}g}{} | {} {:.1e} |\n", c.number, c.geometry, c.way, c.exact, c.unit, c.ours,
+                        c.is_estimate ? 4 : 10, c.unit, c.difference() <= c.bound ? "<" : "above", c.bound);
   }
   page += "\n";
 }

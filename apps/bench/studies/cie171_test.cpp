@@ -25,15 +25,18 @@ TEST(Cie171, JudgesHaveTheExactValues) {
 TEST(Cie171, EveryDifferenceIsWithinItsBound) {
   const std::vector<Comparison> all = compare_with_cie171();
   EXPECT_GT(all.size(), 50u);
-  double largest = 0, nearest = 0;
+  double largest = 0, estimated = 0, nearest = 0;
   for (const Comparison& c : all) {
-    if (!c.is_estimate) largest = std::max(largest, c.difference()), nearest = std::max(nearest, c.difference() / c.bound);
+    double& most = c.is_estimate ? estimated : largest;
+    most = std::max(most, c.difference());
+    nearest = std::max(nearest, c.difference() / c.bound);
     EXPECT_LE(c.difference(), c.bound) << c.number << ": " << c.geometry << ", by " << c.way;
-    EXPECT_LT(c.bound, c.is_estimate ? 0.03 : 1e-6);
+    // Without the second bounce and later ones, a fraction rho of the light of 5.8 is missing: at least 0.05. The estimate must find that.
+    EXPECT_LT(c.bound, c.is_estimate ? 0.05 : 1e-6);
     // The derivations of the bounds need this.
     EXPECT_GT(c.exact, c.number == "5.6" ? 1e-3 : c.number == "5.7" ? 0.1 : 1e-3) << c.number << ": " << c.geometry;
   }
-  std::printf("%zu rows, off by at most %.1e, and by at most %.1e of the bound\n", all.size(), largest, nearest);
+  std::printf("%zu rows, off by at most %.1e (render: %.1e), and by at most %.2f of the bound\n", all.size(), largest, estimated, nearest);
 }
 
 }  // namespace steradian::cie171_test
