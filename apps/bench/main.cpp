@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/benches.h"
+#include "bench/studies/cie171.h"
 #include "bench/studies/plane_methods.h"
 #include "bench/studies/table2.h"
 #include "bench_options.h"
@@ -187,6 +188,7 @@ void add_bench(CommandLine& line) {
     if (!options->simd.empty()) setenv("STERADIAN_SIMD", options->simd.c_str(), 1);
     if (options->table2) return print_table2(*options);
     if (options->plane) return fmt::print("{}", plane::plane_methods_text(plane::measure_plane_methods({})));
+    if (options->cie171) return fmt::print("{}", cie171::cie171_page(cie171::compare_with_cie171()));
     if (options->textured) return fmt::print("{}", textured_error_text(measure_textured_error({})));
     if (options->list) {
       const BenchList list = benches_of(*options);

@@ -22,6 +22,7 @@ void add_bench_options(Verb& verb, BenchArguments& arguments) {
       .writes(Writes::folder);
   verb.add_flag("--textured", arguments.textured, "errors of textured lights (docs/theory/ltc.md)").group("Studies");
   verb.add_flag("--plane", arguments.plane, "times and errors of the plane's methods (docs/measured/plane.md)").group("Studies");
+  verb.add_flag("--cie171", arguments.cie171, "cases of CIE 171 against exact values (docs/measured/cie171.md)").group("Studies");
 }
 
 }  // namespace steradian::app

@@ -13,7 +13,7 @@ struct BenchArguments {
   Backend backend = Backend::cpu;
   double min_time = 0.5;
   bool json = false, list = false;
-  bool table2 = false, textured = false, plane = false;
+  bool table2 = false, textured = false, plane = false, cie171 = false;
   std::string figures, base;
   double slower = 0;
 };
