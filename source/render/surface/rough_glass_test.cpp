@@ -136,7 +136,7 @@ TEST(RoughGlass, AThinWallShowsWhatPathsFind) {
 // The blurred edge of a dark panel behind a slab and a ball. The picture's own estimate covers the difference. The noise of 128 paths
 // hides 1.5 %.
 TEST(RoughGlass, ASolidShowsWhatPathsFind) {
-  for (const float roughness : {0.15f, 0.3f})
+  for (const float roughness : {0.15f, 0.3f, 0.5f, 0.8f})
     for (const bool ball : {false, true}) {
       Scene scene = closed_box(0.6f, false);
       scene.materials[0].base_color = {0.8f, 0.5f, 0.3f, 1};
@@ -171,7 +171,8 @@ TEST(RoughGlass, ASolidShowsWhatPathsFind) {
       scene.cameras = {camera_at({0.1, 0.1, 0.9}, {0, -0.05, -1}, 0.3)};
       std::printf("roughness %.2f, %s: ", static_cast<double>(roughness), ball ? "ball" : "slab");
       const Off off = off_from_paths(scene, 128);
-      EXPECT_LT(off.from_paths, off.estimated + 0.015) << roughness;
+      // Wider facets reflect light within, which the lobe leaves out and no estimate covers (docs/glass.md).
+      EXPECT_LT(off.from_paths, roughness < 0.4f ? off.estimated + 0.015 : 0.6) << roughness;
     }
 }
 
