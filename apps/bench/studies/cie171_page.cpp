@@ -13,9 +13,9 @@ const char* const kHead = R"(# Test cases of CIE 171, measured
 
     steradian bench --cie171
 
-CIE 171:2006 has test cases for lighting programs. This command computes cases of its section 5, and prints this page. The geometry of
-each row is in the table. Sizes and points are this project's, except the formula of case 5.8. The tables of the standard are not repeated
-here.
+CIE 171:2006 has test cases for lighting programs. This command computes the kinds of cases of its section 5 that view factors, moments
+and all light answer, and prints this page. Sizes and points are this project's, not the standard's. Only the formula of case 5.8 is the
+standard's. Its tables are not compared.
 
 - "Exact" is a closed form or quadrature. It shares no code with the library.
 - "Ours" is the library's answer, by the calls of the commands that are named.

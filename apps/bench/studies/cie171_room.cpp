@@ -24,7 +24,7 @@ double indirect_of(double rho) { return kFlux * rho / (6.0 * kSide * kSide * (1 
 
 // Elements of 1 x 1 m exchange their light by view factors until nothing is left.
 void add_by_view_factors(std::vector<Comparison>& out) {
-    std::vector<ViewFactorFace> faces;
+  std::vector<ViewFactorFace> faces;
   const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   const auto add = [&](Vec3d corner, Vec3d a, Vec3d b) {
     for (int i = 0; i < kSide; ++i)
