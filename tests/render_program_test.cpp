@@ -6,6 +6,7 @@
 #include "program.h"
 #include "steradian/compare.h"
 #include "steradian/picture.h"
+#include "support/gltf_test_file.h"
 
 namespace steradian::render_program_test {
 namespace {
@@ -315,6 +316,22 @@ TEST_F(Program, RenderSaysOnceThatSurfacesDoNotLightEachOther) {
   EXPECT_EQ(said({"render", room}), 1);
   EXPECT_EQ(said({"render", room, "--indirect", "ltc", "--vpls", "1024"}), 0);
   EXPECT_EQ(said({"render", floor_scene()}), 0) << "a floor alone sends itself no light";
+}
+
+TEST_F(Program, RenderSaysWhereRoughGlassIsSharp) {
+  using nlohmann::json;
+  const auto said = [&](double roughness, const char* bounces) {
+    scene::GltfTestFile f = scene::GltfTestFile::square();
+    f.material()["pbrMetallicRoughness"]["roughnessFactor"] = roughness;
+    f.material()["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
+    f.json["extensionsUsed"] = {"KHR_materials_transmission"};
+    const Outcome r = run({"render", f.write(), "-o", folder / "a.exr", "--size", "32x18", "--bounces", bounces});
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.err.find("rough glass shows a sharp image") != std::string::npos;
+  };
+  EXPECT_TRUE(said(0.5, "0"));
+  EXPECT_FALSE(said(0.5, "all"));
+  EXPECT_FALSE(said(0, "0"));
 }
 
 TEST_F(Program, ExposesPngToMiddleGreyUnlessTold) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/lattices.h"
+#include "render/surface/rough_glass.h"
 
 namespace steradian::app {
 namespace {
@@ -80,10 +81,8 @@ double light_between_surfaces(const Scene& scene) {
 
 void say_direct_only(const Scene& scene, const RenderOptions& options) {
   if (options.bounces != 0) return;
-  constexpr float kSharp = 0.05f;  // a roughness that shows no blur
   const bool rough_glass = std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
-    const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
-    return m.transmission > 0 && m.roughness > kSharp;
+    return RoughGlass::may_blur(scene.materials[static_cast<std::size_t>(mesh.material)]);
   });
   if (rough_glass) fmt::print(stderr, "steradian: rough glass shows a sharp image: --bounces all blurs it\n");
   if (options.indirect.mode != IndirectMode::off || light_between_surfaces(scene) < kMatters) return;

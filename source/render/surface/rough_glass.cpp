@@ -10,6 +10,10 @@ namespace {
 
 constexpr float kSharp = 2.5e-3f;  // alpha below which glass is clear: a roughness of 0.05
 
+bool has_lobe_behind(const SurfaceMaterial& m) {
+  return m.transmission > 0 && !m.unlit && m.specular_override.empty() && m.alpha_mode != AlphaMode::blend;
+}
+
 // A lobe that loses no light: its colour makes up for what facets hide from each other.
 Vec3f lossless(const Surface& lobe, Vec3f view) {
   Material m;
@@ -26,11 +30,9 @@ Vec3f lossless(const Surface& lobe, Vec3f view) {
 
 RoughGlass::RoughGlass(const Scene& scene) : scene_(scene), behind_(scene.materials.size()) {}
 
-bool RoughGlass::blurs(const Surface& s) {
-  const SurfaceMaterial& m = *s.material;
-  return m.transmission > 0 && !m.unlit && m.specular_override.empty() && m.alpha_mode != AlphaMode::blend &&
-         std::max(s.alpha_x, s.alpha_y) > kSharp;
-}
+bool RoughGlass::blurs(const Surface& s) { return has_lobe_behind(*s.material) && std::max(s.alpha_x, s.alpha_y) > kSharp; }
+
+bool RoughGlass::may_blur(const SurfaceMaterial& m) { return has_lobe_behind(m) && m.roughness * m.roughness > kSharp; }
 
 Surface RoughGlass::lobe_of(const Surface& face) const {
   Surface lobe;

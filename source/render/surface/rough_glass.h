@@ -17,6 +17,8 @@ class RoughGlass {
 
   // True if a face blurs what stands behind it.
   static bool blurs(const Surface& face);
+  // True if faces of a material may, by its factors.
+  static bool may_blur(const SurfaceMaterial& material);
 
   // The lobe that a face sends on, and the viewer who sees it.
   struct Lobe {
