@@ -55,7 +55,7 @@ def enable():
 
 
 class Pictures:
-    """An empty, dark scene, and what both engines make of it: direct light, in floats."""
+    """An empty, dark scene, and what both engines make of it: direct light or all light, in floats."""
 
     def __init__(self, folder, samples):
         import bpy
@@ -71,17 +71,23 @@ class Pictures:
         scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
         scene.render.resolution_percentage = 100
         scene.view_settings.view_transform = "Raw"
-        scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.max_bounces, scene.cycles.seed = samples, False, 0, 1
-        scene.world.cycles.max_bounces = 0
-        scene.steradian.indirect = "off"
+        scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.seed = samples, False, 1
+        scene.cycles.sample_clamp_indirect, scene.cycles.diffuse_bounces = 0, 64
+        self.take_bounces(False)
         self.lambertian = []  # materials whose diffuse lobe is Lambert's for Cycles, too, which is glTF's; Principled's is Disney's
+
+    def take_bounces(self, all_light):
+        """All light of diffuse surfaces, or direct light alone."""
+        self.bounces = 64 if all_light else 0
+        self.scene.steradian.indirect = "all" if all_light else "off"
+        self.scene.cycles.max_bounces = self.scene.world.cycles.max_bounces = self.bounces
 
     def render(self, engine, width, height):
         """Its pixels, four numbers each, from below."""
         bpy, scene = self.bpy, self.scene
         scene.render.resolution_x, scene.render.resolution_y = width, height
         for light in bpy.data.lights:
-            light.cycles.max_bounces = 0
+            light.cycles.max_bounces = self.bounces
         for name in self.lambertian:
             self.shade_by(bpy.data.materials[name], "Diffuse BSDF" if engine == "CYCLES" else "Principled BSDF")
         scene.render.engine = engine

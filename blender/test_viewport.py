@@ -57,7 +57,7 @@ class Steps:
         screen = numpy.array(image.pixels[:]).reshape(image.size[1], image.size[0], 4)[:, :, :3]
         region = next(r for r in self.area().regions if r.type == "WINDOW")
         shown = screen[region.y:region.y + region.height, region.x:region.x + region.width]
-        picture = self.found[-1].picture[::-1]
+        picture = self.found[-1].picture[::-1, :, :3]
         srgb = numpy.where(picture > 0.0031308, 1.055 * numpy.maximum(picture, 1e-9) ** (1 / 2.4) - 0.055, 12.92 * picture).clip(0, 1)
         far = []
         for y in range(0, region.height - 32, 32):

@@ -7,7 +7,7 @@ import time
 
 import bpy
 
-from . import program, world
+from . import pictures, program, world
 from .bake import BakeOperator
 from .export import export
 from .viewport import Viewport
@@ -96,6 +96,8 @@ class SteradianEngine(bpy.types.RenderEngine):
                 around = None
             if not self.run(program.render_command(glb, picture, width, height, settings, settings.aa, around)):
                 return
+            # Blender reads no file with more layers, such as those of all light.
+            pictures.write_exr(picture, pictures.read_exr(picture))
             result = self.begin_result(0, 0, width, height)
             result.layers[0].load_from_file(picture)
             self.end_result(result)

@@ -7,7 +7,7 @@ import numpy
 
 
 def read_exr(path):
-    """Red, green and blue of the picture as an array of (height, width, 3) from the top."""
+    """The picture as an array of (height, width, 4) from the top: red, green, blue and alpha. Other layers are left out."""
     with open(path, "rb") as file:
         data = file.read()
     at, attributes = 8, {}
@@ -29,7 +29,7 @@ def read_exr(path):
     if attributes["compression"] != b"\3":
         raise ValueError(f"{path}: not packed by zip, 16 lines a block")
     blocks = struct.unpack_from(f"<{(height + 15) // 16}Q", data, at + 1)
-    picture = numpy.empty((height, width, 3), numpy.float32)
+    picture = numpy.ones((height, width, 4), numpy.float32)
     for block in blocks:
         y, size = struct.unpack_from("<ii", data, block)
         y -= y0
@@ -38,8 +38,9 @@ def read_exr(path):
         whole = lines * len(channels) * width * 4
         values = numpy.frombuffer(packed, numpy.uint8) if size == whole else unpacked(packed, whole)
         values = values.view("<f4").reshape(lines, len(channels), width)
-        for c, name in enumerate("RGB"):
-            picture[y:y + lines, :, c] = values[:, channels.index(name)]
+        for c, name in enumerate("RGBA"):
+            if name in channels:
+                picture[y:y + lines, :, c] = values[:, channels.index(name)]
     return picture
 
 
@@ -54,20 +55,21 @@ def unpacked(packed, size):
 
 
 def write_exr(path, picture):
-    """An array of (height, width, 3) from the top, not packed."""
-    height, width, _ = picture.shape
+    """An array of (height, width, 3 or 4) from the top, not packed."""
+    height, width, channel_count = picture.shape
 
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
 
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    channels = b"".join(name + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    order = "ABGR"[4 - channel_count:]  # by name
+    channels = b"".join(name.encode() + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for name in order) + b"\0"
     header = struct.pack("<ii", 20000630, 2) + b"".join([
         attribute("channels", "chlist", channels), attribute("compression", "compression", b"\0"), attribute("dataWindow", "box2i", box),
         attribute("displayWindow", "box2i", box), attribute("lineOrder", "lineOrder", b"\0"),
         attribute("pixelAspectRatio", "float", struct.pack("<f", 1)), attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0)),
         attribute("screenWindowWidth", "float", struct.pack("<f", 1))]) + b"\0"
-    size = 12 * width
+    size = 4 * channel_count * width
     first = len(header) + 8 * height
     with open(path, "wb") as file:
         file.write(header + struct.pack(f"<{height}Q", *(first + (8 + size) * y for y in range(height))))

@@ -177,8 +177,8 @@ class Viewport:
             return
         if self.texture is None:
             h, w, _ = self.picture.shape
-            pixels = numpy.ones((h, w, 4), numpy.float32)
-            pixels[:, :, :3] = self.picture[::-1]
+            pixels = self.picture[::-1].copy()
+            pixels[:, :, 3] = 1
             self.texture = gpu.types.GPUTexture((w, h), format="RGBA16F", data=gpu.types.Buffer("FLOAT", w * h * 4, pixels.ravel().tolist()))
         gpu.state.blend_set("ALPHA_PREMULT")
         engine.bind_display_space_shader(scene)
