@@ -75,7 +75,7 @@ def inside(folder):
 
     compare(ours, render("CYCLES"), 0.01)
 
-    # What the engine does unasked. A wall beside the floor, so that bounces count.
+    # All light, the default of the engine. A wall beside the floor, so that bounces count.
     bpy.ops.mesh.primitive_plane_add(size=4, location=(1.6, 0.5, 1.5), rotation=(0, -1.4, 0))
     material("wall", (0.2, 0.6, 0.3))
     pictures.lambertian.append("wall")
