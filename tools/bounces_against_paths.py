@@ -42,6 +42,15 @@ def compared(program, ours, paths):
     return numbers
 
 
+def sampled(program, name, kept, light, arguments=(), spp=8192):
+    """The picture by sampling, made where it is not kept yet. light: ["--bounces", "all"], or nothing for direct light."""
+    kept.mkdir(parents=True, exist_ok=True)
+    picture = kept / f"{name}{'' if light else '_direct'}.exr"
+    if not picture.exists():
+        run(program, "render", scene_file(name), "-o", picture, *light, "--method", "sampled", "--spp", str(spp), *SIZE, *arguments)
+    return picture
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default=BUILT / "bin/steradian", help="default: %(default)s")
@@ -56,13 +65,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for name in options.scenes or SCENES:
             arguments, spp = SCENES[name]
-            kept = options.paths or Path(folder)
-            kept.mkdir(parents=True, exist_ok=True)
-            scene, paths = scene_file(name), kept / f"{name}.exr"
-            if not paths.exists():
-                run(options.program, "render", scene, "-o", paths, "--bounces", "all", "--method", "sampled", "--spp", str(spp), *SIZE, *arguments)
+            scene, all_light = scene_file(name), ["--bounces", "all"]
+            paths = sampled(options.program, name, options.paths or Path(folder), all_light, arguments, spp)
             ours, direct = Path(folder) / "bounces.exr", Path(folder) / "direct.exr"
-            run(options.program, "render", scene, "-o", ours, "--bounces", "all", *SIZE, *arguments)
+            run(options.program, "render", scene, "-o", ours, *all_light, *SIZE, *arguments)
             run(options.program, "render", scene, "-o", direct, *SIZE, *arguments)
             with_bounces, without = compared(options.program, ours, paths), compared(options.program, direct, paths)
             shown = f"`{name}`" + "".join(f", `{' '.join(arguments)}`" for _ in arguments[:1])

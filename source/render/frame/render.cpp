@@ -370,6 +370,7 @@ class Renderer {
                         [this] {
                           if (options_.progress) options_.progress(++done_, steps_);
                         }});
+    lighting_.give_up_when([this] { return ms_since(start_) * 1e-3 >= options_.time_limit; });
     arena_.execute([&] { timed.render(threads_); });
     exact_tiles_ = timed.exact_tiles();
     estimated_error_ = timed.estimated_error();

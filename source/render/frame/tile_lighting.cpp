@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include "core/lattices.h"
 #include "render/direct/lobe_packs.h"
 #include "render/frame/uneven_diffuse.h"
 #include "render/surface/gbuffer.h"
@@ -52,6 +54,8 @@ std::vector<std::uint32_t> slots_with_surfaces(const SurfaceTile& tile) {
 // More lights than these share the rays of so many, in proportion to the light that they send to the tile.
 constexpr std::size_t kLightsWithAllRays = 4;
 constexpr std::size_t kFewestRays = 4;  // of a light
+// Beyond these, a few lights in proportion to what they send find the visible fraction of all.
+constexpr std::size_t kLightsOfTheirOwn = 64;
 
 std::size_t rays_by_share(std::size_t rays, double share) {
   const auto half = static_cast<std::size_t>(share * static_cast<double>(kLightsWithAllRays * rays) / 2);
@@ -97,7 +101,10 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
       work_([] { return std::make_shared<Work>(); }) {
   if (options.shadows != Shadows::off && !method.estimates()) shadows_.emplace(scene, lights, parts, options.shadows);
   area_lights_ = static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), [](const PackLight& l) { return l.is_area(); }));
-  if (shadows_ && (options.time_limit > 0 || options.bounces != 0 || may_estimate())) few_rays_.emplace(*rays_, lights);
+  if (shadows_ && (options.time_limit > 0 || options.bounces != 0 || may_estimate())) {
+    few_rays_.emplace(*rays_, lights);
+    if (area_lights_ > kLightsOfTheirOwn) choice_.emplace(lights);
+  }
 }
 
 bool TileLighting::may_estimate() const {
@@ -163,22 +170,28 @@ void TileLighting::add_shadowed_by_rays(SurfaceTile& tile, const std::vector<con
 
 void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample, Work& work,
                                EstimatedShadows& estimate) {
+  const auto areas = static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), [](const PackLight* l) { return l->is_area(); }));
+  const bool by_chosen = areas > kLightsOfTheirOwn;
   TilePoints points;
   shadow_clock_.run([&] {
     points = points_for_shadows(tile, *rays_, options_.terminator);
-    shadows_->find_open(points, lights, work.open);
+    if (!by_chosen) shadows_->find_open(points, lights, work.open);
   });
-  std::vector<const PackLight*> plain, punctual;
+  std::vector<const PackLight*> plain, punctual, chosen_from;
   std::vector<WholeLight>& whole = work.whole;
   whole.clear();
   for (const PackLight* light : lights) {
-    if (work.open.open[light->index] != 0)
-      plain.push_back(light);
-    else if (light->is_area())
-      whole.emplace_back().light = light;
-    else
+    if (!light->is_area())
       punctual.push_back(light);  // one ray decides
+    else if (by_chosen)
+      chosen_from.push_back(light);
+    else if (work.open.open[light->index] != 0)
+      plain.push_back(light);
+    else
+      whole.emplace_back().light = light;
   }
+  if (by_chosen) add_by_chosen(tile, points, chosen_from, kLightsWithAllRays * rays, sample, work, estimate);
+  if (by_chosen) whole.clear();
   const std::vector<std::uint32_t> slots = find_whole(tile, work);
   double sum = 0;
   for (const WholeLight& w : whole) sum += w.sum;
@@ -190,6 +203,42 @@ void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLi
   }
   for (const PackLight* light : add_past_blockers(tile, punctual, work)) plain.push_back(light);
   if (!plain.empty()) add(tile, plain);
+}
+
+// The light of all without occluders, times the visible fraction of a few.
+void TileLighting::add_by_chosen(SurfaceTile& tile, const TilePoints& points, const std::vector<const PackLight*>& lights,
+                                 std::size_t count, int sample, Work& work, EstimatedShadows& estimate) {
+  Box3f positions;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i)
+    if (tile.material[i] != nullptr) positions.add(get(tile.position, i));
+  const double turn = 0.5 + kGolden * sample;
+  const std::vector<LightChoice::Chosen> chosen = choice_->choose(lights, positions, count, turn - std::floor(turn));
+  work.whole.clear();
+  for (const LightChoice::Chosen& c : chosen) work.whole.emplace_back().light = c.light;
+  const std::vector<std::uint32_t> slots = find_whole(tile, work);
+
+  const TileVector before = std::exchange(tile.radiance, {});
+  add(tile, lights);
+  const TileVector all = std::exchange(tile.radiance, before);
+
+  std::array<std::array<double, 2>, kTilePixels> seen{}, sent{};  // by half
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const WholeLight& whole = work.whole[k];
+    if (!(whole.sum > 0)) continue;
+    const std::size_t rays = std::min(chosen[k].times, FewRays::kMost);
+    shadow_clock_.run([&] { few_rays_->find(tile, points, *whole.light, rays, sample, work.fractions); });
+    for (const std::uint32_t i : slots) {
+      const double light = luminance(static_cast<Vec3d>(whole.all[i])) * chosen[k].weight * static_cast<double>(chosen[k].times);
+      sent[i][k % 2] += light;
+      seen[i][k % 2] += light * static_cast<double>(work.fractions.visible[i]);
+    }
+  }
+  for (const std::uint32_t i : slots) {
+    const auto ratio = [](double part, double whole) { return static_cast<float>(whole > 0 ? part / whole : 1.0); };
+    work.fractions.visible[i] = ratio(seen[i][0] + seen[i][1], sent[i][0] + sent[i][1]);
+    work.fractions.half_difference[i] = 0.5f * (ratio(seen[i][0], sent[i][0]) - ratio(seen[i][1], sent[i][1]));
+    add_estimated(tile, i, get(all, i), work.fractions, estimate);
+  }
 }
 
 std::vector<const PackLight*> TileLighting::hand_over_shadows(SurfaceTile& tile, const std::vector<const PackLight*>& lights,
@@ -219,6 +268,7 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
       plain.push_back(light);
       continue;
     }
+    if (is_late_ && light->is_area() && is_late_()) return {};
     shadow_clock_.run([&] { shadows_->find(tile, points, *light, work.shadow, work.counts, taker); });
     if (work.shadow.is_plain() && !light->is_pieces()) {
       plain.push_back(light);

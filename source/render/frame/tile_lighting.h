@@ -3,12 +3,15 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "render/frame/methods.h"
 #include "render/frame/specular.h"
+#include "render/lights/light_choice.h"
 #include "render/lights/light_list.h"
 #include "render/many/many_light_pass.h"
 #include "render/shadow/few_rays.h"
@@ -33,6 +36,8 @@ class TileLighting {
                const SceneParts& parts, ManyLightPass* many_lights);
 
   bool has_shadows() const { return shadows_.has_value(); }
+  // Exact shadows of a tile stop when is_late() becomes true: the tile then lacks light. It may be called from any thread.
+  void give_up_when(std::function<bool()> is_late) { is_late_ = std::move(is_late); }
   // True if the shadows of dim lights may be estimated (RenderOptions::shadow_error).
   bool may_estimate() const;
 
@@ -73,6 +78,8 @@ class TileLighting {
   void with_coats(SurfaceTile& tile, Work& work, Add add);
   void add_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample, Work& work,
                    EstimatedShadows& estimate);
+  void add_by_chosen(SurfaceTile& tile, const TilePoints& points, const std::vector<const PackLight*>& lights, std::size_t count,
+                     int sample, Work& work, EstimatedShadows& estimate);
   std::vector<std::uint32_t> find_whole(const SurfaceTile& tile, Work& work);
   void add_whole(SurfaceTile& tile, const PackLight& light, Work& work);
   void add_parts(SurfaceTile& tile, const PackLight& light, Work& work);
@@ -89,7 +96,9 @@ class TileLighting {
   const std::shared_ptr<const RayScene> rays_;
   std::optional<ShadowPass> shadows_;
   std::optional<FewRays> few_rays_;  // only where time is limited, for patches, and for dim lights
+  std::optional<LightChoice> choice_;
   std::size_t area_lights_ = 0;
+  std::function<bool()> is_late_;  // empty: never
   tbb::enumerable_thread_specific<std::shared_ptr<Work>> work_;
   PassClock direct_clock_{"direct"}, specular_clock_{"specular"}, shadow_clock_{"shadows"};
 };

@@ -1,11 +1,15 @@
 // Pictures within a time limit: whatever the time allows, the layer "shadow_bound" holds, and enough time gives the exact picture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "paths.h"
+#include "render/lights/light_choice.h"
 #include "render/shadow/few_rays.h"
+#include "steradian/area_light.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 #include "support/meshes.h"
@@ -104,6 +108,91 @@ TEST(ShadowError, EveryPixelIsWithinItsBoundAndTheBoundWithinTheError) {
     EXPECT_GT(stats.shadows_estimated, estimated);  // a larger error leaves more to rays
     estimated = stats.shadows_estimated;
   }
+}
+
+// A net of lights of different radiance and kind over boxes.
+Scene scene_of_many_lights() {
+  Scene scene = scene_of_dim_lights();
+  scene.area_lights.clear();
+  for (int i = 0; i < 400; ++i) {
+    AreaLight light;
+    const Vec3d at{0.3 * (i % 20) - 3, 2, 0.3 * (i / 20) - 3};
+    if (i % 3 == 0)
+      light.shape = Ellipsoid{at, {0.05, 0, 0}, {0, 0.05, 0}, {0, 0, 0.05}};
+    else
+      light.shape = Ellipse{at, {0.05, 0, 0}, {0, 0, 0.05}};
+    light.two_sided = i % 3 == 1;
+    const double radiance = 1 + i % 7;
+    light.radiance = {radiance, radiance, 0.5 * radiance};
+    scene.area_lights.push_back(std::move(light));
+  }
+  return scene;
+}
+
+// 16 lights of each tile in the first picture, more where there is time. With the lights' order reversed, others are met.
+TEST(TimeLimit, AFewOfManyLightsFindTheShadowsOfAll) {
+  Scene scene = scene_of_many_lights();
+  for (const bool reversed : {false, true}) {
+    if (reversed) std::reverse(scene.area_lights.begin(), scene.area_lights.end());
+    RenderStats stats;
+    const Picture exact = picture_of(scene, 0, stats);
+    const Picture limited = picture_of(scene, 0.5e-3 * stats.total_ms, stats);
+    ASSERT_LT(stats.exact_tiles, 0.9);
+    const std::vector<Vec3f>&bound = limited.layers.at("shadow_bound"), &sum_bound = limited.layers.at("light_bound");
+    double difference = 0, light = 0, shadow = 0;
+    const Picture bright = [&] {
+      RenderOptions options;
+      options.width = 160;
+      options.height = 90;
+      options.aa = 2;
+      options.shadows = Shadows::off;
+      return render(scene, options, nullptr);
+    }();
+    for (std::size_t i = 0; i < bound.size(); ++i) {
+      const Vec3f a = limited.pixels[i], b = exact.pixels[i];
+      for (const auto [value, truth, of, sum] : {std::array{a.x, b.x, bound[i].x, sum_bound[i].x},
+                                                 {a.y, b.y, bound[i].y, sum_bound[i].y},
+                                                 {a.z, b.z, bound[i].z, sum_bound[i].z}})
+        ASSERT_LE(std::fabs(value - truth), of * 1.01f + 2 * sum + 1e-5f) << i;
+      difference += std::pow(luminance(static_cast<Vec3d>(a - b)), 2);
+      shadow += std::pow(luminance(static_cast<Vec3d>(bright.pixels[i] - b)), 2);
+      light += luminance(static_cast<Vec3d>(a));
+    }
+    const auto pixels = static_cast<double>(bound.size());
+    const double rms = std::sqrt(difference / pixels) / (light / pixels), all = std::sqrt(shadow / pixels) / (light / pixels);
+    std::printf("%.0f %% exact, true error %.3f %%, estimated %.3f %%, without shadows %.1f %%\n", 100 * stats.exact_tiles, 100 * rms,
+                100 * stats.estimated_shadow_error, 100 * all);
+    // The estimate is half the difference of two halves, whose own relative error is large; over all pixels it holds to a factor of two.
+    EXPECT_LT(rms, 2 * stats.estimated_shadow_error);
+    EXPECT_LT(rms, 0.5 * all);  // 8 or more rays of a pixel know the fraction to a sixth or better
+  }
+}
+
+// Equal lights at equal distances are met in turn, and any sum over lights of what they send is a sum over the chosen.
+TEST(LightChoice, ChosenLightsStandForAll) {
+  Scene scene = scene::floor_scene(SurfaceMaterial{}, 3, {0, 3, 5});
+  for (int i = 0; i < 12; ++i) {
+    AreaLight light;
+    const double angle = i * std::numbers::pi / 6;
+    light.shape = Ellipsoid{{2 * std::cos(angle), 0, 2 * std::sin(angle)}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
+    light.radiance = Vec3d{1, 1, 1} * (i < 6 ? 1.0 : 3.0);
+    scene.area_lights.push_back(std::move(light));
+  }
+  const std::vector<PackLight> lights = prepare_lights(scene);
+  std::vector<const PackLight*> pointers;
+  for (const PackLight& light : lights) pointers.push_back(&light);
+  Box3f around;
+  around.add(Vec3f{-0.1f, -0.1f, -0.1f});
+  around.add(Vec3f{0.1f, 0.1f, 0.1f});
+  const LightChoice choice(lights);
+  const auto chosen = choice.choose(pointers, around, 24, 0.5);
+  ASSERT_EQ(chosen.size(), 12u);
+  double sum = 0;
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(chosen[i].times, i < 6 ? 1u : 3u);  // 24 steps over 6 + 18 parts
+    sum += chosen[i].weight * static_cast<double>(chosen[i].times) / 24 * chosen[i].light->area->radiance.x;
+  }
+  EXPECT_NEAR(sum, 24, 1e-9);  // 6 lights of 1 and 6 of 3
 }
 
 // A wall hides half of each kind of light from the floor's middle.

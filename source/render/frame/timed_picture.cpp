@@ -64,7 +64,9 @@ void TimedPicture::improve(const std::vector<int>& order, ShadowWork work, doubl
       // No limit holds for the first picture, but its last tiles go without shadows.
       const bool late = begun > limit_;
       clear_area(tiles_.area(index), scratch_);
-      errors_[tile] = tiles_.render(index, late ? ShadowWork{ShadowsBy::nothing} : work, scratch_);
+      const double error = tiles_.render(index, late ? ShadowWork{ShadowsBy::nothing} : work, scratch_);
+      if (work.by == ShadowsBy::edges && tiles_.seconds() >= limit_) break;  // the tile may have given up
+      errors_[tile] = error;
       copy_area(tiles_.area(index), scratch_, picture_);
       exact_[tile] = work.by == ShadowsBy::edges;
       const double took = tiles_.seconds() - begun;
