@@ -110,6 +110,8 @@ TEST_F(Program, PartsOfABakedMapAddUp) {
   EXPECT_NE(lacks.err.find("one of 2 parts"), std::string::npos) << lacks.err;
   const Outcome twice = run({"merge", folder / "1.exr", folder / "1.exr", "-o", merged});
   EXPECT_NE(twice.err.find("once more"), std::string::npos) << twice.err;
+  const Outcome as_picture = run({"merge", folder / "1.exr", folder / "2.exr", "-o", folder / "picture.exr"});
+  EXPECT_NE(as_picture.err.find("no part of a picture"), std::string::npos) << as_picture.err;
   const Outcome none = run({"merge", folder / "whole.exr", "-o", merged});
   EXPECT_NE(none.err.find("no part"), std::string::npos) << none.err;
 }

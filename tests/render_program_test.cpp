@@ -1,4 +1,5 @@
 // `steradian render` and `diff` as processes: pictures, statistics, exit codes, no half-written files.
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -54,6 +55,56 @@ TEST_F(Program, RenderGivesTheSameBytesAtOneAndTwoThreads) {
     EXPECT_FALSE(one.empty());
     EXPECT_TRUE(one == picture("2")) << method;
   }
+}
+
+// 3 x 2 squares, of which each part has two or one: the merged file has the bytes of one run.
+TEST_F(Program, PartsOfAPictureAreThePicture) {
+  const std::string scene = test::kSourceDir + "/scenes/cornell.glb";
+  const auto render = [&](const std::string& out, std::vector<std::string> settings, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"render", scene, "-o", out, "--size", "300x200", "--threads", "2"};
+    arguments.insert(arguments.end(), settings.begin(), settings.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 0) << r.err;
+  };
+  const std::vector<std::vector<std::string>> kinds = {{"--aa", "2"},
+                                                       {"--method", "sampled", "--spp", "2", "--bounces", "2"},
+                                                       {"--bounces", "all", "--reflections", "0", "--quality", "draft"},
+                                                       {"--shadows", "off", "--lights", "tree"}};
+  for (const std::vector<std::string>& kind : kinds) {
+    std::vector<std::string> merge = {"merge"};
+    for (const std::string k : {"4", "2", "1", "3"}) {
+      merge.push_back(folder / (k + ".exr"));
+      render(merge.back(), kind, {"--part", k + "/4"});
+    }
+    for (const std::string ending : {".exr", ".png"}) {
+      if (ending == ".png" && &kind != &kinds.front()) continue;
+      const std::string whole = folder / ("whole" + ending), merged = folder / ("merged" + ending);
+      render(whole, kind, {});
+      std::vector<std::string> arguments = merge;
+      arguments.insert(arguments.end(), {"-o", merged});
+      const Outcome r = run(arguments);
+      ASSERT_EQ(r.status, 0) << r.err;
+      EXPECT_TRUE(contents(whole) == contents(merged)) << kind.front() << ending;
+    }
+  }
+  EXPECT_FALSE(read_picture(folder / "1.exr").pixels == read_picture(folder / "merged.exr").pixels);
+
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+    arguments.insert(arguments.end(), {"-o", folder / "none.exr"});
+    const Outcome r = run(arguments);
+    EXPECT_NE(r.status, 0);
+    EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "none.exr"));
+  };
+  refused({"merge", folder / "1.exr", folder / "2.exr", folder / "4.exr"}, "part 3 is missing");
+  refused({"merge", folder / "1.exr", folder / "1.exr"}, "once more");
+  refused({"merge", folder / "merged.exr"}, "no part");
+  render(folder / "other.exr", {"--seed", "2"}, {"--part", "2/4"});
+  refused({"merge", folder / "1.exr", folder / "other.exr"}, "other settings");
+  refused({"render", scene, "--part", "5/4"}, "not k/n");
+  refused({"render", scene, "--part", "1/4", "--bounces", "all"}, "--reflections 0");
+  refused({"render", scene, "--part", "1/4", "--time-limit", "1"}, "--time-limit");
 }
 
 TEST_F(Program, RendersOnVulkanWhatTheCpuDoesAndSaysWhatTheHostHasDone) {

@@ -269,19 +269,18 @@ def error(options, name, folder):
 
 
 def equal(pictures, name, seconds, peer, cycles, mine, kept, folder):
-    """Both pictures at equal processor time."""
+    """Both pictures at equal processor time: ours on the left, Cycles' on the right."""
     import png_files
 
     slope = (peer.seconds(TIMED[1]) - peer.seconds(TIMED[0])) / (TIMED[1] - TIMED[0])
     samples = max(1, round((seconds - peer.seconds(0)) / slope))
     theirs, used = cycles.render(samples, 3, Path(folder) / "cycles.exr")
     lit = mine[kept].mean(axis=1)
-    scale = 0.25 / lit[lit > 0].mean()
+    middle = mine.shape[1] // 2
+    light = (cycles.numpy.concatenate([mine[:, :middle], theirs[:, middle:]], axis=1) * 0.25 / lit[lit > 0].mean()).clip(0, 1)
+    srgb = cycles.numpy.where(light > 0.0031308, 1.055 * cycles.numpy.maximum(light, 1e-9) ** (1 / 2.4) - 0.055, 12.92 * light)
     Path(pictures).mkdir(parents=True, exist_ok=True)
-    for kind, picture in (("ours", mine), ("cycles", theirs)):
-        light = (picture * scale).clip(0, 1)
-        srgb = cycles.numpy.where(light > 0.0031308, 1.055 * cycles.numpy.maximum(light, 1e-9) ** (1 / 2.4) - 0.055, 12.92 * light)
-        png_files.write_png(Path(pictures) / f"{name}-{kind}.png", [row.tobytes() for row in (srgb * 255 + 0.5).astype("uint8")])
+    png_files.write_png(Path(pictures) / f"{name}.png", [row.tobytes() for row in (srgb * 255 + 0.5).astype("uint8")])
     print(f"EQUAL {name}: {samples} samples of Cycles in {used:.2f} s, ours {seconds:.2f} s", flush=True)
 
 
@@ -305,7 +304,7 @@ def parsed(arguments):
     parser.add_argument("--size", default="1280x720", help="default: %(default)s")
     parser.add_argument("--bounces", choices=["all"], help="all light; default: direct light")
     parser.add_argument("--samples", default="16,64,256,1024", help="a pixel, of Cycles and of our sampling; default: %(default)s")
-    parser.add_argument("--pictures", help="folder for both pictures at equal processor time; default: none")
+    parser.add_argument("--pictures", help="folder for a picture of both at equal processor time; default: none")
     parser.add_argument("--paths", help="folder that keeps the references; default: none")
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
     return parser.parse_args(arguments)

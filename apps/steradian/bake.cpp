@@ -17,6 +17,7 @@
 #include "core/simd.h"
 #include "core/words.h"
 #include "render/picture_options.h"
+#include "part.h"
 #include "steradian/version.h"
 #include "command_line.h"
 #include "verbs.h"
@@ -66,11 +67,10 @@ std::string settings_of(const BakeArguments& options) {
 
 void parse_part(BakeArguments& options) {
   if (options.part.empty()) return;
-  int used = 0;
+  const Part part = part_named(options.part);
   bake::BakeOptions& bake = options.bake;
-  if (std::sscanf(options.part.c_str(), "%zu/%zu%n", &bake.part, &bake.parts, &used) != 2 ||
-      static_cast<std::size_t>(used) != options.part.size() || bake.part < 1 || bake.part > bake.parts || bake.parts > 1'000'000)
-    throw WrongOption("--part", "'" + options.part + "' is not k/n with k from 1 to n");
+  bake.part = static_cast<std::size_t>(part.number);
+  bake.parts = static_cast<std::size_t>(part.count);
   if (bake.target == bake::BakeTarget::vertex) throw WrongOption("--part", "is for --target texture");
   if (!options.groups.empty()) throw WrongOption("--part", "is for one map, not for --group");
 }

@@ -20,6 +20,8 @@
 #include "exchange/files/unfinished.h"
 #include "exchange/files/vs3.h"
 #include "merge_maps.h"
+#include "part.h"
+#include "render/merge_pictures.h"
 #include "steradian/error.h"
 #include "steradian/version.h"
 #include "steradian/view_factors.h"
@@ -80,21 +82,6 @@ SceneFaces load_faces(const std::string& path, const ViewFactorArguments& argume
   warn(path, faces.warnings);
   if (faces.faces.empty()) throw Error(path, "the scene has no faces", "export meshes with triangles");
   return faces;
-}
-
-void parse_part(const std::string& text, RunFacts& run) {
-  const std::size_t slash = text.find('/');
-  try {
-    std::size_t used = 0, used_all = 0;
-    if (slash != std::string::npos) {
-      run.part = std::stoi(text.substr(0, slash), &used);
-      run.parts = std::stoi(text.substr(slash + 1), &used_all);
-    }
-    if (slash != std::string::npos && used == slash && used_all == text.size() - slash - 1 && run.part >= 1 && run.part <= run.parts)
-      return;
-  } catch (const std::exception&) {  // continues with the message below
-  }
-  throw WrongOption("--part", "'" + text + "' is not k/n with k from 1 to n");
 }
 
 // Sentences about rows that a user should look at, with the name of the worst one.
@@ -191,7 +178,9 @@ void compute(const ViewFactorArguments& arguments) {
   stored.run.version = version();
   stored.run.eps = arguments.eps;
   stored.run.obstruction = !arguments.no_obstruction;
-  parse_part(arguments.part, stored.run);
+  const Part part = part_named(arguments.part);
+  stored.run.part = part.number;
+  stored.run.parts = part.count;
   if (stored.run.parts > 1 && arguments.close) throw WrongOption("--close", "needs the whole matrix; merge the parts first");
   if (stored.run.parts > 1 && arguments.by != "face") throw WrongOption("--by", "needs the whole matrix; parts are by face");
   if (stored.run.parts > 1 && arguments.output.ends_with(".mtx")) throw WrongOption("-o", "a part is written as .npz");
@@ -343,7 +332,10 @@ struct MergeArguments {
 };
 
 void merge(const MergeArguments& arguments) {
-  if (arguments.parts[0].ends_with(".exr")) return merge_maps(arguments.parts, arguments.output, arguments.limits);
+  if (arguments.parts[0].ends_with(".exr"))
+    return arguments.output.ends_with(".exr") || arguments.output.ends_with(".png")
+               ? merge_pictures(arguments.parts, arguments.output, arguments.limits)
+               : merge_maps(arguments.parts, arguments.output, arguments.limits);
   check_factors_name(arguments.output);
   Budget budget(arguments.limits);
   StoredRun all;
@@ -396,10 +388,12 @@ void add_viewfactor(CommandLine& line) {
 
 void add_merge(CommandLine& line) {
   auto a = std::make_shared<MergeArguments>();
-  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor --part or bake --part");
+  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor, bake or render with --part");
   verb.group("View factors");
-  verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake)").required();
-  verb.add("-o,--output", a->output, "view factors (.npz, .mtx), or the baked scene (.glb, .gltf)").required().writes(Writes::file);
+  verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake or render)").required();
+  verb.add("-o,--output", a->output, "view factors (.npz, .mtx), the baked scene (.glb, .gltf), or the picture (.exr, .png)")
+      .required()
+      .writes(Writes::file);
   verb.add_limits(a->limits);
   verb.callback([a] { merge(*a); });
 }

@@ -31,6 +31,18 @@ enum class LightSum { automatic, all, tree };
 // A missing device is an Error.
 enum class Backend { cpu, vulkan };
 
+// One of several parts of a picture: every `count`-th of its squares of 128 x 128 pixels, row by row.
+struct PicturePart {
+  static constexpr int kSide = 128;
+  int number = 1;  // from 1 on
+  int count = 1;
+
+  bool holds(int x, int y, int width) const {
+    const std::int64_t across = (width + kSide - 1) / kSide;
+    return (y / kSide * across + x / kSide) % count == number - 1;
+  }
+};
+
 struct RenderOptions {
   int width = 1280;
   int height = 720;
@@ -61,7 +73,8 @@ struct RenderOptions {
   bool bounce_strict = false;   // with bounces: each pixel gathers by itself, in 16 times the directions
   int reflections = 2;          // with bounces: number of mirrors in a row that show what they face
   bool bounce_preview = false;  // with bounces: 2,000 patches and 16 directions a pixel, for pictures that are shown for a moment
-  IndirectOptions indirect;     // one bounce, at the first primary sample of each pixel; see indirect.h
+  PicturePart part;          // the rest of the picture stays black; on the CPU, without `indirect`, mirrors of bounces and a limit of time
+  IndirectOptions indirect;  // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;
   Backend backend = Backend::cpu;
   std::string device;  // for vulkan: part of its name, or its number in `steradian info`; empty: the first

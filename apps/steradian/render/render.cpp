@@ -15,7 +15,9 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/simd.h"
+#include "part.h"
 #include "render/direct_only.h"
+#include "render/part_facts.h"
 #include "render/picture_options.h"
 #include "render/render_frames.h"
 #include "render/render_plane.h"
@@ -33,7 +35,8 @@ namespace {
 constexpr const char* kDefaultSize = "1280x720";
 
 struct RenderArguments {
-  std::string scene, output, size = kDefaultSize, indirect_shadows = "off", stats, exposure = "auto", bounces = "0", frames, animation;
+  std::string scene, output, size = kDefaultSize, indirect_shadows = "off", stats, exposure = "auto", bounces = "0", frames, animation,
+                             part;
   double fps = 24;
   bool force = false, multiple_scattering = false, spp_given = false, resume = false;
   std::vector<std::string> lights;
@@ -103,7 +106,7 @@ bool samples(const RenderArguments& options) {
   return r.method == "reference" || r.method == "sampled" || r.indirect.mode == IndirectMode::path;
 }
 
-// Everything that the picture depends on.
+// Everything that the picture depends on, for renders that may be interrupted.
 std::string identity_of(const RenderArguments& options, const Scene& scene) {
   const RenderOptions& r = options.render;
   const LoadOptions& load = options.load;
@@ -118,6 +121,14 @@ std::string identity_of(const RenderArguments& options, const Scene& scene) {
                      words::name_of(r.indirect.mode), r.indirect.virtual_lights, options.indirect_shadows, r.indirect.kept_pairs,
                      words::name_of(r.indirect.quads), words::name_of(r.indirect.soften), options.size, r.aa, r.spp, r.target_error,
                      r.seed);
+}
+
+// The same for any render.
+std::string settings_of(const RenderArguments& options, const Scene& scene) {
+  const RenderOptions& r = options.render;
+  return identity_of(options, scene) + fmt::format(" | peak {} {} | lights {} {} | shadow error {} | bounce error {} {} reflections {}",
+                                                   words::name_of(r.peak_form), r.early_stop, words::name_of(r.lights), r.light_error,
+                                                   r.shadow_error, r.bounce_error, r.bounce_strict, r.reflections);
 }
 
 // Renders the picture. The error for running out of memory gives the picture and its size.
@@ -158,6 +169,13 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--animation", !options.frames.empty(), "--frames"},
        {"--force", !options.frames.empty(), "--frames"},
        {"--stats", options.frames.empty(), "one picture, not --frames"},
+       {"--part", options.frames.empty(), "one picture; frames that exist are left out, so machines can share a sequence"},
+       {"--part", r.indirect.mode == IndirectMode::off, "no --indirect"},
+       {"--part", r.backend == Backend::cpu, "--backend cpu"},
+       {"--part", r.time_limit == 0, "no --time-limit"},
+       {"--part", options.output.ends_with(".exr"), "-o FILE.exr; steradian merge joins the parts"},
+       {"--part", options.bounces == "0" || samples || r.method == "reference" || r.reflections == 0,
+        "--bounces with --reflections 0, since mirrors blur over the whole picture"},
        {"--bounces", r.indirect.mode == IndirectMode::off, "no --indirect"},
        {"--bounce-error", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--bounce-strict", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
@@ -173,11 +191,11 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  verb.refuse({"--quality",    "--table",        "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
-               "--indirect",   "--vpls",         "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
-               "--max-lights", "--light",        "--lights",           "--light-error",    "--environment",    "--environment-rotation",
-               "--background", "--light-units",  "--camera",           "--target-error",   "--resume",         "--animation",
-               "--time-limit", "--bounce-error", "--bounce-strict",    "--reflections",    "--shadow-error"},
+  verb.refuse({"--quality",    "--table",       "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
+               "--indirect",   "--vpls",        "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
+               "--max-lights", "--light",       "--lights",           "--light-error",    "--environment",    "--environment-rotation",
+               "--background", "--light-units", "--camera",           "--target-error",   "--resume",         "--animation",
+               "--time-limit", "--part",        "--bounce-error",     "--bounce-strict",  "--reflections",    "--shadow-error"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -239,6 +257,10 @@ void run(const Verb& verb, RenderArguments& options) {
   load.near_origin = true;
   load.aspect = static_cast<double>(render_options.width) / render_options.height;
   for (const std::string& light : options.lights) load.lights.push_back(*words::find<AddedLight>(light));
+  if (!options.part.empty()) {
+    const Part part = part_named(options.part);
+    render_options.part = {part.number, part.count};
+  }
   if (!options.frames.empty())
     return render_scene_frames({options.scene, options.output, frame_range(options.frames), options.fps, options.animation, options.force,
                                 load, render_options, fixed_exposure, options.tone, options.multiple_scattering});
@@ -266,7 +288,7 @@ void run(const Verb& verb, RenderArguments& options) {
   RenderStats stats;
   std::optional<StopSignals> signals;
   if (samples(options)) render_options.stop = &signals.emplace().asked();
-  const std::string identity = samples(options) ? identity_of(options, loaded.scene) : std::string();
+  const std::string identity = samples(options) ? identity_of(options, loaded.scene) + options.part : std::string();
   RenderState state = options.resume ? read_state(identity, options.output) : RenderState{};
   Picture picture = rendered(loaded.scene, options, stats, state);
   progress.reset();
@@ -313,12 +335,17 @@ void run(const Verb& verb, RenderArguments& options) {
                       {"steradian.seed", std::to_string(render_options.seed)},
                       {"steradian.exposure", fmt::format("{}", exposure)},
                       {"steradian.tone", name_of(options.tone)}};
-  if (stats.shadows_estimated > 0) picture.metadata["steradian.shadow_error"] = fmt::format("{}", render_options.shadow_error);
+  if (render_options.shadow_error > 0) picture.metadata["steradian.shadow_error"] = fmt::format("{}", render_options.shadow_error);
   if (render_options.time_limit > 0) {
     picture.metadata["steradian.exact_tiles"] = fmt::format("{}", stats.exact_tiles);
     picture.metadata["steradian.estimated_shadow_error"] = fmt::format("{}", stats.estimated_shadow_error);
   }
   if (stats.light_tree) picture.metadata["steradian.light_error"] = fmt::format("{}", render_options.light_error);
+  if (!options.part.empty()) {
+    picture.metadata["steradian.part"] = options.part;
+    picture.metadata[part_facts::kSettings] = settings_of(options, loaded.scene);
+    if (!fixed_exposure) picture.metadata["steradian.exposure"] = part_facts::kAutoExposure;
+  }
   write_picture(picture, options.output, exposure, options.tone);
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
   stats.total_ms += load_ms;
@@ -385,6 +412,7 @@ void add_render(CommandLine& line) {
   verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--time-limit", r.time_limit, "seconds for the picture; 0: no limit").range(0.0, 1e6).group("Machine");
+  verb.add("--part", options->part, "k/n: render one of n parts to an .exr; steradian merge joins them").group("Machine");
   verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").writes(Writes::file).group("Machine");
 
   verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");

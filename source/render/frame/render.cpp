@@ -184,6 +184,8 @@ class Renderer {
     if (state.done.empty()) {
       picture = Picture(options_.width, options_.height);
       state.done.assign(tiles, 0);
+      for (int index = 0; index < tile_count(); ++index)
+        if (!options_.part.holds(area(index).x, area(index).y, options_.width)) state.done[static_cast<std::size_t>(index)] = 1;
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
       if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
       if (is_limited() || lighting_.may_estimate()) picture.layers["shadow_bound"].resize(picture.pixels.size());
@@ -216,7 +218,7 @@ class Renderer {
   // Calls work(tiles) for squares of tiles.
   template <class Work>
   void each_block(Work work) {
-    constexpr int kSide = 4;
+    constexpr int kSide = PicturePart::kSide / kTileSide;
     const int across = surfaces_.tiles_across(), down = tile_count() / std::max(across, 1);
     const int blocks_across = (across + kSide - 1) / kSide, blocks_down = (down + kSide - 1) / kSide;
     arena_.execute([&] {

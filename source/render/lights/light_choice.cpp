@@ -26,7 +26,8 @@ LightChoice::LightChoice(const std::vector<PackLight>& lights) {
       source.area = std::numbers::pi * length(normal);
     } else if (const auto* ellipsoid = std::get_if<Ellipsoid>(&area.shape)) {
       source.center = ellipsoid->center;
-      source.area = std::numbers::pi * std::max({dot(ellipsoid->x, ellipsoid->x), dot(ellipsoid->y, ellipsoid->y), dot(ellipsoid->z, ellipsoid->z)});
+      source.area =
+          std::numbers::pi * std::max({dot(ellipsoid->x, ellipsoid->x), dot(ellipsoid->y, ellipsoid->y), dot(ellipsoid->z, ellipsoid->z)});
     } else if (const auto* tube = std::get_if<Capsule>(&area.shape)) {
       source.center = (tube->end_a + tube->end_b) * 0.5;
       source.area = tube->radius * (2 * length(tube->end_b - tube->end_a) + std::numbers::pi * tube->radius);
