@@ -155,7 +155,7 @@ class Figures:
         with tempfile.TemporaryDirectory() as folder:
             run = subprocess.run(self.command(entry, folder), shell=True, cwd=ROOT, capture_output=True, text=True)
             if run.returncode != 0:
-                return [f"the command failed: {run.stderr.strip()[-300:]}"]
+                return [f"the command failed with {run.returncode}: {(run.stderr.strip() or run.stdout.strip())[-300:]}"]
             for name in entry.get("files", []):
                 made, stored = Path(folder) / Path(name).name, ROOT / name
                 if not made.is_file():
