@@ -93,8 +93,8 @@ void parse_indirect_shadows(RenderArguments& options) {
   if (std::sscanf(options.indirect_shadows.c_str(), "%d%n", &indirect.shadow_rays, &used) != 1 ||
       static_cast<std::size_t>(used) != options.indirect_shadows.size() || indirect.shadow_rays < 1 || indirect.shadow_rays > 64)
     throw WrongOption("--indirect-shadows", "'" + options.indirect_shadows + "' is not off or a number of rays, 1 to 64");
-  if (indirect.mode == IndirectMode::ggx && options.render.method != "reference")
-    throw WrongOption("--indirect-shadows", "the baseline --indirect ggx has none");
+  if (indirect.mode != IndirectMode::ltc && indirect.mode != IndirectMode::path && options.render.method != "reference")
+    throw WrongOption("--indirect-shadows", fmt::format("--indirect {} has none", words::name_of(indirect.mode)));
 }
 
 // True if the render may take minutes. Such a render saves its state when it is interrupted.
@@ -136,9 +136,9 @@ Picture rendered(const Scene& scene, const RenderArguments& options, RenderStats
 void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
   const RenderOptions& r = options.render;
   const bool ltc = r.indirect.mode == IndirectMode::ltc, path = r.indirect.mode == IndirectMode::path;
-  const bool points = ltc || r.indirect.mode == IndirectMode::ggx;
+  const bool points = ltc || r.indirect.mode == IndirectMode::ltc_outgoing || r.indirect.mode == IndirectMode::ggx;
   const bool samples = r.method == "sampled" || path;
-  const char* bounce = "--indirect ltc or ggx";
+  const char* bounce = "--indirect ltc, ltc-outgoing or ggx";
   verb.refuse_without_effect(
       {{"--spp", samples, "--method sampled or --indirect path"},
        {"--target-error", r.method == "reference", "--method reference"},
