@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The experiments of docs/measured/indirect.md: renders them, writes their pictures, prints their tables.
 
-usage: indirect_experiments.py [--program build/release/bin/steradian] [--images docs/images] [NAME ...]
+usage: indirect_experiments.py [--program build/release/bin/steradian] [--images docs/images] [--runs 5] [NAME ...]
 
 names: scenes, count, truth, pictures, modes, lights; none: all. Standard library only.
 The first of the literature's experiments, one point light over a plane, is a test:
@@ -58,11 +58,11 @@ class Bench(ltc_experiments.Bench):
 def scenes(bench):
     """Five scenes, all modes on the same lists; ltc-outgoing is algorithm 1 of the literature, ltc algorithm 2."""
     passes = ("surfaces", "shadow map", "virtual lights", "ranges", "interleave", "cull", "light", "deinterleave", "filter", "resolve")
-    print("\n| scene, mode | " + " | ".join(passes) + " | cull + light, gain | rmse | relative L2 |\n|" + "---|" * (len(passes) + 4))
+    print("\n| scene, mode | " + " | ".join(p + " [ms]" for p in passes) + " | cull + light, gain | rmse | relative L2 |\n|" + "---|" * (len(passes) + 4))
     for name in ("ring", "gallery", "arcade", "hall", "atrium"):
         found = {}
         for mode in ("ggx", "ltc-outgoing", "ltc"):
-            found[mode] = bench.picture(bench.named(name), "1920x1080", "--method", "ltc-compact", *fair(mode), runs=5)
+            found[mode] = bench.picture(bench.named(name), "1920x1080", "--method", "ltc-compact", *fair(mode), runs=bench.runs)
         work = {m: found[m][1]["cull"] + found[m][1]["light"] for m in found}
         for mode in found:
             picture, times = found[mode]
@@ -78,12 +78,12 @@ def scenes(bench):
 def count(bench):
     """`ring` with more and more virtual lights; so few are kept that the culling is at work from 2^12 on."""
     scene, size, rows = bench.named("ring"), "1280x720", []
-    print("\n| virtual lights | ltc cull + light [ms] | ggx | gain | rmse to ggx | noise of the culling |\n|---|---|---|---|---|---|")
+    print("\n| virtual lights | ltc cull + light [ms] | ggx [ms] | gain | rmse to ggx | noise of the culling |\n|---|---|---|---|---|---|")
     for bits in range(12, 19):
         all_pairs = ("--method", "ltc-compact", "--vpls", str(1 << bits))
         more = (*all_pairs, "--indirect-pairs", "8")
-        picture, ltc = bench.picture(scene, size, *fair("ltc"), *more, runs=6)
-        other, ggx = bench.picture(scene, size, *fair("ggx"), *more, runs=6)
+        picture, ltc = bench.picture(scene, size, *fair("ltc"), *more, runs=bench.runs)
+        other, ggx = bench.picture(scene, size, *fair("ggx"), *more, runs=bench.runs)
         noise = bench.exposed(bench.picture(scene, "480x270", *fair("ltc"), *more)[0],
                               bench.picture(scene, "480x270", *fair("ltc"), *all_pairs, "--indirect-pairs", "0")[0])
         a, b = ltc["cull"] + ltc["light"], ggx["cull"] + ggx["light"]
@@ -160,10 +160,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/steradian"))
     parser.add_argument("--images", default=os.path.join(ROOT, "docs/images"))
+    parser.add_argument("--runs", type=int, default=5, help="of a picture whose passes are timed; the fastest counts (default 5)")
     parser.add_argument("names", nargs="*", choices=[[], *EXPERIMENTS], metavar="NAME")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(os.path.abspath(arguments.program), arguments.images, folder)
+        bench.runs = arguments.runs
         for name in arguments.names or EXPERIMENTS:
             EXPERIMENTS[name](bench)
 
