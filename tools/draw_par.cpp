@@ -17,7 +17,7 @@ using namespace steradian::plane;
 namespace {
 
 constexpr int kSide = 240, kGap = 4;
-constexpr double kSpace = 240;                     // side of the square that a panel shows
+constexpr double kSpace = 240;                             // side of the square that a panel shows
 constexpr float kWhite = 2, kEnlarged = 4, kGrey = 0.22f;  // of a panel: radiance times kWhite; differences times kEnlarged about kGrey
 
 PlaneBody box(double x, double y, double half, double turn) {
@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
   const Light methods[] = {[](const PlaneWorld& world, Vec2d p) { return world.query(p).radiance.x; },
                            [](const PlaneWorld& world, Vec2d p) { return by_par(world, p, ParOverlaps::merged); },
                            [](const PlaneWorld& world, Vec2d p) { return by_par(world, p, ParOverlaps::added); }};
-  std::printf("| rows of boxes | merged: mean error, %% | merged: points > 1 %% off | added: mean error, %% | added: points > 1 %% off |\n");
+  std::printf(
+      "| rows of boxes | merged: mean error, %% | merged: points > 1 %% off | added: mean error, %% | added: points > 1 %% off |\n");
   std::printf("|---|---|---|---|---|\n");
   Picture sheet(3 * kSide + 2 * kGap, 2 * kSide + kGap);
   for (Vec3f& pixel : sheet.pixels) pixel = {1, 1, 1};
@@ -86,8 +87,8 @@ int main(int argc, char** argv) {
       }
     // Rounding differs from machine to machine: below 1e-9 % it is 0.
     const auto percent = [](double part, double whole) { return 100 * part > 1e-9 * whole ? 100 * part / whole : 0; };
-    std::printf("| %d | %.2g | %.3g %% | %.3g | %.3g %% |\n", rows, percent(error[1], mean), percent(off[1], points), percent(error[2], mean),
-                percent(off[2], points));
+    std::printf("| %d | %.2g | %.3g %% | %.3g | %.3g %% |\n", rows, percent(error[1], mean), percent(off[1], points),
+                percent(error[2], mean), percent(off[2], points));
   }
   write_picture(sheet, argv[1]);
 }
