@@ -22,7 +22,9 @@ The manifest is tools/figures.json, a list. An entry has
     some_rows  true: the page leaves out rows that the command prints; they are found by their first cell, and --write leaves the page alone
     some_columns  true: a machine or a build prints fewer columns than the page has, such as those of instruction sets; the others are
              compared, and --write leaves the page alone where one is missing
-    by_hand  why nothing is compared: a screenshot, a drawing by hand, times of a quiet machine
+    by_hand  why nothing is compared: a film of the window, a drawing by hand, times of a quiet machine
+
+Some commands need Xvfb, Chromium or node: ./dev setup --all installs them.
 """
 import argparse
 import json
