@@ -10,6 +10,7 @@ import struct
 import sys
 
 import all_light_scenes
+import atrium_scene
 import large_scenes
 import neon_scene
 from gltf_writer import DOWN, HALF, TO_MINUS_X, TO_PLUS_X, TO_PLUS_Z, Gltf, Shape, box, lathe, looking, plate, png, rounded, sphere, tube
@@ -409,7 +410,7 @@ def grille():
 
 
 SCENES = {"glass": glass, "room": room, "office": office, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes, "lobes": lobes,
-          "ring": ring, **all_light_scenes.SCENES, **large_scenes.SCENES, **neon_scene.SCENES}
+          "ring": ring, **all_light_scenes.SCENES, **atrium_scene.SCENES, **large_scenes.SCENES, **neon_scene.SCENES}
 
 
 def main():

@@ -143,6 +143,8 @@ TEST_F(Program, RefusesWhatWouldChangeNothingAndNamesUnknownVerbs) {
       {"render", floor_scene(), "-o", exr, "--target-error", "0.1"},
       {"render", floor_scene(), "-o", exr, "--device", "0"},
       {"render", floor_scene(), "-o", exr, "--indirect-shadows", "4"},
+      {"render", floor_scene(), "-o", exr, "--indirect", "ltc-outgoing", "--indirect-shadows", "4"},
+      {"render", floor_scene(), "-o", exr, "--indirect", "ltc-outgoing", "--indirect-quads", "on"},
       {"render", floor_scene(), "-o", exr, "--vpls", "4096"},
       {"render", floor_scene(), "-o", exr, "--moments"},
       {"render", floor_scene(), "-o", exr, "--exposure", "bright"},

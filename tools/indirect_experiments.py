@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The experiments of docs/measured/indirect.md: renders them, writes their pictures, prints their tables.
 
-usage: indirect_experiments.py [--program build/release/bin/steradian] [--images docs/images] [NAME ...]
+usage: indirect_experiments.py [--program build/release/bin/steradian] [--images docs/images] [--runs 5] [NAME ...]
 
 names: scenes, count, truth, pictures, modes, lights; none: all. Standard library only.
 The first of the literature's experiments, one point light over a plane, is a test:
@@ -25,7 +25,7 @@ print = partial(print, flush=True)
 
 
 def fair(mode):
-    """Points in both modes, so that only the lobes differ; with GGX there are no others."""
+    """Points in all modes, so that only the lobes differ; the other modes have no quads."""
     return ("--indirect", mode) + (("--indirect-quads", "off") if mode == "ltc" else ())
 
 
@@ -56,20 +56,20 @@ class Bench(ltc_experiments.Bench):
 
 
 def scenes(bench):
-    """Three scenes, both modes on the same lists."""
+    """Five scenes, all modes on the same lists; ltc-outgoing is algorithm 1 of the literature, ltc algorithm 2."""
     passes = ("surfaces", "shadow map", "virtual lights", "ranges", "interleave", "cull", "light", "deinterleave", "filter", "resolve")
-    print("\n| scene, mode | " + " | ".join(passes) + " | cull + light, gain | rmse | relative L2 |\n|" + "---|" * (len(passes) + 4))
-    for name in ("ring", "gallery", "arcade", "hall"):
+    print("\n| scene, mode | " + " | ".join(p + " [ms]" for p in passes) + " | cull + light, gain | rmse | relative L2 |\n|" + "---|" * (len(passes) + 4))
+    for name in ("ring", "gallery", "arcade", "hall", "atrium"):
         found = {}
-        for mode in ("ggx", "ltc"):
-            found[mode] = bench.picture(bench.named(name), "1920x1080", "--method", "ltc-compact", *fair(mode), runs=5)
+        for mode in ("ggx", "ltc-outgoing", "ltc"):
+            found[mode] = bench.picture(bench.named(name), "1920x1080", "--method", "ltc-compact", *fair(mode), runs=bench.runs)
         work = {m: found[m][1]["cull"] + found[m][1]["light"] for m in found}
-        for mode in ("ggx", "ltc"):
+        for mode in found:
             picture, times = found[mode]
             row = "| `%s`, %s | %s | %.0f" % (name, mode, " | ".join("%.1f" % times.get(p, 0.0) for p in passes), work[mode])
-            if mode == "ltc":
+            if mode != "ggx":
                 rmse, l2, _ = bench.exposed(picture, found["ggx"][0])
-                row += ", %.2f | %.4f | %.4f |" % (work["ggx"] / work["ltc"], rmse, l2)
+                row += ", %.2f | %.4f | %.4f |" % (work["ggx"] / work[mode], rmse, l2)
             else:
                 row += " | | |"
             print(row)
@@ -78,12 +78,12 @@ def scenes(bench):
 def count(bench):
     """`ring` with more and more virtual lights; so few are kept that the culling is at work from 2^12 on."""
     scene, size, rows = bench.named("ring"), "1280x720", []
-    print("\n| virtual lights | ltc cull + light [ms] | ggx | gain | rmse to ggx | noise of the culling |\n|---|---|---|---|---|---|")
+    print("\n| virtual lights | ltc cull + light [ms] | ggx [ms] | gain | rmse to ggx | noise of the culling |\n|---|---|---|---|---|---|")
     for bits in range(12, 19):
         all_pairs = ("--method", "ltc-compact", "--vpls", str(1 << bits))
         more = (*all_pairs, "--indirect-pairs", "8")
-        picture, ltc = bench.picture(scene, size, *fair("ltc"), *more, runs=6)
-        other, ggx = bench.picture(scene, size, *fair("ggx"), *more, runs=6)
+        picture, ltc = bench.picture(scene, size, *fair("ltc"), *more, runs=bench.runs)
+        other, ggx = bench.picture(scene, size, *fair("ggx"), *more, runs=bench.runs)
         noise = bench.exposed(bench.picture(scene, "480x270", *fair("ltc"), *more)[0],
                               bench.picture(scene, "480x270", *fair("ltc"), *all_pairs, "--indirect-pairs", "0")[0])
         a, b = ltc["cull"] + ltc["light"], ggx["cull"] + ggx["light"]
@@ -112,24 +112,26 @@ def pictures(bench):
     draw = lambda name, *more: bench.picture(bench.named(name), "320x180", "--exposure", EXPOSURE[name], *more, suffix=".png")[0]  # noqa: E731
     bench.sheet("indirect-ring", [[draw("ring", "--aa", "4"), draw("ring", "--indirect", "ltc", "--indirect-shadows", "4"),
                                    draw("ring", "--indirect", "path", "--spp", "256")]])
-    bench.sheet("indirect-scenes", [[draw(n), draw(n, "--indirect", "ltc")] for n in ("gallery", "arcade")])
+    bench.sheet("indirect-scenes", [[draw(n), draw(n, "--indirect", "ltc")] for n in ("gallery", "arcade", "atrium")])
 
 
 def modes(bench):
-    """Transformed cosines and GGX side by side, and eight times their difference, for three scenes with glossy things."""
+    """Transformed cosines and GGX side by side, and eight times their difference, for scenes with glossy things."""
     rows = []
     print("\n| scene, 640x360 | rmse | relative L2 | mean ratio |\n|---|---|---|---|")
-    for name in ("ring", "hall", "arcade"):
+    for name in ("ring", "hall", "arcade", "atrium"):
         more = ("--method", "ltc-compact")
         exr = {mode: bench.picture(bench.named(name), "640x360", *fair(mode), *more)[0] for mode in ("ltc", "ggx")}
         print("| `%s` | %.4f | %.4f | %.4f |" % ((name,) + bench.exposed(exr["ltc"], exr["ggx"])))
+        if name == "atrium":  # a row more would make the picture too large
+            continue
         row = [bench.picture(bench.named(name), "320x180", *fair(mode), *more, "--exposure", EXPOSURE[name], suffix=".png")[0]
                for mode in ("ltc", "ggx")]
         rows.append(row + [difference_of(bench, *row, 8)])
     bench.sheet("indirect-modes", rows)
 
 
-EXPOSURE = {"ring": "0", "gallery": "1.5", "hall": "1", "arcade": "0"}
+EXPOSURE = {"ring": "0", "gallery": "1.5", "hall": "1", "arcade": "0", "atrium": "-1.5"}
 
 
 def difference_of(bench, a, b, times):
@@ -158,10 +160,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/steradian"))
     parser.add_argument("--images", default=os.path.join(ROOT, "docs/images"))
+    parser.add_argument("--runs", type=int, default=5, help="of a picture whose passes are timed; the fastest counts (default 5)")
     parser.add_argument("names", nargs="*", choices=[[], *EXPERIMENTS], metavar="NAME")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(os.path.abspath(arguments.program), arguments.images, folder)
+        bench.runs = arguments.runs
         for name in arguments.names or EXPERIMENTS:
             EXPERIMENTS[name](bench)
 

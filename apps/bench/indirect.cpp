@@ -1,14 +1,15 @@
-// indirect/pair/{ltc,ltc-schlick,ggx}: one pair of a receiver and a virtual light, with a diffuse and a glossy lobe at each end and without
-// culling; 1024 receivers times 512 lights, GGX by kernels/lobe/microfacet.glsl.
-// indirect/frame/{ltc,ggx}/N: 1080p of scenes/ring.glb with N virtual lights, both on the same lists; all threads, with the time of every
-// pass. Virtual lights are points in both (no quads), so that only the pair differs. On a Vulkan device the benches are under
-// vulkan/indirect/frame/..., without shadows.
+// indirect/pair/{ltc,ltc-schlick,ltc-outgoing,ggx}: one pair of a receiver and a virtual light, with a diffuse and a glossy lobe at each
+// end and without culling; 1024 receivers times 512 lights, GGX by kernels/lobe/microfacet.glsl. indirect/frame/{ltc,ltc-outgoing,ggx}/N:
+// 1080p of scenes/ring.glb with N virtual lights, all on the same lists; all threads, with the time of every pass. Virtual lights are
+// points in all (no quads), so that only the pair differs. On a Vulkan device the benches are under vulkan/indirect/frame/..., without
+// shadows.
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "benches.h"
 #include "core/random.h"
+#include "core/words.h"
 #include "frame.h"
 #include "render/bounce/pairs.h"
 #include "steradian/load_scene.h"
@@ -71,7 +72,7 @@ struct Pairs {
   }
 };
 
-enum class Pair { ltc, ltc_schlick, ggx };
+enum class Pair { ltc, ltc_schlick, ltc_outgoing, ggx };
 
 void add_pair(BenchList& list, const std::string& name, Pair pair) {
   list.add(name, [=](const BenchOptions& options) -> Bench {
@@ -81,6 +82,8 @@ void add_pair(BenchList& list, const std::string& name, Pair pair) {
               Pairs& d = *data;
               if (pair == Pair::ggx)
                 table.ggx(d.ggx_lights.data(), Pairs::kLights, d.receivers, d.light);
+              else if (pair == Pair::ltc_outgoing)
+                table.ltc_outgoing(d.ggx_lights.data(), Pairs::kLights, d.receivers, d.tables, d.light);
               else
                 (pair == Pair::ltc ? table.ltc : table.ltc_schlick)(d.lights.data(), Pairs::kLights, d.receivers, d.tables, d.light);
               keep(d.light.glossy.x.front());
@@ -113,6 +116,7 @@ void add_frame_of(BenchList& list, const Where& where, const std::string& name, 
 void add_indirect(BenchList& list) {
   add_pair(list, "indirect/pair/ltc", Pair::ltc);
   add_pair(list, "indirect/pair/ltc-schlick", Pair::ltc_schlick);
+  add_pair(list, "indirect/pair/ltc-outgoing", Pair::ltc_outgoing);
   add_pair(list, "indirect/pair/ggx", Pair::ggx);
 }
 
@@ -120,9 +124,9 @@ void add_indirect_frames(BenchList& list, const Where& where) {
   const std::string prefix = where.backend == Backend::cpu ? "indirect/frame/" : "vulkan/indirect/frame/";
   if (!std::filesystem::exists(ring())) return;
   for (int bits = 12; bits <= 18; bits += 2)
-    for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx}) {
-      const int lights = 1 << bits;
-      add_frame_of(list, where, prefix + (mode == IndirectMode::ltc ? "ltc/" : "ggx/") + std::to_string(lights), mode, lights);
+    for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ltc_outgoing, IndirectMode::ggx}) {
+      if (mode == IndirectMode::ltc_outgoing && where.backend != Backend::cpu) continue;
+      add_frame_of(list, where, prefix + words::name_of(mode) + "/" + std::to_string(1 << bits), mode, 1 << bits);
     }
 }
 

@@ -6,9 +6,10 @@ namespace steradian {
 
 // off
 // ltc    lobes are linearly transformed cosines: no square root and one division a pair
+// ltc_outgoing  the same lists by algorithm 1 of Xia et al. 2023: a virtual light looks its lobe up for every pair; for comparison
 // ggx    the same lists and the same seeds with GGX at both ends: the baseline
 // path   one-bounce path tracing with `spp` paths a pixel: slow, noisy, unbiased; for comparison
-enum class IndirectMode { off, ltc, ggx, path };
+enum class IndirectMode { off, ltc, ltc_outgoing, ggx, path };
 
 struct IndirectOptions {
   IndirectMode mode = IndirectMode::off;

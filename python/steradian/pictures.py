@@ -60,7 +60,7 @@ def render(scene: Union[_core.Scene, Path], width: int = 1280, height: int = 720
     method    of the specular lobe: a name that `steradian methods` lists
     shadows   "on", "exact" (never by rays) or "off"
     lights    "all" one by one, "tree": far ones together, each within light_error of its light, or "auto": the tree from 64 on
-    indirect  one bounce: "off", "ltc", "ggx" or "path"
+    indirect  one bounce: "off", "ltc", "ltc-outgoing", "ggx" or "path"
     progress  called as progress(done, total) from any thread; what it raises ends the render
     stats     True: returns the picture and a dictionary of times, counts, warnings and further layers
 

@@ -51,8 +51,11 @@ inline constexpr auto kTable<LightSum> =
 template <>
 inline constexpr auto kTable<Backend> = std::to_array<OptionWord<Backend>>({{Backend::cpu, "cpu"}, {Backend::vulkan, "vulkan"}});
 template <>
-inline constexpr auto kTable<IndirectMode> = std::to_array<OptionWord<IndirectMode>>(
-    {{IndirectMode::off, "off"}, {IndirectMode::ltc, "ltc"}, {IndirectMode::ggx, "ggx"}, {IndirectMode::path, "path"}});
+inline constexpr auto kTable<IndirectMode> = std::to_array<OptionWord<IndirectMode>>({{IndirectMode::off, "off"},
+                                                                                      {IndirectMode::ltc, "ltc"},
+                                                                                      {IndirectMode::ltc_outgoing, "ltc-outgoing"},
+                                                                                      {IndirectMode::ggx, "ggx"},
+                                                                                      {IndirectMode::path, "path"}});
 template <>
 inline constexpr auto kTable<AddedLight> = std::to_array<OptionWord<AddedLight>>(
     {{AddedLight::standard, "default"}, {AddedLight::none, "none"}, {AddedLight::sun, "sun"}, {AddedLight::studio, "studio"}});

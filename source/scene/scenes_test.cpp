@@ -81,10 +81,11 @@ TEST_F(OwnScenes, HaveTheLightsAndSizesTheyAreMadeFor) {
 
   EXPECT_EQ(made("ring").punctual_lights.size(), 1u);
   EXPECT_GE(made("arcade").triangle_count(), 200'000u);
+  EXPECT_EQ(made("atrium").triangle_count(), 253'524u);
 }
 
 TEST_F(OwnScenes, HaveTrianglesThatFaceWhereTheirNormalsPoint) {
-  for (const char* name : {"gallery", "plane", "tubes", "ring", "hall", "arcade"})
+  for (const char* name : {"gallery", "plane", "tubes", "ring", "hall", "arcade", "atrium"})
     for (const Mesh& mesh : made(name).meshes) {
       std::size_t against = 0;
       for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

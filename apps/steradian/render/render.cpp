@@ -96,8 +96,8 @@ void parse_indirect_shadows(RenderArguments& options) {
   if (std::sscanf(options.indirect_shadows.c_str(), "%d%n", &indirect.shadow_rays, &used) != 1 ||
       static_cast<std::size_t>(used) != options.indirect_shadows.size() || indirect.shadow_rays < 1 || indirect.shadow_rays > 64)
     throw WrongOption("--indirect-shadows", "'" + options.indirect_shadows + "' is not off or a number of rays, 1 to 64");
-  if (indirect.mode == IndirectMode::ggx && options.render.method != "reference")
-    throw WrongOption("--indirect-shadows", "the baseline --indirect ggx has none");
+  if (indirect.mode != IndirectMode::ltc && indirect.mode != IndirectMode::path && options.render.method != "reference")
+    throw WrongOption("--indirect-shadows", fmt::format("--indirect {} has none", words::name_of(indirect.mode)));
 }
 
 // True if the render may take minutes. Such a render saves its state when it is interrupted.
@@ -147,9 +147,9 @@ Picture rendered(const Scene& scene, const RenderArguments& options, RenderStats
 void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
   const RenderOptions& r = options.render;
   const bool ltc = r.indirect.mode == IndirectMode::ltc, path = r.indirect.mode == IndirectMode::path;
-  const bool points = ltc || r.indirect.mode == IndirectMode::ggx;
+  const bool points = ltc || r.indirect.mode == IndirectMode::ltc_outgoing || r.indirect.mode == IndirectMode::ggx;
   const bool samples = r.method == "sampled" || path;
-  const char* bounce = "--indirect ltc or ggx";
+  const char* bounce = "--indirect ltc, ltc-outgoing or ggx";
   verb.refuse_without_effect(
       {{"--spp", samples, "--method sampled or --indirect path"},
        {"--target-error", r.method == "reference", "--method reference"},
@@ -377,7 +377,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   verb.add("--shadow-error", r.shadow_error, "dim lights may miss this fraction of a pixel; 0: exact").range(0.0, 1.0).group("Light");
   verb.add_word("--terminator", r.terminator, "shadow edge of curved meshes on themselves").group("Light");
-  verb.add_word("--indirect", r.indirect.mode, "one bounce, by virtual lights or paths").group("Light");
+  verb.add_word("--indirect", r.indirect.mode, "one bounce of light").group("Light");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
   verb.add_flag("--bounce-strict", r.bounce_strict, "of --bounces: each pixel by itself, in 16 times the directions").group("Light");

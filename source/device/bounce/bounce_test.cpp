@@ -181,17 +181,20 @@ TEST_F(VulkanBounce, LeavesNothingToTheValidationLayer) {
   EXPECT_TRUE(validated->validation_messages().empty()) << validated->validation_messages().front();
 }
 
-TEST_F(VulkanBounce, LeavesPathsAndShadowRaysToTheCpuAndSaysSo) {
+TEST_F(VulkanBounce, LeavesShadowRaysAndAlgorithmOneToTheCpuAndSaysSo) {
   const Scene scene = indirect::mixed_corner();
-  RenderOptions options = small(IndirectMode::ltc, 1 << 10);
-  options.indirect.shadow_rays = 1;
-  RenderStats stats;
-  const Picture cpu = render(scene, options);
-  options.backend = Backend::vulkan;
-  const Picture picture = render(scene, options, &stats);
-  ASSERT_EQ(stats.warnings.size(), 1u);
-  EXPECT_NE(stats.warnings[0].find("no --indirect-shadows"), std::string::npos) << stats.warnings[0];
-  EXPECT_TRUE(cpu.pixels == picture.pixels);
+  RenderOptions shadowed = small(IndirectMode::ltc, 1 << 10);
+  shadowed.indirect.shadow_rays = 1;
+  for (auto [options, lack] : {std::pair{shadowed, "no --indirect-shadows"},
+                               std::pair{small(IndirectMode::ltc_outgoing, 1 << 10), "no --indirect ltc-outgoing"}}) {
+    RenderStats stats;
+    const Picture cpu = render(scene, options);
+    options.backend = Backend::vulkan;
+    const Picture picture = render(scene, options, &stats);
+    ASSERT_EQ(stats.warnings.size(), 1u);
+    EXPECT_NE(stats.warnings[0].find(lack), std::string::npos) << stats.warnings[0];
+    EXPECT_TRUE(cpu.pixels == picture.pixels);
+  }
 }
 
 }  // namespace

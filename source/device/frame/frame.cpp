@@ -32,6 +32,7 @@ std::string first_lack(const Scene& scene, const RenderOptions& options, const D
   if (options.shadows != steradian::Shadows::off && !DeviceShadows::has(device))
     return "'" + device.name + "' has no shadows: its subgroups cannot add, or it has no whole numbers of 64 bits";
   if (options.indirect.mode == IndirectMode::path) return "it has no bounce by paths";
+  if (options.indirect.mode == IndirectMode::ltc_outgoing) return "it has no --indirect ltc-outgoing";
   if (options.indirect.mode != IndirectMode::off && options.indirect.shadow_rays > 0) return "it has no --indirect-shadows";
   for (const Mesh& mesh : scene.meshes) {
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];

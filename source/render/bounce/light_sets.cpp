@@ -107,7 +107,7 @@ class SetMaker {
     }
     set.glossy.push_back(light);
     set.glossy_quads.push_back(quad(i));
-    if (options_.mode == IndirectMode::ggx) add_ggx(set, i, light);
+    if (options_.mode != IndirectMode::ltc) add_ggx(set, i, light);
 
     const float r = range(light.reach, xi, lobes_.stretch[i]);
     const auto ball = Kernels<float>().indirect_ball();

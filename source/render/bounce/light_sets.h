@@ -31,7 +31,7 @@ struct GlossyLight {
   Vec3f incoming;  // unit, to the light
 };
 
-// The same light on GGX microsurfaces.
+// The same light by its surface, for modes that evaluate the lobe for every pair.
 struct GgxLight {
   Vec3f position;
   Vec3f frame_x, frame_y, normal;  // not negated
@@ -67,7 +67,7 @@ struct LightSet {
   std::vector<QuadLight> diffuse_quads;
   EggArrays eggs;
   std::vector<GlossyLight> glossy;
-  std::vector<GgxLight> ggx;  // one per glossy light, in mode ggx only
+  std::vector<GgxLight> ggx;  // one per glossy light, unless the mode is ltc
   std::vector<QuadLight> glossy_quads;
   SpheroidArrays spheroids;
 };

@@ -16,6 +16,9 @@ struct LightingTable {
   // Overwrites `light` at the block's receivers.
   void (*ltc)(const LightSet& set, BlockLists::List diffuse, BlockLists::List glossy, const Receivers& receivers, std::size_t first,
               const LtcPackTables& tables, bool quads, IncomingLight& light);
+  // Algorithm 1: a virtual light's lobe is looked up for every pair. Lights are points.
+  void (*ltc_outgoing)(const LightSet& set, BlockLists::List diffuse, BlockLists::List glossy, const Receivers& receivers,
+                       std::size_t first, const LtcPackTables& tables, bool quads, IncomingLight& light);
   void (*ggx)(const LightSet& set, BlockLists::List diffuse, BlockLists::List glossy, const Receivers& receivers, std::size_t first,
               const LtcPackTables& tables, bool quads, IncomingLight& light);
   // Chooses lights with a probability proportional to their light by `ltc`. shares: a uniform number per receiver.

@@ -156,15 +156,52 @@ STERADIAN_INLINE Sink run(const LightSet& set, const BlockLists::List& diffuse, 
   return add_lights<true, false>(set, diffuse, shiny, p.at, start);
 }
 
+STERADIAN_INLINE void store_sums(const Prepared& p, const PairSums& sums, std::size_t i, indirect::IncomingLight& light) {
+  store_vector(light.diffuse, i, sums.diffuse);
+  // Receivers without a glossy lobe, or seen from below, get nothing.
+  store_vector(light.glossy, i,
+               any_lane(p.glossy) ? select(p.facing, sums.glossy * p.at.lobe.scale, PackVec3(0.0, 0.0, 0.0)) : PackVec3(0.0, 0.0, 0.0));
+}
+
 void ltc(const LightSet& set, BlockLists::List diffuse, BlockLists::List shiny, const indirect::Receivers& receivers, std::size_t first,
          const LtcPackTables& tables, bool quads, indirect::IncomingLight& light) {
   for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
     const Prepared p = prepare(receivers, i, tables);
     const PairSums sums = run(set, diffuse, shiny, p, quads, PairSums());
-    store_vector(light.diffuse, i, sums.diffuse);
-    // Receivers without a glossy lobe, or seen from below, get nothing.
-    store_vector(light.glossy, i,
-                 any_lane(p.glossy) ? select(p.facing, sums.glossy * p.at.lobe.scale, PackVec3(0.0, 0.0, 0.0)) : PackVec3(0.0, 0.0, 0.0));
+    store_sums(p, sums, i, light);
+  }
+}
+
+template <bool glossy>
+__attribute__((flatten, noinline)) PairSums add_outgoing_lights(const LightSet& set, const BlockLists::List& diffuse,
+                                                                const BlockLists::List& shiny, const PackReceiver& receiver,
+                                                                const LtcPackTables& tables) {
+  K k;
+  const PackReceiver at = receiver;
+  PairSums sums;
+  add_diffuse_lights<glossy, false>(set, diffuse, at, sums);
+  for (std::size_t j = 0; j < shiny.count; ++j) {
+    const GgxLight& light = set.ggx[shiny.begin[j]];
+    const Way way = way_to(light.position, at.position);
+    const K::mat3 frame(broadcast(light.frame_x), broadcast(light.frame_y), broadcast(light.normal));
+    const PackVec3 out = transform_transposed(frame, way.v * -way.inverse);
+    if (!any_lane(out.z > PackReal(0.0))) continue;
+    const OutgoingLobe end = look_up_outgoing(tables, out, light.view_x, light.view_z, light.alpha);
+    const PackReal value = end.lobe * way.inverse * way.d2 / (way.d2 + broadcast(light.soft));
+    const PackReal kept = k.indirect_kept(value, broadcast(light.reach) * (way.d2 * way.inverse), broadcast(light.xi));
+    if (!any_lane(kept > PackReal(0.0))) continue;
+    add_pair<glossy, false>(at, way, kept, broadcast(light.bright) + broadcast(light.grazing) * end.grazing, light.normal, nullptr,
+                            PackReal(0.0), value, set.diffuse.size() + shiny.begin[j], sums);
+  }
+  return sums;
+}
+
+void ltc_outgoing(const LightSet& set, BlockLists::List diffuse, BlockLists::List shiny, const indirect::Receivers& receivers,
+                  std::size_t first, const LtcPackTables& tables, bool, indirect::IncomingLight& light) {
+  for (std::size_t i = first; i < first + indirect::kBlockReceivers; i += kLanes) {
+    const Prepared p = prepare(receivers, i, tables);
+    const auto add = any_lane(p.glossy) ? add_outgoing_lights<true> : add_outgoing_lights<false>;
+    store_sums(p, add(set, diffuse, shiny, p.at, tables), i, light);
   }
 }
 
@@ -269,7 +306,7 @@ void ggx(const LightSet& set, BlockLists::List diffuse, BlockLists::List shiny, 
 }  // namespace
 
 const indirect::LightingTable& lighting_table() {
-  static constexpr indirect::LightingTable table = {ltc, ggx, pick};
+  static constexpr indirect::LightingTable table = {ltc, ltc_outgoing, ggx, pick};
   return table;
 }
 

@@ -29,6 +29,9 @@ struct PairTable {
   void (*ltc)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables, IncomingLight& light);
   void (*ltc_schlick)(const PairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables,
                       IncomingLight& light);
+  // Algorithm 1: the table is looked up for every pair.
+  void (*ltc_outgoing)(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, const LtcPackTables& tables,
+                       IncomingLight& light);
   // Overwrites with the radiance of the glossy lobe itself, Fresnel included.
   void (*ggx)(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, IncomingLight& light);
 };

@@ -49,6 +49,33 @@ __attribute__((flatten)) void ltc_schlick(const PairLight* lights, std::size_t c
   sum_ltc<true>(lights, count, receivers, tables, light);
 }
 
+__attribute__((flatten)) void ltc_outgoing(const GgxPairLight* lights, std::size_t count, const Receivers& receivers,
+                                           const LtcPackTables& tables, IncomingLight& light) {
+  K k;
+  for (std::size_t i = 0; i < receivers.alpha.size(); i += kLanes) {
+    const PackVec3 p = load_at(receivers.position, i), n = load_at(receivers.normal, i);
+    const SeenLobe seen = look_up_lobe(tables, n, load_at(receivers.view, i), load(receivers.alpha.data() + i));
+    const auto lobe = k.indirect_lobe(seen.matrix, seen.frame);
+    PackVec3 diffuse(0.0, 0.0, 0.0), glossy(0.0, 0.0, 0.0);
+    for (std::size_t j = 0; j < count; ++j) {
+      const GgxPairLight& l = lights[j];
+      const K::IndirectWay way = k.indirect_way(broadcast(l.position), p);
+      const K::mat3 from(broadcast(l.frame_x), broadcast(l.frame_y), broadcast(l.normal));
+      const PackVec3 away = transform_transposed(from, way.v * -way.inverse);
+      const auto end = look_up_outgoing(tables, away, l.view_x, l.view_z, l.alpha);
+      const PackReal cosine = max(dot(n, way.v), PackReal(0.0)) * way.inverse;
+      const PackVec3 out =
+          (broadcast(l.diffuse) * max(away.z, PackReal(0.0)) + (broadcast(l.glossy) + broadcast(l.grazing) * end.grazing) * end.lobe) *
+          (way.inverse * way.inverse);
+      diffuse = diffuse + out * cosine;
+      const PackReal half = k.indirect_glossy_half(lobe, way.v, way.d2, PackReal(0.0)) * (way.d2 * way.inverse);
+      glossy = glossy + out * select(cosine > PackReal(0.0), half, PackReal(0.0));
+    }
+    store_at(light.diffuse, i, diffuse);
+    store_at(light.glossy, i, glossy * lobe.scale);
+  }
+}
+
 __attribute__((flatten)) void ggx(const GgxPairLight* lights, std::size_t count, const Receivers& receivers, IncomingLight& light) {
   K k;
   for (std::size_t i = 0; i < receivers.alpha.size(); i += kLanes) {
@@ -81,7 +108,7 @@ __attribute__((flatten)) void ggx(const GgxPairLight* lights, std::size_t count,
 }  // namespace
 
 const indirect::PairTable& pair_table() {
-  static constexpr indirect::PairTable table = {ltc, ltc_schlick, ggx};
+  static constexpr indirect::PairTable table = {ltc, ltc_schlick, ltc_outgoing, ggx};
   return table;
 }
 

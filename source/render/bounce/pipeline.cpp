@@ -215,7 +215,7 @@ void Pipeline::add_true(Picture& picture) {
   const bool path = o.mode == IndirectMode::path;
   const ShadowMap map = path ? ShadowMap{} : make_shadow_map(scene_, rays_, o.virtual_lights);
   SumOptions sum;
-  sum.lobe = o.mode == IndirectMode::ggx ? SumLobe::ggx : SumLobe::ltc;
+  sum.lobe = o.mode == IndirectMode::ggx ? SumLobe::ggx : o.mode == IndirectMode::ltc_outgoing ? SumLobe::ltc_outgoing : SumLobe::ltc;
   sum.shadows = o.shadow_rays > 0 ? &rays_ : nullptr;
   tbb::enumerable_thread_specific<std::unique_ptr<DirectSampler>> samplers([&] { return std::make_unique<DirectSampler>(scene_, &rays_); });
   std::vector<Vec3f>& layer = picture.layers.at("indirect");

@@ -150,7 +150,7 @@ TEST(IndirectLighting, BlueNoiseHoldsEveryRankOnceAndLittleOfLowFrequencies) {
 // The sum on packs in float equals the sum in double. Fresnel by pair differs: the pack uses it at virtual lights below F0 0.1, as the
 // double does.
 TEST(IndirectLighting, SumOnPacksIsTheSumInDouble) {
-  for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx})
+  for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ltc_outgoing, IndirectMode::ggx})
     for (const Scene& scene : {metal_corner(), mixed_corner()}) {
       const Difference d = difference(plain_sum(scene, mode, 1 << 12), true_sum(scene, mode, 1 << 12));
       EXPECT_LT(d.relative_l2, 2e-4) << "mode " << static_cast<int>(mode) << ", mean ratio " << d.mean_ratio;
@@ -232,7 +232,7 @@ TEST(IndirectLighting, BothAlgorithmsAreTheSameLight) {
 // The same sets of virtual lights, complete and culled. The mean over seeds is the whole sum, and a seed changes the frame's mean only
 // slightly.
 TEST(IndirectLighting, CullingKeepsTheMean) {
-  for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ggx}) {
+  for (const IndirectMode mode : {IndirectMode::ltc, IndirectMode::ltc_outgoing, IndirectMode::ggx}) {
     const Scene scene = mode == IndirectMode::ltc ? mixed_corner() : metal_corner();
     RenderOptions o = options(mode, 1 << 12);
     o.indirect.interleave = 4;

@@ -76,7 +76,9 @@ LightingResult light_receivers(const std::vector<LightSet>& sets, const Receiver
   light.glossy.resize(layout.size());
   const LightCullTable& culling = cull_table_for(active_simd());
   const LightingTable& lighting = lighting_table_for(active_simd());
-  const auto shade = options.mode == IndirectMode::ggx ? lighting.ggx : lighting.ltc;
+  const auto shade = options.mode == IndirectMode::ggx            ? lighting.ggx
+                     : options.mode == IndirectMode::ltc_outgoing ? lighting.ltc_outgoing
+                                                                  : lighting.ltc;
   Nanoseconds cull_time, light_time, shadow_time;
   std::atomic<std::int64_t> pairs{0};
   tbb::enumerable_thread_specific<BlockLists> all_lists;
