@@ -12,7 +12,12 @@ foreach(isa sse2 avx2 avx512)
   endif()
 endforeach()
 set(STERADIAN_PACK_FLAGS -O3 CACHE STRING "Optimisation of packs. g++ 12 takes three times as long for them by -O1 as by -O2 or -O3")
-set(STERADIAN_FLAGS_sse2 -msse2)
+# On a processor of arm64, the packs of sse2 are those of NEON, which are as wide (source/core/pack.h). They are the only ones there.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  set(STERADIAN_FLAGS_sse2 "")
+else()
+  set(STERADIAN_FLAGS_sse2 -msse2)
+endif()
 set(STERADIAN_FLAGS_avx2 -mavx2 -mfma -mtune=haswell)
 # A pack copied by two half moves and read whole waits for both to reach the cache.
 set(STERADIAN_FLAGS_avx512 -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx512cd -mfma -mtune=skylake-avx512

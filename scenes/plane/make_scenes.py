@@ -220,6 +220,25 @@ def screen():
     write("screen.svg", "A sign and a strip with colours along them", 640, 400, body)
 
 
+def curves():
+    # Lights of curves without a range, among bodies of curves: what a drawing program makes.
+    body = """<circle class="light" cx="90" cy="70" r="18" fill="#ffd9a0" data-intensity="2"/>
+<path class="light" fill="#ff4060" data-intensity="2" d="M320 150 C300 110 240 120 250 165 C256 195 300 215 320 235 C340 215 384 195 390 165 C400 120 340 110 320 150 Z"/>
+<path class="light" fill="none" stroke="#60c0ff" stroke-width="5" stroke-linecap="round" data-intensity="2" d="M60 300 C120 250 160 340 220 300 S300 250 340 300"/>
+<path class="light" fill="none" stroke="#80ffb0" stroke-width="4" data-intensity="2" d="M450 80 q40 -50 80 0 t80 0"/>
+<ellipse class="light" cx="540" cy="280" rx="30" ry="12" fill="#ffe080" data-intensity="2"/>
+<g class="occluder" fill="#333">
+<path d="M180 100 q20 -26 40 0 q26 20 0 40 q-20 26 -40 0 q-26 -20 0 -40 z"/>
+<path d="M440 170 C460 150 500 160 490 190 S450 230 440 210 Z"/>
+<circle cx="150" cy="200" r="14"/><circle cx="420" cy="300" r="18"/>
+<rect x="560" y="150" width="40" height="40" rx="10"/><rect x="30" y="150" width="40" height="20"/>
+<path d="M380 60 l30 -10 l10 30 l-24 14 z"/>
+<path fill="none" stroke="#333" stroke-width="6" stroke-linecap="round" d="M100 20 Q140 60 200 40"/>
+</g>
+"""
+    write("curves.svg", "A heart, two strokes and two disks", 640, 360, body)
+
+
 def cobbles():
     # A normal map, green upwards, and clear between the stones: domes in rows that are shifted against each other.
     width, height, step = 320, 200, 32
@@ -243,5 +262,5 @@ def cobbles():
     (FOLDER / "cobbles_normal.png").write_bytes(png)
 
 
-for scene in (lamps, room, city, logo, bounce, sun, glass, mirror, marble, fog, screen, cobbles):
+for scene in (lamps, room, city, logo, bounce, sun, glass, mirror, marble, fog, screen, curves, cobbles):
     scene()

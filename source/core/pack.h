@@ -16,6 +16,8 @@ STERADIAN_BEGIN_ISA
 using PackArch = xsimd::avx512bw;
 #elif defined(__AVX2__)
 using PackArch = xsimd::fma3<xsimd::avx2>;
+#elif defined(__aarch64__)
+using PackArch = xsimd::neon64;
 #else
 using PackArch = xsimd::sse2;
 #endif
@@ -53,6 +55,8 @@ struct RealTraits<Pack> {
     return refine_inversesqrt(x, Pack(_mm512_rsqrt14_ps(x)));
 #elif defined(__AVX2__)
     return refine_inversesqrt(x, Pack(_mm256_rsqrt_ps(x)));
+#elif defined(__aarch64__)
+    return refine_inversesqrt(x, refine_inversesqrt(x, Pack(vrsqrteq_f32(x))));  // NEON's estimate has 8 bits
 #else
     return refine_inversesqrt(x, Pack(_mm_rsqrt_ps(x)));
 #endif

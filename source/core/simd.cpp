@@ -10,6 +10,9 @@ namespace {
 
 bool runs(Simd simd) {
   if (!is_built(simd)) return false;
+#if !defined(__x86_64__)
+  return simd == Simd::sse2;
+#else
   __builtin_cpu_init();
   switch (simd) {
     case Simd::sse2: return true;
@@ -19,13 +22,18 @@ bool runs(Simd simd) {
              __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
   }
   return false;
+#endif
 }
 
 }  // namespace
 
 const char* name_of(Simd simd) {
   switch (simd) {
+#if defined(__aarch64__)
+    case Simd::sse2: return "neon";
+#else
     case Simd::sse2: return "sse2";
+#endif
     case Simd::avx2: return "avx2";
     case Simd::avx512: return "avx512";
   }

@@ -12,7 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-MODULES = ("plane_wasm", "plane_glsl", "unpack", "wasm", "bodies", "gl_light", "picture", "index")  # each after those that it imports
+MODULES = ("plane_wasm", "plane_glsl", "unpack", "letters", "wasm", "bodies", "gl_light", "picture", "index")  # each after those that it imports
 
 
 def build(folder):

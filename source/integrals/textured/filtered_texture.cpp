@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/box.h"
 
@@ -80,7 +81,7 @@ FilteredTexture::Level FilteredTexture::blurred(const Level& fine, const Level& 
   next.bottom = fine.bottom - fine.spacing / 2 + (height - (next.height - 1) * next.spacing) / 2;
 
   const double sigma2 = next.sigma * next.sigma - last.sigma * last.sigma, reach = kReach * std::sqrt(sigma2) / last.spacing;
-  const double height_of_gaussian = last.spacing / std::sqrt(2 * M_PI * sigma2);
+  const double height_of_gaussian = last.spacing / std::sqrt(2 * std::numbers::pi * sigma2);
   // One axis of `from`: texel i of a line is from[i * stride], the lines are line_stride apart.
   struct Axis {
     double first;

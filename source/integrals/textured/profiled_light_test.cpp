@@ -176,8 +176,9 @@ TEST(ProfiledLight, ErrorsAreMeasured) {
         const auto uniform = [&](double a, double b) { return a + (b - a) * random.uniform(); };
         const Vec3d center = {uniform(-1, 1), uniform(0.1, 4), uniform(-1, 1)};
         const Frame f = Frame::from_normal(normalized(Vec3d{uniform(-0.5, 0.5), -1, uniform(-0.5, 0.5)}));
-        const AreaLight light = count % 2 == 0 ? rect(center, f.x * uniform(0.1, 0.8), f.y * uniform(0.1, 0.8))
-                                               : disk(center, f.x * uniform(0.1, 0.8), f.y * uniform(0.1, 0.8));
+        // Compilers for different processors evaluate arguments in different orders.
+        const double half_y = uniform(0.1, 0.8), half_x = uniform(0.1, 0.8);
+        const AreaLight light = count % 2 == 0 ? rect(center, f.x * half_x, f.y * half_y) : disk(center, f.x * half_x, f.y * half_y);
         const AreaLight lamp = shining(light, kind.profile, f.x);
         const ShadingPoint at = {{0, 0, 0}, {0, 1, 0}, normalized(Vec3d{uniform(-1, 1), uniform(0.2, 1), uniform(-1, 1)})};
         const double got = radiance(lamp, at, lobe.m).radiance.x;

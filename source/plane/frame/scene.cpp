@@ -42,7 +42,7 @@ Preparation::Preparation(const World& world, Budget& budget, const FrameLights& 
   std::uint64_t shining = 0;
   for (std::size_t i = 0; i < bodies; ++i)
     if (body(i).light) shining += world_.first_curve[i + 1] - world_.first_curve[i];
-  const std::size_t blockers = world_.curves.size() * 3 / 2 + 3 * bodies;
+  const std::size_t blockers = 2 * world_.curves.size() + 3 * bodies;
   budget_.take_memory(name, "its lights and what may block them",
                       blockers * kBlockerBytes + (shining + lights_.walls.size()) * sizeof(Emitter));
   for (std::size_t i = 0; i < bodies; ++i) {
@@ -153,6 +153,10 @@ void Preparation::add_convex(const std::vector<Vec2d>& vertices, int owner) {
   b.center = box.center();
   for (Vec2d v : vertices) b.bound = std::max(b.bound, length(v - b.center));
   frame_.vertices.insert(frame_.vertices.end(), vertices.begin(), vertices.end());
+  if (vertices.size() > PaddedOutline::kMost) {
+    frame_.blockers.push_back(b);
+    return;
+  }
   b.outline = static_cast<int>(frame_.outlines.size());
   PaddedOutline& padded = frame_.outlines.emplace_back();
   padded.count = static_cast<int>(vertices.size());
@@ -231,11 +235,32 @@ void Preparation::add_blockers(std::size_t i) {
       add_ellipse(curve.ellipse, owner), ellipse_done = true;  // gradients cut an ellipse into several arcs
   }
   if (ellipse_done) return;
-  for (const Chain& chain : convex_chains(&world_.curves[first_curve], curves)) {
-    for (std::size_t k = 0; k < chain.count; ++k) frame_.blockers[first + chain.first + k].in_chain = true;
+  const std::vector<Chain> chains = convex_chains(&world_.curves[first_curve], curves);
+  const std::size_t first_chain = frame_.blockers.size();
+  for (const Chain& chain : chains) {
+    for (std::size_t k = 0; k < chain.count; ++k) ++frame_.blockers[first + chain.first + k].level;
     add_convex(chain.hull, owner);
     frame_.blockers.back().first_edge = static_cast<int>(first + chain.first);
     frame_.blockers.back().edges = static_cast<int>(chain.count);
+  }
+  for (const Chain& outline : closed_outlines(&world_.curves[first_curve], curves)) {
+    const auto begin = std::find_if(chains.begin(), chains.end(), [&](const Chain& c) { return c.first >= outline.first; });
+    const auto end = std::find_if(begin, chains.end(), [&](const Chain& c) { return c.first >= outline.first + outline.count; });
+    if (end != begin && (end - 1)->first + (end - 1)->count > outline.first + outline.count) continue;  // the last chain leads on
+    if (begin != chains.begin() && (begin - 1)->first + (begin - 1)->count > outline.first) continue;
+    Blocker whole;
+    whole.first_edge = static_cast<int>(first + outline.first);
+    whole.edges = static_cast<int>(outline.count);
+    whole.first_chain = static_cast<int>(first_chain) + static_cast<int>(begin - chains.begin());
+    whole.chains = static_cast<int>(end - begin);
+    for (int k = whole.first_edge; k < whole.first_edge + whole.edges; ++k) ++frame_.blockers[static_cast<std::size_t>(k)].level;
+    for (int k = whole.first_chain; k < whole.first_chain + whole.chains; ++k) ++frame_.blockers[static_cast<std::size_t>(k)].level;
+    add_convex(outline.hull, owner);
+    Blocker& made = frame_.blockers.back();
+    made.first_edge = whole.first_edge;
+    made.edges = whole.edges;
+    made.first_chain = whole.first_chain;
+    made.chains = whole.chains;
   }
 }
 

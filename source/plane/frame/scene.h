@@ -31,12 +31,13 @@ struct Emitter {
   bool whole = false;
   bool wall = false;    // a wall that reflects light: uniform, whatever its body is
   bool hidden = false;  // all of it lies within a blocker: invisible from outside
+  bool lid = false;     // an edge of the hull of a run `around` that is no edge of its outline, lit inwards by the radiance taken away
   // Run (runs.h): the number of emitters, itself and those that it represents, shorter runs and edges, which follow it; and the convex
   // region that it bounds.
   std::size_t group = 1;
-  enum class RunShape { bulge, bowl, closed, hole };
+  enum class RunShape { bulge, bowl, closed, around, hole };
   RunShape shape = RunShape::bulge;
-  std::vector<Vec2d> hull;  // counter-clockwise; for a hole, the hull around it
+  std::vector<Vec2d> hull;  // counter-clockwise; for a hole, a box around it
   std::size_t curve = 0;    // edge: index in World::curves
 
   Vec2d center;  // centre of a bounding circle
@@ -71,13 +72,14 @@ struct Blocker {
   double bound = 0;
   std::size_t first = 0;  // convex: vertices, counter-clockwise; two for a segment. Else its centre
   std::size_t count = 0;
-  int outline = -1;
-  int first_edge = -1, edges = 0;  // chain: its edges, blockers too; they replace it where its hull is no blocker
-  bool in_chain = false;           // is it such an edge?
-  Vec2d x_axis, y_axis;            // ellipse, lens: half axes, cross(x, y) > 0
-  bool round = false;              // ellipse: are its half axes equal?
-  int lens = -1;                   // in FrameScene::lenses
-  int line = -1;                   // ellipse: in FrameScene::lines, if its bounding circle overlaps the emitter's
+  int outline = -1;  // convex: in FrameScene::outlines, if it has no more than PaddedOutline::kMost vertices
+  // Chain: its edges, blockers too; they replace it where its hull is no blocker. Whole outline: its edges, and chains of them.
+  int first_edge = -1, edges = 0, first_chain = -1, chains = 0;
+  int level = 0;         // 0: it is part of no other; else one more than that of which it is a part
+  Vec2d x_axis, y_axis;  // ellipse, lens: half axes, cross(x, y) > 0
+  bool round = false;    // ellipse: are its half axes equal?
+  int lens = -1;         // in FrameScene::lenses
+  int line = -1;         // ellipse: in FrameScene::lines, if its bounding circle overlaps the emitter's
 };
 
 struct FrameScene {
@@ -98,9 +100,20 @@ struct FrameScene {
   std::vector<EventPair> pairs;           // pairs of disks; BlockerList::index refers to them
   double slack = 0;                       // largest error of a place by rounding to float
   std::vector<char> whole_run;            // by emitter: a run without anything between its edges and its chord
+  std::vector<char> filled_run;           // by emitter: a whole run `around` without holes
   std::vector<LightInterior> interior;    // by body, for lights
   std::vector<char> convex;               // by body: each row within it is one interval
 };
+
+// Calls f with the index of each part of a blocker. The blocker may move while f runs.
+template <class F>
+void for_each_part(const std::vector<Blocker>& blockers, int blocker, F f) {
+  const Blocker& b = blockers[static_cast<std::size_t>(blocker)];
+  const int level = b.level + 1, first_chain = b.first_chain, chains = b.chains;
+  for (int k = b.first_edge, end = k + b.edges; k < end; ++k)
+    if (blockers[static_cast<std::size_t>(k)].level == level) f(k);
+  for (int k = first_chain; k < first_chain + chains; ++k) f(k);
+}
 
 // The emission of an emitter's body.
 const PlaneEmission& emission_of(const FrameScene& frame, const Emitter& e);

@@ -11,7 +11,7 @@ namespace steradian::plane {
 void Preparation::touch(std::size_t body) {
   for (std::size_t k = first_blocker_[body]; k < first_blocker_[body] + blocker_count_[body]; ++k) {
     const Blocker& b = frame_.blockers[k];
-    if (b.in_chain) continue;  // its chain represents it
+    if (b.level != 0) continue;  // that of which it is a part represents it
     for (std::size_t i = 0; i < frame_.emitters.size(); ++i) {
       const Emitter& e = frame_.emitters[i];
       const Vec2d away = b.center - e.center;
@@ -27,7 +27,7 @@ void Preparation::touch(std::size_t body) {
 void Preparation::forget(std::size_t body) {
   touch(body);
   for (std::size_t k = first_blocker_[body]; k < first_blocker_[body] + blocker_count_[body]; ++k)
-    if (!frame_.blockers[k].in_chain) bins_.remove(static_cast<int>(k), frame_.blockers[k]);
+    if (frame_.blockers[k].level == 0) bins_.remove(static_cast<int>(k), frame_.blockers[k]);
 }
 
 bool Preparation::take(std::size_t body) {
@@ -48,7 +48,7 @@ bool Preparation::take(std::size_t body) {
     return false;
   }
   for (std::size_t k = first_blocker_[body]; k < first_blocker_[body] + blocker_count_[body]; ++k)
-    if (!frame_.blockers[k].in_chain) bins_.insert(static_cast<int>(k), frame_.blockers[k]);
+    if (frame_.blockers[k].level == 0) bins_.insert(static_cast<int>(k), frame_.blockers[k]);
   touch(body);
   std::fill_n(dirty_.begin() + static_cast<std::ptrdiff_t>(first_emitter_[body]), emitter_count_[body], 1);
   return true;
@@ -64,14 +64,16 @@ bool Preparation::take_blockers(std::size_t body) {
   for (std::size_t k = 0; k < count; ++k) {
     Blocker& before = frame_.blockers[first + k];
     Blocker now = frame_.blockers[at + k];
-    if (now.kind != before.kind || now.count != before.count || now.edges != before.edges || now.in_chain != before.in_chain) return false;
+    if (now.kind != before.kind || now.count != before.count || now.edges != before.edges || now.chains != before.chains ||
+        now.level != before.level)
+      return false;
     for (std::size_t v = 0; v < now.count; ++v) frame_.vertices[before.first + v] = frame_.vertices[now.first + v];
     now.first = before.first;
     if (now.outline >= 0) {
       frame_.outlines[static_cast<std::size_t>(before.outline)] = frame_.outlines[static_cast<std::size_t>(now.outline)];
       now.outline = before.outline;
     }
-    if (now.edges != 0) now.first_edge = before.first_edge;
+    if (now.edges != 0) now.first_edge = before.first_edge, now.first_chain = before.first_chain;
     before = now;
   }
   frame_.blockers.resize(at);
@@ -103,6 +105,7 @@ void Preparation::drop(std::size_t body) {
     frame_.emitters[e].hidden = true;
     frame_.nearby_count[e] = 0;
     frame_.whole_run[e] = 0;
+    frame_.filled_run[e] = 0;
     dirty_[e] = 0;
   }
   emitter_count_[body] = 0;

@@ -49,7 +49,7 @@ class Preparation {
   // Possible blockers of an emitter: nearby.cpp.
   enum class ChainView { behind, whole, edge_by_edge };
   ChainView view_of_chain(const Emitter& e, const Blocker& chain) const;
-  bool is_clear(const Emitter* run);
+  bool is_clear(const Emitter* run, bool& filled);
   bool is_behind_outline(const Emitter& run, int edge) const;
   std::size_t curve_of(const Emitter& e, int blocker) const;
   bool is_of_run(const Emitter* run, int blocker) const;

@@ -130,6 +130,7 @@ export class Plane {
   static async load(scene, name = "scene.svg") {
     const machine = await loadMachine();
     const size = { width: 512, height: 512, origin: [0, 0] };
+    if (typeof scene === "string" && scene.includes("<text") && typeof document !== "undefined") await document.fonts?.ready; // letters of the page's own fonts
     if (typeof scene === "string") return new Plane(machine, machine.call("plane_from_svg", scene, name));
     if (!scene || typeof scene !== "object") throw new PlaneError(name, "is no scene", "give the text of an SVG file or { lights, occluders }");
     const { width, height, origin, lights = [], occluders = [], ...rest } = { ...size, ...scene };

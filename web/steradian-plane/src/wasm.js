@@ -1,5 +1,6 @@
 // The WebAssembly module, and calls of it with strings and numbers.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+import { lettersFor } from "./letters.js";
 import { PLANE_SIZE, PLANE_WASM } from "./plane_wasm.js";
 import { unpack } from "./unpack.js";
 
@@ -32,6 +33,7 @@ async function start() {
   const made = await WebAssembly.instantiate(unpack(packed, PLANE_SIZE), {
     env: {
       emscripten_notify_memory_growth: () => {},
+      ...lettersFor(() => exports),
       number_of_text: (at, size) => Number(new TextDecoder().decode(new Uint8Array(exports.memory.buffer, at, size))),
       text_of_number: (x, digits, at) =>
         new TextEncoder().encodeInto(String(digits ? Number(x.toPrecision(digits)) : x), new Uint8Array(exports.memory.buffer, at, 32)).written,

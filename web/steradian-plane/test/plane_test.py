@@ -243,6 +243,45 @@ def check_gl(package, chromium):
         assert f["beyond"] <= 3 + values / 10000, f
 
 
+# Letters of a font that Debian's fonts-dejavu-core has: the program finds it by fontconfig, the page by the browser.
+LETTERS = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 160"><text class="light" x="40" y="90" font-family="DejaVu Sans" font-size="48"
+fill="#ffffff" data-intensity="3">Open&#233;</text><text x="30" y="130" font-family="DejaVu Sans" font-size="20">bar</text></svg>"""
+LETTER_POINTS = [[120, 140], [20, 20], [220, 30], [130, 20], [45, 145], [200, 130], [120, 10]]
+
+
+def check_letters(package, chromium):
+    """<text> by the page's fonts, traced on a canvas, against the outlines of the font's file."""
+    page, svg = SCRATCH / "letters.html", SCRATCH / "letters.svg"
+    svg.write_text(LETTERS)
+
+    def visited(address):
+        script = f"""<script type="module">
+const answer = (body) => fetch("{address}", {{ method: "POST", mode: "no-cors", body: JSON.stringify(body) }});
+try {{
+  const Plane = await new Promise((resolve) => {{
+    const look = () => (globalThis.plane ? resolve(globalThis.plane.constructor) : setTimeout(look, 10));
+    look();
+  }});
+  const start = performance.now(), plane = await Plane.load({json.dumps(LETTERS)}, "letters.svg"), ms = performance.now() - start;
+  answer({{ ms, warnings: plane.warnings, lights: {json.dumps(LETTER_POINTS)}.map(([x, y]) => plane.query(x, y).radiance[0]) }});
+}} catch (e) {{
+  answer({{ failed: String(e.stack) }});
+}}
+</script>"""
+        page.write_text((package / "room.html").read_text().replace("</html>", script + "</html>"))
+        return page.as_uri()
+
+    found = json.loads(browser.answer_of(chromium, visited))
+    assert "failed" not in found, found["failed"]
+    want = [w[0] for w in eval_plane(svg, LETTER_POINTS)]
+    off = max(abs(a - b) for a, b in zip(found["lights"], want))
+    print(f"letters of the page: loaded in {found['ms']:.0f} ms, off by at most {off:.1e} of lights from {min(want):.3f} to {max(want):.3f}; {found['warnings']}")
+    assert found["warnings"] == [], found["warnings"]
+    # An outline is off by at most a pixel of a canvas of 256 pixels an em. From ten units away, that is an angle at either end of each letter.
+    em = 48
+    assert 0 < off < 5 * 2 * 3 * (em / 256 / 10) / 6.283, (found["lights"], want)
+
+
 def frame_times(package):
     """Of the room, by the machine's clock: the page's own stands still while it works."""
     script = f"""
@@ -257,6 +296,10 @@ moves.sort((a, b) => a - b);
 console.log(`the room at 1280 x 800, one thread of WebAssembly: ${{cold.toFixed(0)}} ms cold, ${{moves[20].toFixed(1)}} ms where the candle moves`);
 """
     done = subprocess.run(["node", "--input-type=module", "-e", script], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    print(done.stdout.strip())
+    drawings = [ROOT / "scenes" / "plane" / f"{s}.svg" for s in (*SCENES, "curves", "logo")]
+    done = subprocess.run(["node", HERE / "frame_times.mjs", package, "640x360", *drawings], capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     print(done.stdout.strip())
 
@@ -282,6 +325,7 @@ def main():
         print("the page was not tried: there is no Chromium here (apt-get install chromium)")
         return
     check_page(package, chromium)
+    check_letters(package, chromium)
     check_gl(package, chromium)
 
 

@@ -89,4 +89,41 @@ std::vector<Chain> convex_chains(const Curve* curves, std::size_t count) {
   return chains;
 }
 
+std::vector<Chain> closed_outlines(const Curve* curves, std::size_t count) {
+  std::vector<Chain> outlines;
+  for (std::size_t i = 0; i < count;) {
+    const std::size_t first = i++;
+    if (curves[first].kind != Curve::Kind::segment || i == count || curves[i].kind != Curve::Kind::segment) continue;
+    // Edges may have been reversed: the walk leaves the first one by the end that the second one shares.
+    const Curve& one = curves[first];
+    const bool along = one.b == curves[i].a || one.b == curves[i].b;
+    const Vec2d start = along ? one.a : one.b;
+    Vec2d at = along ? one.b : one.a;
+    std::vector<Vec2d> points{start};
+    while (at != start && i < count && curves[i].kind == Curve::Kind::segment && (at == curves[i].a || at == curves[i].b)) {
+      points.push_back(at);
+      at = at == curves[i].a ? curves[i].b : curves[i].a;
+      ++i;
+    }
+    if (at == start && points.size() > 3) outlines.push_back({first, i - first, hull_around(std::move(points))});
+  }
+  return outlines;
+}
+
+std::vector<Vec2d> hull_around(std::vector<Vec2d> points) {
+  // Andrew's monotone chains.
+  std::sort(points.begin(), points.end(), [](Vec2d p, Vec2d q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
+  std::vector<Vec2d> hull;
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t first = hull.size();
+    for (Vec2d p : points) {
+      while (hull.size() > first + 1 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
 }  // namespace steradian::plane

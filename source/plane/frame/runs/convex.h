@@ -71,4 +71,11 @@ struct Chain {
 // Edges that belong to no chain are omitted.
 std::vector<Chain> convex_chains(const Curve* curves, std::size_t count);
 
+// The closed outlines of curves[0, count) that follow each other, with the hulls around them. From outside, every ray that passes through
+// such a hull crosses the outline: where it enters between two vertices of the hull, it leaves elsewhere.
+std::vector<Chain> closed_outlines(const Curve* curves, std::size_t count);
+
+// The corners of the convex hull of points, counter-clockwise.
+std::vector<Vec2d> hull_around(std::vector<Vec2d> points);
+
 }  // namespace steradian::plane

@@ -81,8 +81,41 @@ void append_chains(const std::vector<Emitter>& strand, std::vector<Emitter>& to)
   }
 }
 
-// Appends a whole outline. An outline that is neither convex nor a hole is no run.
-void append_outline(const std::vector<Emitter>& edges, std::vector<Emitter>& to) {
+// Is only the angle of a light that is visible what counts?
+bool is_even(const World& world, const Emitter& e) {
+  const PlaneEmission& light = *world.scene.bodies[static_cast<std::size_t>(e.body)].light;
+  return light.profile == PlaneProfile::uniform && !light.gradient && !light.is_spot() && !(light.range < 1e300);
+}
+
+// Appends the edges of the hull that are none of the outline.
+void append_lids(const Emitter around, const std::vector<Emitter>& edges, std::vector<Emitter>& to) {
+  std::vector<std::pair<Vec2d, Vec2d>> own;
+  const auto before = [](const auto& p, const auto& q) {
+    return std::tie(p.first.x, p.first.y, p.second.x, p.second.y) < std::tie(q.first.x, q.first.y, q.second.x, q.second.y);
+  };
+  for (const Emitter& e : edges) own.emplace_back(e.a, e.b);
+  std::sort(own.begin(), own.end(), before);
+  for (std::size_t k = 0; k < around.hull.size(); ++k) {
+    const Vec2d a = around.hull[k], b = around.hull[k + 1 < around.hull.size() ? k + 1 : 0];
+    if (std::binary_search(own.begin(), own.end(), std::pair{a, b}, before)) continue;
+    Emitter lid;
+    lid.kind = Emitter::Kind::edge;
+    lid.body = around.body;
+    lid.a = b;
+    lid.b = a;
+    lid.radiance = {-around.radiance.a, -around.radiance.b};
+    lid.curve = static_cast<std::size_t>(-1);
+    lid.center = (a + b) * 0.5;
+    lid.bound = 0.5 * length(b - a);
+    lid.normal = Vec2d{lid.b.y - lid.a.y, lid.a.x - lid.b.x} / length(b - a);
+    lid.range = around.range;
+    lid.lid = true;
+    to.push_back(lid);
+  }
+}
+
+// Appends a whole outline. A concave outline is one run if its light is even.
+void append_outline(const World& world, const std::vector<Emitter>& edges, std::vector<Emitter>& to) {
   double least = 1e300, turned = 0, area = 0;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const double turn = turn_between(edges[k], edges[k + 1 < edges.size() ? k + 1 : 0]);
@@ -91,19 +124,22 @@ void append_outline(const std::vector<Emitter>& edges, std::vector<Emitter>& to)
     area += cross(edges[k].a - edges[0].a, edges[k].b - edges[0].a);
   }
   const bool convex = least >= -kStraight && std::fabs(turned - 2 * pi) < 1e-6;
-  if (!convex && !(area < 0)) return append_chains(edges, to);
+  const bool hole = !convex && area < 0, around = !convex && !hole;
+  if (around && (edges.front().wall || !is_even(world, edges.front()))) return append_chains(edges, to);
   const std::size_t at = to.size();
   Emitter run = edges.front();
-  run.shape = convex ? RunShape::closed : RunShape::hole;
+  run.shape = convex ? RunShape::closed : hole ? RunShape::hole : RunShape::around;
   Box2d box;
   for (const Emitter& e : edges) box.add(e.a), run.hull.push_back(e.a);
-  if (!convex) run.hull = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  if (around) run.hull = hull_around(run.hull);
+  if (hole) run.hull = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
   run.a = run.b = run.center = box.center();
   run.normal = {};
   run.bound = 0;
   for (Vec2d v : run.hull) run.bound = std::max(run.bound, length(v - run.center));
   run.radius = run.bound;
   to.push_back(run);
+  if (around) append_lids(to[at], edges, to);
   append_chains(edges, to);
   to[at].group = to.size() - at;
 }
@@ -111,7 +147,7 @@ void append_outline(const std::vector<Emitter>& edges, std::vector<Emitter>& to)
 template <class F>
 void for_each_edge(const Emitter* run, F f) {
   for (std::size_t k = 1; k < run->group; ++k)
-    if (!is_run(run[k])) f(run[k]);
+    if (!is_run(run[k]) && !run[k].lid) f(run[k]);
 }
 
 // Edges of light in the order along outlines, with the body to the left: the next edge begins at the end of the last. If several do, as at
@@ -188,7 +224,7 @@ std::vector<Emitter> with_runs(const World& world, const std::vector<Emitter>& e
     while (!walk.is_done(i)) {
       const std::vector<Emitter> strand = walk.strand_of(i);
       if (!walk.is_two_sided(i) && strand.size() > 2 && strand.back().b == strand.front().a)
-        append_outline(strand, result);
+        append_outline(world, strand, result);
       else
         append_chains(strand, result);
     }
@@ -215,9 +251,23 @@ RunView view_of(const Emitter& run, const TileRectangle& tile) {
   return best;
 }
 
-Facing facing(const Emitter& edge, const TileRectangle& tile) {
-  const double height = dot(edge.normal, tile.center - edge.a),
-               reach = std::fabs(edge.normal.x) * tile.half.x + std::fabs(edge.normal.y) * tile.half.y;
+bool is_within_hull(const Emitter& run, const TileRectangle& tile) {
+  for (std::size_t k = 0; k < run.hull.size(); ++k) {
+    const Vec2d a = run.hull[k], along = run.hull[k + 1 < run.hull.size() ? k + 1 : 0] - a,
+                inwards = Vec2d{-along.y, along.x} / length(along);
+    if (facing(a, inwards, tile) != Facing::all) return false;
+  }
+  return true;
+}
+
+std::size_t count_lids(const Emitter* run) {
+  std::size_t count = 0;
+  while (1 + count < run->group && run[1 + count].lid) ++count;
+  return count;
+}
+
+Facing facing(Vec2d point, Vec2d normal, const TileRectangle& tile) {
+  const double height = dot(normal, tile.center - point), reach = std::fabs(normal.x) * tile.half.x + std::fabs(normal.y) * tile.half.y;
   if (height + reach <= 0) return Facing::none;
   return height - reach > kLeastHeight ? Facing::all : Facing::some;
 }
@@ -225,7 +275,8 @@ Facing facing(const Emitter& edge, const TileRectangle& tile) {
 Facing seen_as_one(const Emitter* run, const TileRectangle& tile) {
   const bool apart = view_of(*run, tile).least > kLeastHeight;
   switch (run->shape) {
-    case RunShape::closed: return apart ? Facing::all : Facing::some;
+    case RunShape::closed:
+    case RunShape::around: return apart ? Facing::all : Facing::some;
     case RunShape::hole: return apart ? Facing::none : Facing::some;
     case RunShape::bowl:
       // From behind the chord, everything that enters the hull has crossed the run from its other side.
@@ -239,24 +290,33 @@ Facing seen_as_one(const Emitter* run, const TileRectangle& tile) {
   return apart && facing(*run, tile) == Facing::all ? Facing::all : Facing::some;
 }
 
+namespace {
+
+// Counts the crossings of a ray, so that ends that touch the edge do not count.
+void pass(Vec2d a, Vec2d b, Vec2d p, bool& inside) {
+  if ((a.y > p.y) == (b.y > p.y)) return;
+  if (p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+}
+
+}  // namespace
+
+bool is_within_outline(const Emitter* run, Vec2d p) {
+  bool inside = false;
+  for_each_edge(run, [&](const Emitter& e) { pass(e.a, e.b, p, inside); });
+  return inside;
+}
+
 bool crosses_run(const Emitter* run, Vec2d p, Vec2d q) {
   const auto strictly = [&](Vec2d a, Vec2d b) {
     const Vec2d d = q - p, along = b - a;
     return cross(along, p - a) * cross(along, q - a) < 0 && cross(d, a - p) * cross(d, b - p) < 0;
   };
   bool crosses = strictly(run->a, run->b);
-  // Is the middle between chord and edges? The test counts the crossings of a ray, so that ends that touch the run do not count.
+  for_each_edge(run, [&](const Emitter& e) { crosses = crosses || strictly(e.a, e.b); });
+  // Is the middle between chord and edges?
   const Vec2d middle = (p + q) * 0.5;
-  bool inside = false;
-  const auto pass = [&](Vec2d a, Vec2d b) {
-    if ((a.y > middle.y) == (b.y > middle.y)) return;
-    if (middle.x < a.x + (middle.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-  };
-  pass(run->a, run->b);
-  for_each_edge(run, [&](const Emitter& e) {
-    crosses = crosses || strictly(e.a, e.b);
-    pass(e.a, e.b);
-  });
+  bool inside = is_within_outline(run, middle);
+  pass(run->a, run->b, middle, inside);
   return crosses || inside;
 }
 

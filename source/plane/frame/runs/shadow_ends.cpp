@@ -64,7 +64,7 @@ bool ShadowEnds::follows_disk(Vec2d a, double radius, Vec2d b) const {
   return left >= 0 && left * left >= radius * radius * dot(b, b);
 }
 
-void ShadowEnds::take_front(int silhouette, std::uint8_t ahead, bool from_low, bool to_high) {
+void ShadowEnds::take_front(int silhouette, std::uint16_t ahead, bool from_low, bool to_high) {
   if (from_low && to_high) {
     hidden_ = true;
     return;
@@ -74,7 +74,7 @@ void ShadowEnds::take_front(int silhouette, std::uint8_t ahead, bool from_low, b
   if (to_high) grow_high(held_.back());
 }
 
-void ShadowEnds::take_deep(int silhouette, std::uint8_t ahead, const DepthLine& depth) {
+void ShadowEnds::take_deep(int silhouette, std::uint16_t ahead, const DepthLine& depth) {
   held_.push_back({silhouette, ahead, true, false, false, false, depth});
 }
 

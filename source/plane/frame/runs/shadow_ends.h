@@ -25,8 +25,8 @@ class ShadowEnds {
   void clear(const std::vector<Silhouette>& pool, Vec2d to_light);
   // A convex blocker in front of the light for all of the tile. `ahead` marks the vertices that are ahead of all pixels; `from_low` and
   // `to_high` tell if it reaches past the light on either side.
-  void take_front(int silhouette, std::uint8_t ahead, bool from_low, bool to_high);
-  void take_deep(int silhouette, std::uint8_t ahead, const DepthLine& depth);
+  void take_front(int silhouette, std::uint16_t ahead, bool from_low, bool to_high);
+  void take_deep(int silhouette, std::uint16_t ahead, const DepthLine& depth);
   void take(const TileRound& round, double bound) { far_rounds_.push_back({round, bound}); }
   void take(const TileLens& lens) { lenses_.push_back(lens); }
   bool hidden();                  // merges; call it after the last of them
@@ -36,7 +36,7 @@ class ShadowEnds {
  private:
   struct Held {
     int silhouette;
-    std::uint8_t ahead;
+    std::uint16_t ahead;
     bool deep, low_done = false, high_done = false, dropped = false;
     DepthLine depth = {};
   };

@@ -23,13 +23,13 @@ struct PaddedOutline {
 
 // Data that is the same for all lights. Places are relative to the tile's centre; sets of vertices are bits.
 struct Silhouette {
-  static constexpr int kMost = PaddedOutline::kMost;
+  static constexpr int kMost = 16;
   enum class Kind : std::uint8_t { polygon, segment, disk };
-  alignas(64) double x[kMost], y[kMost];  // as in the outline
+  alignas(64) double x[kMost], y[kMost];  // as in the outline; if it has more than eight, those in which it may begin or end
   Vec2d center;                           // centre of a bounding circle, a disk's own; its vertices are a diameter's ends
   double radius;
   std::uint8_t count;
-  std::uint8_t begins, ends;  // vertices in which some pixel may see it begin and end, counter-clockwise
+  std::uint16_t begins, ends;  // vertices in which some pixel may see it begin and end, counter-clockwise
   Kind kind;
   bool outside;  // is all of the tile outside?
   Vec2d at(int k) const { return {x[k], y[k]}; }
@@ -53,7 +53,7 @@ struct SeenEmitter {
 
 // Sets of vertices: past the lines, beside the light, and in front of every pixel's axis.
 struct VertexMarks {
-  std::uint8_t past_low, past_high, beside_low, beside_high, ahead;
+  std::uint16_t past_low, past_high, beside_low, beside_high, ahead;
 };
 
 struct SilhouetteTable {

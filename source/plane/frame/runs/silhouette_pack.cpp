@@ -14,16 +14,18 @@ STERADIAN_INLINE unsigned bits_of(const Doubles::batch_bool_type& mask) {
   return static_cast<unsigned>(static_cast<__mmask8>(mask));
 #elif defined(__AVX2__)
   return static_cast<unsigned>(_mm256_movemask_pd(mask));
+#elif defined(__aarch64__)
+  return static_cast<unsigned>(vaddvq_u64(vandq_u64(mask, uint64x2_t{1, 2})));
 #else
   return static_cast<unsigned>(_mm_movemask_pd(mask));
 #endif
 }
 
-// Bits of a test on all eight vertices.
+// Bits of a test on all vertices, and on some beyond the last.
 template <class Test>
 STERADIAN_INLINE unsigned bits_where(const Silhouette& s, Test test) {
   unsigned bits = 0;
-  for (std::size_t i = 0; i < Silhouette::kMost; i += Doubles::size)
+  for (std::size_t i = 0; i < s.count; i += Doubles::size)
     bits |= bits_of(test(Doubles::load_aligned(s.x + i), Doubles::load_aligned(s.y + i), i)) << i;
   return bits;
 }
@@ -31,7 +33,7 @@ STERADIAN_INLINE unsigned bits_where(const Silhouette& s, Test test) {
 void outline(const PaddedOutline& from, const TileRectangle& tile, Silhouette& s) {
   // Visibility of the outer face of the edge that begins in a vertex: from all of the tile, from none, or from a part.
   unsigned seen = 0, unseen = 0;
-  for (std::size_t i = 0; i < Silhouette::kMost; i += Doubles::size) {
+  for (std::size_t i = 0; i < PaddedOutline::kMost; i += Doubles::size) {
     const Doubles cx(tile.center.x), cy(tile.center.y);
     const Doubles x = Doubles::load_unaligned(from.x + i) - cx, y = Doubles::load_unaligned(from.y + i) - cy;
     x.store_aligned(s.x + i);
@@ -52,8 +54,8 @@ void outline(const PaddedOutline& from, const TileRectangle& tile, Silhouette& s
     unseen = (seen & 1) << 1 | seen >> 1;
   }
   const auto before = [&](unsigned faces) { return (faces << 1 | faces >> last) & all; };
-  s.begins = static_cast<std::uint8_t>(~before(unseen) & ~seen & all);
-  s.ends = static_cast<std::uint8_t>(~before(seen) & ~unseen & all);
+  s.begins = static_cast<std::uint16_t>(~before(unseen) & ~seen & all);
+  s.ends = static_cast<std::uint16_t>(~before(seen) & ~unseen & all);
 }
 
 VertexMarks mark(const Silhouette& s, const SeenEmitter& light) {
@@ -84,8 +86,8 @@ VertexMarks mark(const Silhouette& s, const SeenEmitter& light) {
     });
   }
   const unsigned low = past(light.low), high = past(light.high);
-  const auto byte = [](unsigned bits) { return static_cast<std::uint8_t>(bits); };
-  return {byte(low), byte(high), byte(low & before(light.low)), byte(high & before(light.high)), byte(ahead & all)};
+  const auto word = [](unsigned bits) { return static_cast<std::uint16_t>(bits); };
+  return {word(low), word(high), word(low & before(light.low)), word(high & before(light.high)), word(ahead & all)};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Blockers by place: a grid of 33 x 33 bins over a window; bins at its border are open to the outside. A search finds them in an order that
-// does not depend on other blockers. Chains represent their edges.
+// does not depend on other blockers. Blockers represent their parts.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@ class BlockerBins {
   BlockerBins() = default;
   BlockerBins(const std::vector<Blocker>& blockers, const Box2d& window) {
     for (const Blocker& b : blockers)
-      if (!b.in_chain) largest_ = std::max(largest_, b.bound);
+      if (b.level == 0) largest_ = std::max(largest_, b.bound);
     low_ = window.low;
     cell_ = std::max({window.high.x - window.low.x, window.high.y - window.low.y, 1e-6}) / 32;
     bins_.resize(33 * 33);
     for (std::size_t i = 0; i < blockers.size(); ++i)
-      if (!blockers[i].in_chain) bins_[bin(blockers[i].center)].push_back(static_cast<int>(i));
+      if (blockers[i].level == 0) bins_[bin(blockers[i].center)].push_back(static_cast<int>(i));
   }
 
   void remove(int index, const Blocker& b) { std::erase(bins_[bin(b.center)], index); }

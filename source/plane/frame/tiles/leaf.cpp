@@ -102,10 +102,28 @@ LeafBuilder::Depth LeafBuilder::depth_of_round(const Blocker& b, Vec2d center) c
   return {normal, -dot(normal, through)};
 }
 
+LeafBuilder::Depth LeafBuilder::depth_of_run(int blocker) {
+  if (known_lines_.empty()) known_lines_.resize(1024);
+  KnownLine& known =
+      known_lines_[(static_cast<std::size_t>(emitter_ - frame_.emitters.data()) * 67 + static_cast<std::size_t>(blocker)) % 1024];
+  if (known.run != emitter_ || known.blocker != blocker) {
+    const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
+    const Gap gap = gap_between(region_of(*emitter_), {&frame_.vertices[b.first], b.count});
+    known = {emitter_, blocker, {gap.normal, gap.point}};
+  }
+  return {known.line.normal, -dot(known.line.normal, known.line.point - tile_.center)};
+}
+
 // Returns false if the blocker is never in front.
-bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
-  const int count = s.count;
-  const auto next = [&](int k) { return s.at(k + 1 < count ? k + 1 : 0); };
+bool LeafBuilder::depth_of(int blocker, Depth& depth) {
+  if (!light_.hull.empty()) {
+    depth = depth_of_run(blocker);
+    return true;
+  }
+  const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
+  const int count = static_cast<int>(b.count);
+  const auto at = [&](int k) { return frame_.vertices[b.first + static_cast<std::size_t>(k)] - tile_.center; };
+  const auto next = [&](int k) { return at(k + 1 < count ? k + 1 : 0); };
   const auto through = [&](Vec2d normal, Vec2d p) {
     depth.normal = normal;
     depth.offset = -dot(normal, p);
@@ -117,28 +135,22 @@ bool LeafBuilder::depth_of(const Silhouette& s, Depth& depth) const {
     Vec2d best;
     double best_d2 = 1e300;
     for (int k = 0; k < count; ++k) {
-      const Vec2d p = nearest_on_segment(space.to_unit(s.at(k)), space.to_unit(next(k)), {0, 0});
+      const Vec2d p = nearest_on_segment(space.to_unit(at(k)), space.to_unit(next(k)), {0, 0});
       const double d2 = dot(p, p);
       if (d2 < best_d2) best_d2 = d2, best = p;
     }
     const Vec2d normal{space.y.y * best.x - space.x.y * best.y, space.x.x * best.y - space.y.x * best.x};
     return best_d2 > 0 && through(normal / length(normal), space.center + space.x * best.x + space.y * best.y);
   }
-  if (!light_.hull.empty()) {
-    Vec2d vertices[Silhouette::kMost];
-    for (int k = 0; k < count; ++k) vertices[k] = s.at(k);
-    const Gap gap = gap_between({light_.hull.data(), light_.hull.size()}, {vertices, static_cast<std::size_t>(count)});
-    return through(gap.normal, gap.point);
-  }
   const Vec2d n = seen_.normal;
   const double slack = 1e-8;
   Interval<double> heights;
-  for (int k = 0; k < count; ++k) heights.add(dot(n, s.at(k) - light_.a));
+  for (int k = 0; k < count; ++k) heights.add(dot(n, at(k) - light_.a));
   if (heights.high <= slack) return false;
   if (heights.low >= -slack) return through(n, light_.a);
   double widest = -1e300;
   for (int k = 0; k < count; ++k) {
-    const Vec2d p = s.at(k), q = next(k);
+    const Vec2d p = at(k), q = next(k);
     Vec2d out = Vec2d{q.y - p.y, p.x - q.x} / length(q - p);
     double gap = std::min(dot(out, light_.a - p), dot(out, light_.b - p));
     if (count == 2) {
@@ -178,7 +190,10 @@ int LeafBuilder::silhouette(int blocker) {
   const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
   s.center = b.center - tile_.center;
   s.radius = b.bound;
-  if (b.kind == Blocker::Kind::convex) {
+  if (b.kind == Blocker::Kind::convex && b.outline < 0) {
+    s.kind = Silhouette::Kind::polygon;
+    if (!outline_of_many(b, s)) return slot = -1;
+  } else if (b.kind == Blocker::Kind::convex) {
     table_.outline(frame_.outlines[static_cast<std::size_t>(b.outline)], tile_, s);
     s.kind = s.count == 2 ? Silhouette::Kind::segment : Silhouette::Kind::polygon;
     if (s.begins == 0 || s.ends == 0) return slot = -1;
@@ -194,13 +209,43 @@ int LeafBuilder::silhouette(int blocker) {
   return slot;
 }
 
+// As SilhouetteTable::outline, with only those vertices in which some pixel may see the blocker begin or end. Returns false if the tile is
+// not outside, or if they are too many.
+bool LeafBuilder::outline_of_many(const Blocker& b, Silhouette& s) const {
+  const Vec2d* v = &frame_.vertices[b.first];
+  const auto face = [&](std::size_t k) {
+    const Vec2d p = v[k], along = v[k + 1 < b.count ? k + 1 : 0] - p, out{along.y, -along.x};
+    const double height = dot(out, tile_.center - p), reach = extent(out);
+    return height > reach ? Facing::all : height < -reach ? Facing::none : Facing::some;
+  };
+  s.count = 0;
+  s.begins = s.ends = 0;
+  s.outside = false;
+  Facing before = face(b.count - 1);
+  for (std::size_t k = 0; k < b.count; ++k) {
+    const Facing now = face(k);
+    s.outside = s.outside || now == Facing::all;
+    const bool begins = before != Facing::none && now != Facing::all, ends = before != Facing::all && now != Facing::none;
+    before = now;
+    if (!begins && !ends) continue;
+    if (s.count == Silhouette::kMost) return false;
+    const unsigned bit = 1u << s.count;
+    s.x[s.count] = v[k].x - tile_.center.x;
+    s.y[s.count] = v[k].y - tile_.center.y;
+    s.begins = static_cast<std::uint16_t>(s.begins | (begins ? bit : 0));
+    s.ends = static_cast<std::uint16_t>(s.ends | (ends ? bit : 0));
+    ++s.count;
+  }
+  return s.outside && s.begins != 0 && s.ends != 0;
+}
+
 void LeafBuilder::add_convex(int blocker) {
   const Blocker& b = frame_.blockers[static_cast<std::size_t>(blocker)];
   Side side = side_of_circle(b.center - tile_.center, b.bound);
   if (side == Side::behind) return;
   const int slot = silhouette(blocker);
   if (b.edges != 0 && (slot < 0 || !pool_[static_cast<std::size_t>(slot)].outside)) {
-    for (int edge = 0; edge < b.edges; ++edge) add_convex(b.first_edge + edge);
+    for_each_part(frame_.blockers, blocker, [&](int part) { add_convex(part); });
     return;
   }
   if (slot < 0) return;
@@ -210,7 +255,7 @@ void LeafBuilder::add_convex(int blocker) {
   if ((outer & ~marks.past_low) == 0 || (outer & ~marks.past_high) == 0) return;  // it does not touch the light
   Depth depth;
   if (side == Side::mixed) {
-    if (!depth_of(s, depth)) return;
+    if (!depth_of(blocker, depth)) return;
     side = side_of(depth);
     if (side == Side::behind) return;
   }
@@ -379,9 +424,17 @@ TileLight LeafBuilder::light_of(const Emitter& e) const {
 
 void LeafBuilder::look_at_edges(const Emitter& run) {
   edges_.clear();
-  if (!is_run(run)) edges_.push_back({&run, facing(run, tile_)});
+  const auto add = [&](const Emitter& e) { edges_.push_back({&e, e.a, e.b, facing(e, tile_)}); };
+  if (!is_run(run)) return add(run);
+  if (run.shape == Emitter::RunShape::around) {
+    for (std::size_t k = 0; k < run.hull.size(); ++k) {
+      const Vec2d a = run.hull[k], b = run.hull[k + 1 < run.hull.size() ? k + 1 : 0], along = b - a;
+      edges_.push_back({nullptr, a, b, facing(a, Vec2d{along.y, -along.x} / length(along), tile_)});
+    }
+    return;
+  }
   for (const Emitter* e = &run + 1; e < &run + run.group; ++e)
-    if (!is_run(*e)) edges_.push_back({e, facing(*e, tile_)});
+    if (!is_run(*e)) add(*e);
 }
 
 // Places at which a pixel of the tile may see the run begin and end. For a bowl they are the chord's ends, for others the corners between
@@ -397,15 +450,15 @@ void LeafBuilder::add_corners(const Emitter& run, TileLight& light) {
   } else {
     for (std::size_t k = 0; k < count; ++k) {
       if (edges_[k].facing == Facing::none) continue;
-      const bool closed = run.shape == Emitter::RunShape::closed;
+      const bool closed = run.shape == Emitter::RunShape::closed || run.shape == Emitter::RunShape::around;
       const Facing before = k > 0    ? edges_[k - 1].facing
                             : closed ? edges_[count - 1].facing
                                      : Facing::none,
                    after = k + 1 < count ? edges_[k + 1].facing
                            : closed      ? edges_[0].facing
                                          : Facing::none;
-      if (before != Facing::all) high_corners_.push_back(corner(edges_[k].edge->a));
-      if (after != Facing::all) low_corners_.push_back(corner(edges_[k].edge->b));
+      if (before != Facing::all) high_corners_.push_back(corner(edges_[k].a));
+      if (after != Facing::all) low_corners_.push_back(corner(edges_[k].b));
     }
   }
   light.low_corners = low_corners_.data();
@@ -446,6 +499,7 @@ LeafBuilder::Result LeafBuilder::build(const Emitter& e, const int* blockers, st
     light_.ellipse = ellipse_of(e);
     light_.ellipse.center = light_.center;
   }
+  emitter_ = &e;
   seen_ = see(e);
   shadows_.clear(pool_, light_.center);
   for (std::size_t i = 0; i < count; ++i) {

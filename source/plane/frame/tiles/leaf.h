@@ -45,8 +45,10 @@ class LeafBuilder {
   bool passes_by(Vec2d center, double radius) const;
   SeenEmitter see(const Emitter& e) const;
   int silhouette(int blocker);
+  bool outline_of_many(const Blocker& b, Silhouette& s) const;
   Depth depth_of_round(const Blocker& b, Vec2d center) const;
-  bool depth_of(const Silhouette& s, Depth& depth) const;
+  bool depth_of(int blocker, Depth& depth);
+  Depth depth_of_run(int blocker);
   Side side_of(const Depth& depth) const;
   Side side_of_circle(Vec2d center, double radius) const;
   bool ahead(Vec2d v, double radius) const;
@@ -71,13 +73,22 @@ class LeafBuilder {
   SeenEmitter seen_;
   ShadowEnds shadows_;
   struct SeenEdge {
-    const Emitter* edge;
+    const Emitter* edge;  // null for one of a hull
+    Vec2d a, b;
     Facing facing;
   };
-  std::vector<SeenEdge> edges_;  // edges of a run
+  std::vector<SeenEdge> edges_;  // edges of a run, or of the hull around it
   std::vector<TilePart> parts_;
   std::vector<TileVertex> low_corners_, high_corners_;
   std::vector<float> scratch_;
+  // Lines between runs and blockers, which hold for every tile: the last one of each place.
+  struct KnownLine {
+    const Emitter* run = nullptr;
+    int blocker = -1;
+    DividingLine line;
+  };
+  std::vector<KnownLine> known_lines_;
+  const Emitter* emitter_ = nullptr;
 };
 
 }  // namespace steradian::plane

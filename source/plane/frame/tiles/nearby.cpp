@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kApart = 1e-6;
 
-bool has_no_chord(const Emitter& e) { return is_run(e) && e.shape == Emitter::RunShape::closed; }
+bool is_around(const Emitter& e) { return is_run(e) && e.shape == Emitter::RunShape::around; }
+bool has_no_chord(const Emitter& e) { return is_run(e) && (e.shape == Emitter::RunShape::closed || e.shape == Emitter::RunShape::around); }
 
 }  // namespace
 
@@ -23,13 +24,16 @@ void Preparation::make_list(std::size_t index) {
     frame_.first_nearby.resize(index + 2, frame_.nearby.size);
     frame_.nearby_count.push_back(0);
     frame_.whole_run.push_back(0);
+    frame_.filled_run.push_back(0);
     room_.push_back(0);
     first_pair_.push_back(0);
   }
   e.hidden = false;
   // A hole is never visible as one run: its entry exists to be dropped together with the emitters that it represents.
   const bool hole = is_run(e) && e.shape == Emitter::RunShape::hole;
-  frame_.whole_run[index] = is_run(e) && (hole || is_clear(&e));
+  bool filled = is_around(e);
+  frame_.whole_run[index] = is_run(e) && (hole || is_clear(&e, filled));
+  frame_.filled_run[index] = filled && frame_.whole_run[index] != 0;
   std::vector<int> list;
   if (!hole && (frame_.whole_run[index] != 0 || !is_run(e))) find_nearby(index, list);
   write_list(index, list);
@@ -65,6 +69,8 @@ void Preparation::write_list(std::size_t index, const std::vector<int>& list) {
 }
 
 Preparation::ChainView Preparation::view_of_chain(const Emitter& e, const Blocker& chain) const {
+  // A light's own outline may be behind it in one part and in front in another. Event lines take chains.
+  if (chain.chains != 0 && (chain.body == e.body || e.kind == Emitter::Kind::disk)) return ChainView::edge_by_edge;
   const Vec2d* v = &frame_.vertices[chain.first];
   if (has_no_chord(e)) {
     // If an outline crosses itself, a chain may continue from one closed run of the body to the next.
@@ -88,7 +94,8 @@ bool Preparation::is_behind_outline(const Emitter& run, int edge) const {
 }
 
 // Does nothing else come near a run, and none of its own outline come between its edges and its chord?
-bool Preparation::is_clear(const Emitter* run) {
+// Clears `filled` if some of its own outlines lie within it.
+bool Preparation::is_clear(const Emitter* run, bool& filled) {
   bool clear = true;
   const auto comes_near = [&](const Blocker& b) {
     if (length(run->center - b.center) >= run->bound + b.bound + kApart) return false;
@@ -110,15 +117,23 @@ bool Preparation::is_clear(const Emitter* run) {
       return;
     }
     // The inside of a closed run's outline is not visible, and nothing of it crosses.
-    if (has_no_chord(*run)) return;
+    if (has_no_chord(*run) && !is_around(*run)) return;
+    const auto between = [&](int edge) {
+      const Blocker& e = frame_.blockers[static_cast<std::size_t>(edge)];
+      if (!clear || !comes_near(e) || is_of_run(run, edge)) return;
+      spend(10 * run->group);
+      filled = false;
+      clear = is_within_outline(run, (frame_.vertices[e.first] + frame_.vertices[e.first + e.count - 1]) * 0.5);
+    };
     const auto own = [&](int edge) {
       const Blocker& e = frame_.blockers[static_cast<std::size_t>(edge)];
       if (e.count != 2 || length(run->center - e.center) >= run->bound + e.bound || is_of_run(run, edge)) return;
       spend(20 * run->group);
       clear = clear && !crosses_run(run, frame_.vertices[e.first], frame_.vertices[e.first + 1]);
     };
-    if (b.edges == 0) return own(k);
-    for (int edge = b.first_edge; edge < b.first_edge + b.edges; ++edge) own(edge);
+    const auto look = [&](int edge) { is_around(*run) ? between(edge) : own(edge); };
+    if (b.edges == 0) return look(k);
+    for (int edge = b.first_edge; edge < b.first_edge + b.edges; ++edge) look(edge);
   });
   return clear;
 }
@@ -162,18 +177,18 @@ void Preparation::find_nearby(std::size_t index, std::vector<int>& list) {
     else
       list.push_back(k);
   };
-  // A blocker further from the light than its range is behind the last lit point.
-  bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, [&](int k) {
+  const std::function<void(int)> visit = [&](int k) {
     const Blocker& b = frame_.blockers[static_cast<std::size_t>(k)];
-    switch (b.edges == 0 ? ChainView::edge_by_edge : view_of_chain(e, b)) {
+    if (e.lid && b.body != e.body) return;  // within the hull there is nothing else
+    if (b.edges == 0) return consider(k);
+    switch (view_of_chain(e, b)) {
       case ChainView::behind: return;
       case ChainView::whole: return list.push_back(k);
-      case ChainView::edge_by_edge: break;
+      case ChainView::edge_by_edge: return for_each_part(frame_.blockers, k, visit);
     }
-    if (b.edges == 0) return consider(k);
-    // By value: parts of edges become blockers too, and move the array.
-    for (int edge = b.first_edge, end = edge + b.edges; edge < end; ++edge) consider(edge);
-  });
+  };
+  // A blocker further from the light than its range is behind the last lit point.
+  bins_.for_each_within(frame_.blockers, e.center, std::min(e.range, 1e8) + e.bound, visit);
   for (int k : overlapping) stand_in(e, k, list);
 }
 

@@ -131,6 +131,7 @@ __attribute__((flatten)) void add_light(const TileLight& light, TileBuffer& tile
 void write(const TileBuffer& tile, int width, int height, float* out, std::size_t stride) {
   for (int y = 0; y < height; ++y, out += stride) {
     int x = 0;
+#if defined(__SSE2__)
     for (; x + 4 <= width; x += 4) {
       const int i = TileBuffer::slot(x, y);
       const __m128 r = _mm_load_ps(tile.red + i), g = _mm_load_ps(tile.green + i), b = _mm_load_ps(tile.blue + i);
@@ -140,6 +141,12 @@ void write(const TileBuffer& tile, int width, int height, float* out, std::size_
       _mm_storeu_ps(out + 3 * x + 4, _mm_shuffle_ps(g1b1, _mm_unpackhi_ps(r, g), _MM_SHUFFLE(1, 0, 2, 0)));
       _mm_storeu_ps(out + 3 * x + 8, _mm_shuffle_ps(b2r3, g3b3, _MM_SHUFFLE(2, 0, 2, 0)));
     }
+#elif defined(__aarch64__)
+    for (; x + 4 <= width; x += 4) {
+      const int i = TileBuffer::slot(x, y);
+      vst3q_f32(out + 3 * x, {{vld1q_f32(tile.red + i), vld1q_f32(tile.green + i), vld1q_f32(tile.blue + i)}});
+    }
+#endif
     for (; x < width; ++x) {
       const int i = TileBuffer::slot(x, y);
       out[3 * x] = tile.red[i];

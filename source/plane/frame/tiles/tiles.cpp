@@ -27,6 +27,7 @@ struct Entry {
   std::size_t begin, end;  // its blockers in the level's list
   // Number of entries, itself and those that it represents, which follow it; a run without them is visible as one from all of the tile.
   std::size_t group = 1;
+  bool within = false;  // a run `around` from within its hull: its light in all directions. Its lids follow
 };
 
 struct Level {
@@ -105,25 +106,37 @@ class TileWorker {
     const Facing faces = is_run(e) ? seen_as_one(&e, tile) : Facing::all;
     if (faces == Facing::none) return;
     const std::size_t at = to.entries.size();
+    if (whole && takes_within(index, tile, to)) return;
     if (!is_run(e) || whole) {
       if (!filter(static_cast<int>(index), frame_.nearby, frame_.first_nearby[index],
                   frame_.first_nearby[index] + frame_.nearby_count[index], tile, to))
         return;
       if (faces == Facing::all) return;
     }
-    for (std::size_t k = index + 1; k < index + e.group; k += frame_.emitters[k].group) take_first(k, tile, to);
+    for (std::size_t k = index + 1 + count_lids(&e); k < index + e.group; k += frame_.emitters[k].group) take_first(k, tile, to);
     if (whole) close_group(at, to);
   }
 
   // The same for entries of the level above: the first one and the entries that it represents.
   void take(const Level& from, std::size_t first, const TileRectangle& tile, Level& to) {
     const Entry& entry = from.entries[first];
+    if (entry.within) return to.entries.push_back({entry.emitter, 0, 0, 1, true});
+    if (entry.group > 1 && takes_within(static_cast<std::size_t>(entry.emitter), tile, to)) return;
     const Facing faces = entry.group > 1 ? seen_as_one(&frame_.emitters[static_cast<std::size_t>(entry.emitter)], tile) : Facing::all;
     if (faces == Facing::none) return;
     const std::size_t at = to.entries.size();
     if (!filter(entry.emitter, from.blockers, entry.begin, entry.end, tile, to) || faces == Facing::all) return;
     for (std::size_t k = first + 1; k < first + entry.group; k += from.entries[k].group) take(from, k, tile, to);
     close_group(at, to);
+  }
+
+  // If the tile lies within the hull of a run `around`: appends its light from within, and the lids.
+  bool takes_within(std::size_t index, const TileRectangle& tile, Level& to) {
+    const Emitter& e = frame_.emitters[index];
+    if (frame_.filled_run[index] == 0 || lists_ != nullptr || !is_within_hull(e, tile)) return false;
+    to.entries.push_back({static_cast<int>(index), 0, 0, 1, true});
+    for (std::size_t k = index + 1; k < index + 1 + count_lids(&e); ++k) take_first(k, tile, to);
+    return true;
   }
 
   // Removes a run if none of its parts remains.
@@ -219,6 +232,10 @@ class TileWorker {
     for (const Entry& e : level.entries) {
       if (filled) break;
       if (e.group > 1) continue;  // some of its edges face away: they follow one by one
+      if (e.within) {
+        add_to_all(static_cast<Vec3f>(frame_.emitters[static_cast<std::size_t>(e.emitter)].radiance.a));
+        continue;
+      }
       const auto [light, visible] =
           leaf_.build(frame_.emitters[static_cast<std::size_t>(e.emitter)], level.blockers.index.data() + e.begin, e.end - e.begin);
       if (!visible) continue;
@@ -240,6 +257,14 @@ class TileWorker {
                  3 * static_cast<std::size_t>(grid_.width));
     filling_.draw(picture_);
     if (!level.general.empty()) add_general(level, tile, x0, y0);
+  }
+
+  void add_to_all(const Vec3f& light) {
+    for (int i = 0; i < kTilePixels; ++i) {
+      buffer_.red[i] += light.x;
+      buffer_.green[i] += light.y;
+      buffer_.blue[i] += light.z;
+    }
   }
 
   // Lights without a special rule, one by one: the envelope of the curves that touch the hull of tile and light.
