@@ -268,20 +268,46 @@ def error(options, name, folder):
     return compared(options.program, mine, judge)["relative L2"]
 
 
-def equal(pictures, name, seconds, peer, cycles, mine, kept, folder):
-    """Both pictures at equal processor time: ours on the left, Cycles' on the right."""
+def shown(numpy, picture, scale):
+    """Codes of 8 bits, as a screen shows them."""
+    light = (picture * scale).clip(0, 1)
+    return numpy.where(light > 0.0031308, 1.055 * numpy.maximum(light, 1e-9) ** (1 / 2.4) - 0.055, 12.92 * light)
+
+
+def write_both(path, numpy, mine, theirs, kept):
+    """Ours on the left, Cycles' on the right. Returns the relative distance of what a screen shows of both, where no light is seen."""
     import png_files
 
+    lit = mine[kept].mean(axis=1)
+    scale = 0.25 / lit[lit > 0].mean()
+    ours, others = shown(numpy, mine, scale), shown(numpy, theirs, scale)
+    if path:
+        middle = mine.shape[1] // 2
+        codes = (numpy.concatenate([ours[:, :middle], others[:, middle:]], axis=1) * 255 + 0.5).astype("uint8")
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        png_files.write_png(path, [row.tobytes() for row in codes])
+    return relative(ours[kept], others[kept])
+
+
+def equal(pictures, name, seconds, peer, cycles, mine, kept, folder):
+    """Both pictures at equal processor time."""
     slope = (peer.seconds(TIMED[1]) - peer.seconds(TIMED[0])) / (TIMED[1] - TIMED[0])
     samples = max(1, round((seconds - peer.seconds(0)) / slope))
     theirs, used = cycles.render(samples, 3, Path(folder) / "cycles.exr")
-    lit = mine[kept].mean(axis=1)
-    middle = mine.shape[1] // 2
-    light = (cycles.numpy.concatenate([mine[:, :middle], theirs[:, middle:]], axis=1) * 0.25 / lit[lit > 0].mean()).clip(0, 1)
-    srgb = cycles.numpy.where(light > 0.0031308, 1.055 * cycles.numpy.maximum(light, 1e-9) ** (1 / 2.4) - 0.055, 12.92 * light)
-    Path(pictures).mkdir(parents=True, exist_ok=True)
-    png_files.write_png(Path(pictures) / f"{name}.png", [row.tobytes() for row in (srgb * 255 + 0.5).astype("uint8")])
+    write_both(Path(pictures) / f"{name}.png", cycles.numpy, mine, theirs, kept)
     print(f"EQUAL {name}: {samples} samples of Cycles in {used:.2f} s, ours {seconds:.2f} s", flush=True)
+
+
+def look(name, options, folder):
+    """Both pictures once, with --look samples of Cycles, with caustics: how much they differ."""
+    scene, (width, height) = scene_file(name), map(int, options.size.split("x"))
+    mine, seconds = Program(options.program, scene, options.size, options.bounces, folder).render()
+    cycles = Cycles(scene, width, height, 64 if options.bounces else 0)
+    theirs, used = cycles.render(options.look, 1, Path(folder) / "cycles.exr")
+    kept = without_lights(cycles.numpy, mine, contents(scene))
+    distance = write_both(options.pictures and Path(options.pictures) / f"{name}.png", cycles.numpy, mine, theirs, kept)
+    print(f"LOOK {name}: mean, ours / Cycles {mine[kept].mean() / theirs[kept].mean():.4f}; relative L2 of what a screen shows {distance:.4f}; "
+          f"ours {seconds:.1f} s, Cycles with {options.look} samples {used:.0f} s", flush=True)
 
 
 def table(results):
@@ -305,6 +331,7 @@ def parsed(arguments):
     parser.add_argument("--bounces", choices=["all"], help="all light; default: direct light")
     parser.add_argument("--samples", default="16,64,256,1024", help="a pixel, of Cycles and of our sampling; default: %(default)s")
     parser.add_argument("--pictures", help="folder for a picture of both at equal processor time; default: none")
+    parser.add_argument("--look", type=int, metavar="SAMPLES", help="only compare one picture of ours with one of Cycles of so many samples")
     parser.add_argument("--paths", help="folder that keeps the references; default: none")
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
     return parser.parse_args(arguments)
@@ -315,7 +342,7 @@ def main():
         options = parsed(sys.argv[sys.argv.index("--") + 1:])
         with tempfile.TemporaryDirectory() as folder:
             for name in options.scenes:
-                measure(name, options, folder)
+                (look if options.look else measure)(name, options, folder)
         return
     options = parsed(sys.argv[1:])
     if not shutil.which("blender"):
@@ -328,13 +355,14 @@ def main():
         lines = []
         for line in blender.stdout:
             lines.append(line)
-            if line.startswith(("MEASURED", "EQUAL")):
+            if line.startswith(("MEASURED", "EQUAL", "LOOK")):
                 print(line.rstrip(), file=sys.stderr, flush=True)
             if line.startswith("RESULT"):
                 results.append(json.loads(line[7:]))
     if blender.returncode != 0:
         sys.exit("".join(lines[-20:]))
-    table(results)
+    if results:
+        table(results)
 
 
 if __name__ == "__main__":
