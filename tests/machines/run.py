@@ -45,7 +45,7 @@ def test(machine, folder):
     for name in ("integrals_tests", "plane_tests"):
         start = time.monotonic()
         done = subprocess.run([runner, folder / (name + end), "--gtest_brief=1", f"--gtest_filter={WITHOUT_FONTS}"], capture_output=True, text=True,
-                              errors="replace", env={**os.environ, "WINEDEBUG": "-all"}, timeout=3000)
+                              errors="replace", env={**os.environ, "WINEDEBUG": "-all"}, timeout=7000)
         found = re.search(r"\[==========\] (\d+) tests? from", done.stdout)
         print(f"{machine}, {name}: {found[1] if found else 'no'} tests in {time.monotonic() - start:.0f} s, {'passed' if done.returncode == 0 else 'FAILED'}")
         if done.returncode != 0:
