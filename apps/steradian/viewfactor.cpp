@@ -391,7 +391,7 @@ void add_merge(CommandLine& line) {
   Verb verb = line.verb("merge", "Join the parts of a run of viewfactor, bake or render with --part");
   verb.group("View factors");
   verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake or render)").required();
-  verb.add("-o,--output", a->output, "view factors (.npz, .mtx), the baked scene (.glb, .gltf), or the picture (.exr, .png)")
+  verb.add("-o,--output", a->output, ".npz or .mtx; .glb or .gltf; .exr or .png")
       .required()
       .writes(Writes::file);
   verb.add_limits(a->limits);
