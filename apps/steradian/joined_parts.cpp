@@ -54,14 +54,14 @@ Picture join_parts(const std::vector<std::string>& paths, const std::string& kin
       continue;
     }
     const std::string differs = which.count != count ? "number of parts" : difference(all, part);
-    if (!differs.empty())
-      throw Error(path, "has other settings than " + paths[0] + " (" + differs + ")", "merge the parts of one run");
+    if (!differs.empty()) throw Error(path, "has other settings than " + paths[0] + " (" + differs + ")", "merge the parts of one run");
     take(all, part, which);
   }
   if (static_cast<int>(numbers.size()) != count) {
     int lacks = 1;
     while (numbers.count(lacks) != 0) ++lacks;
-    throw Error(paths[0], fmt::format("is one of {} parts, and {} are here; part {} is missing", count, numbers.size(), lacks), "merge all parts");
+    throw Error(paths[0], fmt::format("is one of {} parts, and {} are here; part {} is missing", count, numbers.size(), lacks),
+                "merge all parts");
   }
   return all;
 }

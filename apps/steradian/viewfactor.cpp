@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 
@@ -26,22 +25,20 @@
 #include "steradian/version.h"
 #include "steradian/view_factors.h"
 #include "verbs.h"
+#include "viewfactor/report.h"
 
 namespace steradian::app {
 namespace {
 
 using namespace exchange;
-using Json = nlohmann::ordered_json;
 
-// Row sums are off by their rounding, whatever the errors are.
-constexpr double kRowRounding = 1e-12;
 // Errors of rows above this and above ten times --eps come from parts of faces that could not be decided.
 constexpr double kDoubtfulError = 0.01;
 
 struct ViewFactorArguments {
   std::vector<std::string> inputs;
   std::string output, by = "face", part = "1/1", report;
-  double eps = 1e-6, divide = 0;
+  double eps = 1e-6, divide = 0, drop = 0;
   bool two_sided = false, no_obstruction = false, close = false, resume = false;
   int pairs = 1000;
   Limits limits;
@@ -108,55 +105,12 @@ std::vector<std::string> doubts_about(const StoredRun& stored) {
   return doubts;
 }
 
-// The guarantees of a matrix, as found in its numbers.
-struct GuaranteeCounts {
-  std::size_t outside = 0, overfull = 0;
-  double worst_error = 0, largest_sum = 0, smallest_sum = 1;
-};
-GuaranteeCounts guarantees_of(const StoredRun& stored) {
-  const ViewFactors& f = stored.factors;
-  GuaranteeCounts counts;
-  for (const ExchangeBlock& b : f.blocks)
-    for (std::size_t r = 0; r < b.rows(); ++r)
-      for (std::size_t k = b.row_start[r]; k < b.row_start[r + 1]; ++k) {
-        const double least = std::min(f.areas[b.first_row + r], f.areas[b.columns[k]]);
-        counts.outside += !(b.values[k] >= 0 && b.values[k] <= least);
-      }
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    // Faces that hide each other may add up to more than 1 without obstruction.
-    counts.overfull += stored.run.obstruction && f.row_sums[i] > 1 + f.row_errors[i] + kRowRounding;
-    counts.worst_error = std::max(counts.worst_error, f.row_errors[i]);
-    counts.largest_sum = std::max(counts.largest_sum, f.row_sums[i]);
-    counts.smallest_sum = std::min(counts.smallest_sum, f.row_sums[i]);
-  }
-  return counts;
-}
-
-Json report_json(const ViewFactorArguments& arguments, const StoredRun& stored, const std::vector<std::string>& warnings, double seconds) {
-  const ViewFactors& f = stored.factors;
-  const GuaranteeCounts g = guarantees_of(stored);
-  const auto verdict = [](std::size_t count) { return count == 0 ? "pass" : "fail"; };
-  Json sky = Json::array();
-  for (const double sum : f.row_sums) sky.push_back(std::max(1 - sum, 0.0));
-  return {{"version", version()},
-          {"command", command_line()},
-          {"scene", arguments.inputs[0]},
-          {"faces", stored.faces.size()},
-          {"rows", f.size()},
-          {"entries", f.entries()},
-          {"eps", stored.run.eps},
-          {"obstruction", stored.run.obstruction},
-          {"seconds", seconds},
-          {"guarantees",
-           {{"factors from 0 to 1", verdict(g.outside)},
-            {"row sums at most 1 + error", stored.run.obstruction ? verdict(g.overfull) : "not promised without obstruction"}}},
-          {"warnings", warnings},
-          {"worst_row_error", g.worst_error},
-          {"row_sums", f.row_sums},
-          {"row_errors", f.row_errors},
-          {"areas", f.areas},
-          {"sky", sky},
-          {"names", f.names}};
+// Leaves out entries below `times` the error of an entry.
+void drop_small(StoredRun& stored, double times) {
+  if (!(times > 0)) return;
+  stored.run.smallest = times * stored.run.eps;
+  if (!(stored.run.smallest < 1)) throw WrongOption("--drop", "times --eps must be below 1");
+  stored.factors = without_small_factors(stored.factors, stored.run.smallest);
 }
 
 void print_summary(const StoredRun& stored, double seconds) {
@@ -183,7 +137,9 @@ void compute(const ViewFactorArguments& arguments) {
   stored.run.parts = part.count;
   if (stored.run.parts > 1 && arguments.close) throw WrongOption("--close", "needs the whole matrix; merge the parts first");
   if (stored.run.parts > 1 && arguments.by != "face") throw WrongOption("--by", "needs the whole matrix; parts are by face");
-  if (stored.run.parts > 1 && arguments.output.ends_with(".mtx")) throw WrongOption("-o", "a part is written as .npz");
+  if (stored.run.parts > 1 && arguments.drop > 0) throw WrongOption("--drop", "needs the whole matrix; give it to steradian merge");
+  if (stored.run.parts > 1 && !arguments.output.ends_with(".npz")) throw WrongOption("-o", "a part is written as .npz");
+  if (!(arguments.drop * arguments.eps < 1)) throw WrongOption("--drop", "times --eps must be below 1");
   SceneFaces faces = load_faces(arguments.inputs[0], arguments);
   stored.faces = faces.faces;
   stored.obstacles = faces.obstacles;
@@ -217,10 +173,11 @@ void compute(const ViewFactorArguments& arguments) {
     stored.run.groups = faces.groups;
     stored.factors = grouped_view_factors(stored.factors, faces.groups, faces.group_names);
   }
+  drop_small(stored, arguments.drop);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_factors(arguments.output, stored);
   if (unfinished) unfinished->remove();
-  if (!arguments.report.empty()) write_file(arguments.report, report_json(arguments, stored, faces.warnings, seconds).dump(1) + "\n");
+  if (!arguments.report.empty()) write_report(arguments.report, arguments.inputs[0], stored, faces.warnings, seconds);
   print_summary(stored, seconds);
 }
 
@@ -305,15 +262,21 @@ void verify(const ViewFactorArguments& arguments, Exit& exit) {
   if (rows.empty()) throw Error(path, "has no pairs");
   // The other direction, at a hundredth of the error.
   std::mt19937_64 random(1);
-  std::size_t beyond = 0, worst_i = 0, worst_j = 0;
-  double worst = 0, worst_ratio = 0;
+  std::size_t beyond = 0, worst_i = 0, worst_j = 0, far_i = 0, far_j = 0;
+  double worst = 0, worst_ratio = 0, farthest = 0;
   Progress progress("verify", static_cast<std::uint64_t>(arguments.pairs));
   for (int k = 0; k < arguments.pairs; ++k) {
     const std::size_t i = rows[random() % rows.size()], j = random() % i;
     const ExchangeArea h = visible_exchange(elements[j], elements[i], obstacles, std::max(stored.run.eps * 0.01, 1e-12)).visible;
-    const double difference = std::fabs(h.value - stored.factors.between(i, j)), allowed = stored.factors.error_between(i, j) + h.error;
-    beyond += difference > allowed + 1e-15 * elements[i].area;
-    const double factor = difference / std::min(elements[i].area, elements[j].area);
+    const double smaller = std::min(elements[i].area, elements[j].area), value = stored.factors.between(i, j);
+    const double left_out = value > 0 ? 0 : stored.run.smallest * smaller;
+    const double difference = std::fabs(h.value - value), allowed = stored.factors.error_between(i, j) + left_out + h.error;
+    if (difference > allowed + 1e-15 * elements[i].area) {
+      ++beyond;
+      const double times = difference / std::max(allowed, 1e-15 * elements[i].area);
+      if (times > farthest) farthest = times, far_i = i, far_j = j;
+    }
+    const double factor = difference / smaller;
     if (factor > worst) worst = factor, worst_i = i, worst_j = j, worst_ratio = difference / std::max(allowed, 1e-300);
     progress.add();
   }
@@ -322,20 +285,26 @@ void verify(const ViewFactorArguments& arguments, Exit& exit) {
   fmt::print("largest difference  {:.3g} of a factor, {:.3g} of the reported error\n", worst, worst_ratio);
   if (worst > 0) fmt::print("                    {} and {}\n", stored.faces[worst_i].name, stored.faces[worst_j].name);
   fmt::print("beyond the error    {}\n", beyond);
+  if (beyond > 0)
+    fmt::print("                    most of all {} and {}: {:.3g} times the error\n", stored.faces[far_i].name, stored.faces[far_j].name,
+               farthest);
   if (beyond > 0) exit.code = 1;
 }
 
 struct MergeArguments {
   std::vector<std::string> parts;
   std::string output;
+  double drop = 0;
   Limits limits;
 };
 
 void merge(const MergeArguments& arguments) {
-  if (arguments.parts[0].ends_with(".exr"))
+  if (arguments.parts[0].ends_with(".exr")) {
+    if (arguments.drop > 0) throw WrongOption("--drop", "is for view factors; pictures have no entries");
     return arguments.output.ends_with(".exr") || arguments.output.ends_with(".png")
                ? merge_pictures(arguments.parts, arguments.output, arguments.limits)
                : merge_maps(arguments.parts, arguments.output, arguments.limits);
+  }
   check_factors_name(arguments.output);
   Budget budget(arguments.limits);
   StoredRun all;
@@ -356,6 +325,7 @@ void merge(const MergeArguments& arguments) {
   all.factors = merge_view_factors(std::move(parts));
   all.run.part = all.run.parts = 1;
   warn(arguments.output, doubts_about(all));
+  drop_small(all, arguments.drop);
   write_factors(arguments.output, all);
   print_summary(all, 0);
 }
@@ -367,16 +337,17 @@ void add_viewfactor(CommandLine& line) {
   Verb verb = line.verb("viewfactor", "Compute exact view factors between the faces of a scene, with an error for each");
   verb.group("View factors");
   verb.add("SCENE", a->inputs, "scene (glTF, OBJ, STL, PLY, VS3), points SCENE SENSORS, verify FILE").required();
-  verb.add("-o,--output", a->output, "view factors (.npz, .mtx); points: factors of the sensors (.csv)").writes(Writes::file);
+  verb.add("-o,--output", a->output, "view factors (.npz, .mtx, .vf); points: factors of the sensors (.csv)").writes(Writes::file);
   verb.add("--eps", a->eps, "relative error of an entry").range(1e-14, 0.1);
   verb.add("--by", a->by, "rows of the matrix, columns of the points").words({"face", "node", "material"});
   verb.add("--divide", a->divide, "cut faces into elements of this length [m]; 0: no").range(0.0, 1e9);
   verb.add_flag("--two-sided", a->two_sided, "faces exchange from their backs, too");
   verb.add_flag("--no-obstruction", a->no_obstruction, "leave out what stands between faces");
   verb.add_flag("--close", a->close, "correct a closed enclosure: rows add up to 1");
+  verb.add("--drop", a->drop, "leave out entries below this times --eps; 0: none").range(0.0, 1e12);
   verb.add("--part", a->part, "k/n: compute one of n parts; steradian merge joins them");
   verb.add_flag("--resume", a->resume, "go on after an interruption; keeps finished rows in OUTPUT.part");
-  verb.add("--report", a->report, "report of rows, errors and guarantees (JSON)").writes(Writes::file);
+  verb.add("--report", a->report, "report of rows, errors and guarantees (.json), or a page (.html)").writes(Writes::file);
   verb.add("--pairs", a->pairs, "verify: number of random pairs").range(1, 1'000'000'000);
   verb.add_limits(a->limits);
   verb.callback([a, &exit = line.exit()] {
@@ -391,9 +362,8 @@ void add_merge(CommandLine& line) {
   Verb verb = line.verb("merge", "Join the parts of a run of viewfactor, bake or render with --part");
   verb.group("View factors");
   verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake or render)").required();
-  verb.add("-o,--output", a->output, ".npz or .mtx; .glb or .gltf; .exr or .png")
-      .required()
-      .writes(Writes::file);
+  verb.add("-o,--output", a->output, ".npz, .mtx or .vf; .glb or .gltf; .exr or .png").required().writes(Writes::file);
+  verb.add("--drop", a->drop, "leave out entries below this times --eps of the run; 0: none").range(0.0, 1e12);
   verb.add_limits(a->limits);
   verb.callback([a] { merge(*a); });
 }

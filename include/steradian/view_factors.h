@@ -82,4 +82,7 @@ ViewFactors closed_view_factors(const ViewFactors& factors);
 // Sums over groups of faces. groups[i]: the group of face i, below names.size().
 ViewFactors grouped_view_factors(const ViewFactors& factors, const std::vector<std::size_t>& groups, const std::vector<std::string>& names);
 
+// Leaves out the entries whose view factors are below `smallest` in both directions. What they exchange counts in the errors of their rows.
+ViewFactors without_small_factors(const ViewFactors& factors, double smallest);
+
 }  // namespace steradian

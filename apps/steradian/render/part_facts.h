@@ -4,6 +4,6 @@
 namespace steradian::app::part_facts {
 
 inline constexpr const char* kSettings = "steradian.picture";  // all on which the pixels depend
-inline constexpr const char* kAutoExposure = "auto";            // the exposure, where it follows from the whole picture
+inline constexpr const char* kAutoExposure = "auto";           // the exposure, where it follows from the whole picture
 
 }  // namespace steradian::app::part_facts

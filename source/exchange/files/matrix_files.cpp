@@ -10,6 +10,7 @@
 
 #include "core/files.h"
 #include "exchange/files/npz.h"
+#include "exchange/files/view3d_text.h"
 #include "steradian/error.h"
 
 namespace steradian::exchange {
@@ -50,8 +51,9 @@ void append_utf8(std::string& to, char32_t c) {
 
 std::string text_of(const RunFacts& run) {
   char text[256];
-  std::snprintf(text, sizeof text, "{\"version\": \"%s\", \"eps\": %.17g, \"obstruction\": %s, \"part\": %d, \"parts\": %d}",
-                run.version.c_str(), run.eps, run.obstruction ? "true" : "false", run.part, run.parts);
+  std::snprintf(text, sizeof text,
+                "{\"version\": \"%s\", \"eps\": %.17g, \"obstruction\": %s, \"part\": %d, \"parts\": %d, \"smallest\": %.17g}",
+                run.version.c_str(), run.eps, run.obstruction ? "true" : "false", run.part, run.parts, run.smallest);
   return text;
 }
 
@@ -72,7 +74,8 @@ RunFacts run_of(const std::string& text, const std::string& path) {
   run.obstruction = value_in(text, "obstruction") == "true";
   run.part = std::atoi(value_in(text, "part").c_str());
   run.parts = std::atoi(value_in(text, "parts").c_str());
-  if (!(run.eps > 0 && run.eps < 1) || run.part < 1 || run.parts < run.part)
+  run.smallest = std::atof(value_in(text, "smallest").c_str());
+  if (!(run.eps > 0 && run.eps < 1) || !(run.smallest >= 0 && run.smallest < 1) || run.part < 1 || run.parts < run.part)
     throw Error(path, "its settings are damaged", "compute it again");
   return run;
 }
@@ -300,13 +303,14 @@ void write_factors_mtx(const std::string& path, const ViewFactors& f) {
 }
 
 void check_factors_name(const std::string& path) {
-  if (!ends_with(path, ".npz") && !ends_with(path, ".mtx"))
-    throw UsageError(path, "view factors are written as .npz or .mtx", "choose one of these endings");
+  if (!ends_with(path, ".npz") && !ends_with(path, ".mtx") && !ends_with(path, ".vf"))
+    throw UsageError(path, "view factors are written as .npz, .mtx or .vf", "choose one of these endings");
 }
 
 void write_factors(const std::string& path, const StoredRun& stored) {
   check_factors_name(path);
   if (ends_with(path, ".npz")) return write_factors_npz(path, stored);
+  if (ends_with(path, ".vf")) return write_view3d_text(path, stored.factors, stored.run.version);
   write_factors_mtx(path, stored.factors);
 }
 

@@ -1,4 +1,4 @@
-// Files of view factors: .npz with all that is known of a run, and .mtx with the matrix alone.
+// Files of view factors: .npz with all that is known of a run, .mtx and .vf with the matrix alone.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@ struct RunFacts {
   bool obstruction = true;
   int part = 1, parts = 1;
   std::vector<std::size_t> groups;  // by face; empty: the matrix is that of the faces
+  double smallest = 0;              // factors below it were left out
 };
 
 struct StoredRun {
@@ -34,7 +35,7 @@ StoredRun read_factors_npz(const std::string& path, Budget& budget);
 // Matrix Market: the exchange areas as a symmetric coordinate matrix.
 void write_factors_mtx(const std::string& path, const ViewFactors& factors);
 
-// Writes the file in the format of its ending. Throws UsageError for another ending than .npz and .mtx.
+// Writes the file in the format of its ending. Throws UsageError for another ending than .npz, .mtx and .vf (text of View3D).
 void write_factors(const std::string& path, const StoredRun& stored);
 void check_factors_name(const std::string& path);
 
