@@ -104,7 +104,11 @@ class SteradianEngine(bpy.types.RenderEngine):
 
     def run(self, command):
         """True where the program came to its end."""
-        run = program.Run(command)
+        try:
+            run = program.Run(command)
+        except OSError as error:
+            self.error_set(f"{command[0]}: {error.strerror} (name the program in the add-on's preferences, or in STERADIAN_PROGRAM)")
+            return False
         telling = program.Telling(time.monotonic())
         while run.is_running():
             if self.test_break():

@@ -122,7 +122,8 @@ def main():
     path = os.path.abspath(arguments[0])
     binary = path.endswith(".glb")
     bpy.ops.export_scene.gltf(
-        filepath=path, export_format="GLB" if binary else "GLTF_SEPARATE", export_lights=True, export_cameras=True
+        filepath=path, export_format="GLB" if binary else "GLTF_SEPARATE", export_lights=True, export_cameras=True,
+        export_apply=True,  # modifiers
     )
     count = rewrite_glb(path) if binary else rewrite_gltf(path)
     print(f"export_with_area_lights: {path} with {count} area lights")
