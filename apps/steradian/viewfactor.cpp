@@ -363,7 +363,7 @@ void add_merge(CommandLine& line) {
   verb.group("View factors");
   verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake or render)").required();
   verb.add("-o,--output", a->output, ".npz, .mtx or .vf; .glb or .gltf; .exr or .png").required().writes(Writes::file);
-  verb.add("--drop", a->drop, "leave out entries below this times --eps of the run; 0: none").range(0.0, 1e12);
+  verb.add("--drop", a->drop, "leave out entries below this times the run's --eps").range(0.0, 1e12);
   verb.add_limits(a->limits);
   verb.callback([a] { merge(*a); });
 }

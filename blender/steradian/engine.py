@@ -82,7 +82,7 @@ class SteradianEngine(bpy.types.RenderEngine):
     def render(self, depsgraph):
         """Exports, runs the program, and takes its picture. Escape ends the program."""
         if not program.path():
-            self.error_set("the program steradian is not found: name it in the add-on's preferences")
+            self.fail("the program steradian is not found: name it in the add-on's preferences")
             return
         scene = depsgraph.scene
         percentage = scene.render.resolution_percentage / 100
@@ -102,12 +102,17 @@ class SteradianEngine(bpy.types.RenderEngine):
             result.layers[0].load_from_file(picture)
             self.end_result(result)
 
+    def fail(self, message):
+        """In the window, and on the console of a Blender without one."""
+        print(f"steradian: {message}", flush=True)
+        self.error_set(message)
+
     def run(self, command):
         """True where the program came to its end."""
         try:
             run = program.Run(command)
         except OSError as error:
-            self.error_set(f"{command[0]}: {error.strerror} (name the program in the add-on's preferences, or in STERADIAN_PROGRAM)")
+            self.fail(f"{command[0]}: {error.strerror} (name the program in the add-on's preferences, or in STERADIAN_PROGRAM)")
             return False
         telling = program.Telling(time.monotonic())
         while run.is_running():
@@ -123,7 +128,7 @@ class SteradianEngine(bpy.types.RenderEngine):
             time.sleep(0.05)
         run.close()
         if run.process.returncode != 0:
-            self.error_set("\n".join(run.lines()) or f"the program ended with {run.process.returncode}")
+            self.fail("\n".join(run.lines()) or f"the program ended with {run.process.returncode}")
             return False
         for line in run.lines():
             if line.startswith("warning:"):
