@@ -168,11 +168,7 @@ void add_bake(CommandLine& line) {
   verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
   verb.add_flag("--bounce-strict", r.bounce_strict, "of --bounces: each place by itself, in 16 times the directions").group("Light");
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
-  verb.add("--environment", options->load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
-  verb.add("--environment-rotation", options->load.environment_rotation, "degrees about +y, counter-clockwise from above")
-      .value_name("N")
-      .range(-360.0, 360.0)
-      .group("Light");
+  add_environment(verb, options->load);
   verb.add("--part", options->part, "k/n: bake one of n parts to an .exr; steradian merge joins them").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--stats", options->stats, "write counts, errors and times to this JSON file").writes(Writes::file).group("Machine");

@@ -1,4 +1,4 @@
-// steradian viewfactor SCENE -o FILE; viewfactor points SCENE SENSORS -o FILE; viewfactor verify FILE; merge PARTS -o FILE
+// steradian viewfactor SCENE -o FILE; viewfactor points SCENE SENSORS -o FILE; viewfactor verify FILE
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,22 +18,18 @@
 #include "exchange/files/scene_faces.h"
 #include "exchange/files/unfinished.h"
 #include "exchange/files/vs3.h"
-#include "merge_maps.h"
 #include "part.h"
-#include "render/merge_pictures.h"
 #include "steradian/error.h"
 #include "steradian/version.h"
 #include "steradian/view_factors.h"
 #include "verbs.h"
+#include "viewfactor/finish.h"
 #include "viewfactor/report.h"
 
 namespace steradian::app {
 namespace {
 
 using namespace exchange;
-
-// Errors of rows above this and above ten times --eps come from parts of faces that could not be decided.
-constexpr double kDoubtfulError = 0.01;
 
 struct ViewFactorArguments {
   std::vector<std::string> inputs;
@@ -43,10 +39,6 @@ struct ViewFactorArguments {
   int pairs = 1000;
   Limits limits;
 };
-
-void warn(const std::string& path, const std::vector<std::string>& warnings) {
-  for (const std::string& w : warnings) fmt::print(stderr, "warning: {}: {}\n", path, w);
-}
 
 // Calls a function; an error that names only a face then names the file as well.
 template <class Function>
@@ -81,49 +73,6 @@ SceneFaces load_faces(const std::string& path, const ViewFactorArguments& argume
   return faces;
 }
 
-// Sentences about rows that a user should look at, with the name of the worst one.
-std::vector<std::string> doubts_about(const StoredRun& stored) {
-  const ViewFactors& f = stored.factors;
-  std::vector<std::string> doubts;
-  // The number of rows whose number is positive, and the row with the largest one.
-  const auto doubt = [&](auto number_of, const char* problem, const char* hint) {
-    std::size_t count = 0, worst = 0;
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      if (!(number_of(i) > 0)) continue;
-      ++count;
-      if (count == 1 || number_of(i) > number_of(worst)) worst = i;
-    }
-    if (count > 0)
-      doubts.push_back(fmt::format("{} rows {}, most of all {}: {:.6g} with an error of {:.2g} ({})", count, problem, f.names[worst],
-                                   f.row_sums[worst], f.row_errors[worst], hint));
-  };
-  doubt([&](std::size_t i) { return f.row_sums[i] - 1 - f.row_errors[i] - kRowRounding; }, "add up to more than 1",
-        stored.run.obstruction ? "these faces overlap or cross others: repair the scene"
-                               : "faces hide each other: leave out --no-obstruction");
-  doubt([&](std::size_t i) { return f.row_errors[i] - std::max(kDoubtfulError, 10 * stored.run.eps); }, "have a large error",
-        "faces that cross or nearly coincide: repair the scene");
-  return doubts;
-}
-
-// Leaves out entries below `times` the error of an entry.
-void drop_small(StoredRun& stored, double times) {
-  if (!(times > 0)) return;
-  stored.run.smallest = times * stored.run.eps;
-  if (!(stored.run.smallest < 1)) throw WrongOption("--drop", "times --eps must be below 1");
-  stored.factors = without_small_factors(stored.factors, stored.run.smallest);
-}
-
-void print_summary(const StoredRun& stored, double seconds) {
-  const GuaranteeCounts g = guarantees_of(stored);
-  fmt::print("faces            {}\n", stored.faces.size());
-  if (!stored.run.groups.empty()) fmt::print("groups           {}\n", stored.factors.size());
-  fmt::print("entries          {}\n", stored.factors.entries());
-  fmt::print("row sums         {:.9g} to {:.9g}\n", g.smallest_sum, g.largest_sum);
-  fmt::print("worst row error  {:.3g}\n", g.worst_error);
-  fmt::print("guarantees       {}\n", g.outside + g.overfull == 0 ? "hold" : "broken: see --report");
-  fmt::print("time             {:.2f} s\n", seconds);
-}
-
 void compute(const ViewFactorArguments& arguments) {
   if (arguments.inputs.size() != 1) throw WrongOption("SCENE", "one scene is expected");
   if (arguments.output.empty()) throw WrongOption("-o", "is required");
@@ -139,7 +88,7 @@ void compute(const ViewFactorArguments& arguments) {
   if (stored.run.parts > 1 && arguments.by != "face") throw WrongOption("--by", "needs the whole matrix; parts are by face");
   if (stored.run.parts > 1 && arguments.drop > 0) throw WrongOption("--drop", "needs the whole matrix; give it to steradian merge");
   if (stored.run.parts > 1 && !arguments.output.ends_with(".npz")) throw WrongOption("-o", "a part is written as .npz");
-  if (!(arguments.drop * arguments.eps < 1)) throw WrongOption("--drop", "times --eps must be below 1");
+  smallest_kept(arguments.drop, arguments.eps);  // an error comes before the work
   SceneFaces faces = load_faces(arguments.inputs[0], arguments);
   stored.faces = faces.faces;
   stored.obstacles = faces.obstacles;
@@ -291,45 +240,6 @@ void verify(const ViewFactorArguments& arguments, Exit& exit) {
   if (beyond > 0) exit.code = 1;
 }
 
-struct MergeArguments {
-  std::vector<std::string> parts;
-  std::string output;
-  double drop = 0;
-  Limits limits;
-};
-
-void merge(const MergeArguments& arguments) {
-  if (arguments.parts[0].ends_with(".exr")) {
-    if (arguments.drop > 0) throw WrongOption("--drop", "is for view factors; pictures have no entries");
-    return arguments.output.ends_with(".exr") || arguments.output.ends_with(".png")
-               ? merge_pictures(arguments.parts, arguments.output, arguments.limits)
-               : merge_maps(arguments.parts, arguments.output, arguments.limits);
-  }
-  check_factors_name(arguments.output);
-  Budget budget(arguments.limits);
-  StoredRun all;
-  std::vector<ViewFactors> parts;
-  for (const std::string& path : arguments.parts) {
-    StoredRun part = read_factors_npz(path, budget);
-    if (parts.empty()) {
-      all.run = part.run;
-      all.faces = part.faces;
-      all.obstacles = part.obstacles;
-    }
-    if (part.run.version != all.run.version)
-      throw Error(path, "was made by another version than " + arguments.parts[0], "compute the parts with one program");
-    if (part.run.eps != all.run.eps || part.run.obstruction != all.run.obstruction || part.run.parts != all.run.parts)
-      throw Error(path, "has other settings than " + arguments.parts[0], "merge the parts of one run");
-    parts.push_back(std::move(part.factors));
-  }
-  all.factors = merge_view_factors(std::move(parts));
-  all.run.part = all.run.parts = 1;
-  warn(arguments.output, doubts_about(all));
-  drop_small(all, arguments.drop);
-  write_factors(arguments.output, all);
-  print_summary(all, 0);
-}
-
 }  // namespace
 
 void add_viewfactor(CommandLine& line) {
@@ -355,17 +265,6 @@ void add_viewfactor(CommandLine& line) {
     if (a->inputs[0] == "verify") return verify(*a, exit);
     compute(*a);
   });
-}
-
-void add_merge(CommandLine& line) {
-  auto a = std::make_shared<MergeArguments>();
-  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor, bake or render with --part");
-  verb.group("View factors");
-  verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake or render)").required();
-  verb.add("-o,--output", a->output, ".npz, .mtx or .vf; .glb or .gltf; .exr or .png").required().writes(Writes::file);
-  verb.add("--drop", a->drop, "leave out entries below this times the run's --eps").range(0.0, 1e12);
-  verb.add_limits(a->limits);
-  verb.callback([a] { merge(*a); });
 }
 
 }  // namespace steradian::app

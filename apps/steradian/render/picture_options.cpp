@@ -45,4 +45,12 @@ std::string unknown_bounces(const std::string& text) {
   return number || text == "all" ? std::string() : "give a number of bounces, or all";
 }
 
+void add_environment(Verb& verb, LoadOptions& load) {
+  verb.add("--environment", load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
+  verb.add("--environment-rotation", load.environment_rotation, "degrees about +y, counter-clockwise from above")
+      .value_name("N")
+      .range(-360.0, 360.0)
+      .group("Light");
+}
+
 }  // namespace steradian::app

@@ -1,11 +1,15 @@
-// Options that several verbs share: parses their texts.
+// Options that several verbs share: adds them, or parses their texts.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "steradian/load_scene.h"
+
 namespace steradian::app {
+
+class Verb;
 
 struct PictureSize {
   int width = 0, height = 0;
@@ -20,6 +24,9 @@ std::optional<float> exposure_stops(const std::string& text);
 // Parses a number of bounces, or "all" (kAllBounces), that unknown_bounces accepts.
 int bounces_of(const std::string& text);
 std::string unknown_bounces(const std::string& text);  // message for anything else; empty for these
+
+// Adds --environment and --environment-rotation.
+void add_environment(Verb& verb, LoadOptions& load);
 
 // The names of methods that completions offer.
 std::vector<std::string> method_names();

@@ -385,11 +385,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");
   verb.add("--light-error", r.light_error, "largest relative error of a light in the tree").range(1e-6, 1.0).group("Light");
   verb.add("--light", options->lights, "extra light; may be repeated").words(words::names<AddedLight>()).group("Light");
-  verb.add("--environment", options->load.environment, "a map (.hdr, .exr, .png, .jpg), white, or sky").group("Light");
-  verb.add("--environment-rotation", options->load.environment_rotation, "degrees about +y, counter-clockwise from above")
-      .value_name("N")
-      .range(-360.0, 360.0)
-      .group("Light");
+  add_environment(verb, options->load);
 
   verb.add("--size", options->size, "WIDTHxHEIGHT in pixels").group("Picture");
   verb.add("--aa", r.aa, "primary samples a pixel").range(1, 4096).group("Picture");

@@ -8,7 +8,7 @@
 
 namespace steradian::app {
 
-// Joins the pictures of bake --part, and writes the baked scene of which they are. Throws Error for parts that lack or do not belong
+// Joins the pictures of bake --part, and writes the baked scene of which they are. Throws Error for parts that are missing or do not belong
 // together.
 void merge_maps(const std::vector<std::string>& parts, const std::string& output, const Limits& limits);
 

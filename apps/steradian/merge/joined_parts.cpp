@@ -1,4 +1,4 @@
-#include "joined_parts.h"
+#include "merge/joined_parts.h"
 
 #include <fmt/format.h>
 

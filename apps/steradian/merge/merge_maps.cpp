@@ -1,4 +1,4 @@
-#include "merge_maps.h"
+#include "merge/merge_maps.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "bake/bake.h"
 #include "bake/baked_file.h"
 #include "bake/scene_to_bake.h"
-#include "joined_parts.h"
+#include "merge/joined_parts.h"
 #include "steradian/error.h"
 #include "steradian/load_scene.h"
 #include "wrong_use.h"

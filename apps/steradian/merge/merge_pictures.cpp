@@ -1,4 +1,4 @@
-#include "render/merge_pictures.h"
+#include "merge/merge_pictures.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "image/codecs.h"
-#include "joined_parts.h"
+#include "merge/joined_parts.h"
 #include "render/part_facts.h"
 #include "steradian/error.h"
 #include "steradian/render.h"
