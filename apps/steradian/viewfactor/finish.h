@@ -1,4 +1,4 @@
-// What happens to the view factors of a whole run: small ones are left out, doubtful rows are named, and a summary is printed.
+// The last steps on the view factors of a whole run: small ones are left out, doubtful rows are named, and a summary is printed.
 #pragma once
 
 #include <string>
