@@ -55,8 +55,8 @@ struct RenderOptions {
   Shadows shadows = Shadows::off;
   Terminator terminator = Terminator::smooth;  // of shadows; without them it has no effect
   // Shadows of a tile's dimmest area lights may be estimated by a few rays, if together they send at most this fraction of each pixel's
-  // light. The layer "shadow_bound" gives the possible error. 0: all shadows are exact. With `on` only.
-  double shadow_error = 0;
+  // light. The layer "shadow_bound" gives the possible error. 0: all shadows are exact. With `on` only, and from eight area lights on.
+  double shadow_error = 1e-3;
   LightSum lights = LightSum::automatic;
   double light_error = 1e-2;   // for tree: for each light, as a fraction of its light on a surface that faces it as nearly as possible
   bool background = true;      // the camera sees the scene's environment; false: black
@@ -70,7 +70,7 @@ struct RenderOptions {
   // Light that other surfaces send, after this number of bounces at most (kAllBounces: any number). Excludes `indirect`.
   int bounces = 0;
   double bounce_error = 0;  // with bounces: estimated error of a pixel over the scene's mean light, as far as 16 times the directions reach
-  bool bounce_strict = false;   // with bounces: each pixel gathers by itself, in 16 times the directions
+  bool bounce_strict = false;  // with bounces: each pixel gathers by itself, in 16 times the directions
   int reflections = 2;          // with bounces: number of mirrors in a row that show what they face
   bool bounce_preview = false;  // with bounces: 2,000 patches and 16 directions a pixel, for pictures that are shown for a moment
   PicturePart part;          // the rest of the picture stays black; on the CPU, without `indirect`, mirrors of bounces and a limit of time

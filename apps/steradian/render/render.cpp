@@ -335,7 +335,8 @@ void run(const Verb& verb, RenderArguments& options) {
                       {"steradian.seed", std::to_string(render_options.seed)},
                       {"steradian.exposure", fmt::format("{}", exposure)},
                       {"steradian.tone", name_of(options.tone)}};
-  if (render_options.shadow_error > 0) picture.metadata["steradian.shadow_error"] = fmt::format("{}", render_options.shadow_error);
+  if (render_options.shadow_error > 0 && picture.layers.count("shadow_bound") != 0)
+    picture.metadata["steradian.shadow_error"] = fmt::format("{}", render_options.shadow_error);
   if (render_options.time_limit > 0) {
     picture.metadata["steradian.exact_tiles"] = fmt::format("{}", stats.exact_tiles);
     picture.metadata["steradian.estimated_shadow_error"] = fmt::format("{}", stats.estimated_shadow_error);

@@ -158,11 +158,10 @@ class Renderer {
 
   Sorted sorted() const { return options_.shadows != Shadows::off && !method_.estimates() ? Sorted::for_rays_and_edges : Sorted::for_rays; }
 
-  // The picture's lights: rays that estimate its shadows would take the faces of closed meshes one by one.
+  // The picture's lights: rays that stand for shadows in a limited time would take the faces of closed meshes one by one.
   std::vector<PackLight> own_lights() const {
     std::vector<PackLight> lights = prepare_lights(scene_, surfaces_.environment_spots());
-    const bool by_outline =
-        options_.shadows == Shadows::on && !method_.estimates() && !(options_.time_limit > 0) && !(options_.shadow_error > 0);
+    const bool by_outline = options_.shadows == Shadows::on && !method_.estimates() && !(options_.time_limit > 0);
     return by_outline ? with_solids(std::move(lights), scene_) : lights;
   }
 
@@ -188,7 +187,7 @@ class Renderer {
         if (!options_.part.holds(area(index).x, area(index).y, options_.width)) state.done[static_cast<std::size_t>(index)] = 1;
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
       if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
-      if (is_limited() || lighting_.may_estimate()) picture.layers["shadow_bound"].resize(picture.pixels.size());
+      if (is_limited() || lighting_.bounds_shadows()) picture.layers["shadow_bound"].resize(picture.pixels.size());
       if (options_.bounces != 0 && !method_.estimates()) AllLight::begin(picture);
     }
     if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||

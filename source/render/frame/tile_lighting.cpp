@@ -51,6 +51,13 @@ std::vector<std::uint32_t> slots_with_surfaces(const SurfaceTile& tile) {
   return slots;
 }
 
+Box3f box_of(const SurfaceTile& tile) {
+  Box3f positions;
+  for (std::uint32_t i = 0; i < kTilePixels; ++i)
+    if (tile.material[i] != nullptr) positions.add(get(tile.position, i));
+  return positions;
+}
+
 // More lights than these share the rays of so many, in proportion to the light that they send to the tile.
 constexpr std::size_t kLightsWithAllRays = 4;
 constexpr std::size_t kFewestRays = 4;  // of a light
@@ -103,13 +110,13 @@ TileLighting::TileLighting(const Scene& scene, const RenderOptions& options, con
   area_lights_ = static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), [](const PackLight& l) { return l.is_area(); }));
   if (shadows_ && (options.time_limit > 0 || options.bounces != 0 || may_estimate())) {
     few_rays_.emplace(*rays_, lights);
-    if (area_lights_ > kLightsOfTheirOwn) choice_.emplace(lights);
+    if (area_lights_ > kLightsOfTheirOwn || may_estimate()) choice_.emplace(lights);
   }
 }
 
-bool TileLighting::may_estimate() const {
-  return shadows_ && options_.shadows == Shadows::on && options_.shadow_error > 0 && area_lights_ >= kFewestLights;
-}
+bool TileLighting::bounds_shadows() const { return shadows_ && options_.shadows == Shadows::on && options_.shadow_error > 0; }
+
+bool TileLighting::may_estimate() const { return bounds_shadows() && area_lights_ >= kFewestLights; }
 
 // plain: lights whose diffuse light is still to be added.
 void TileLighting::add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain) {
@@ -154,11 +161,18 @@ void TileLighting::add_shadowed(SurfaceTile& tile, const std::vector<const PackL
   if (lights.empty()) return;
   Work& work = *work_.local();
   with_coats(tile, work, [&](SurfaceTile& to) {
-    const std::vector<const PackLight*> plain = estimate != nullptr && lights.size() >= kFewestLights
+    const std::vector<const PackLight*> plain = estimate != nullptr && many_seem_dim(to, lights)
                                                     ? add_within_error(to, lights, sample, work, *estimate)
                                                     : add_past_blockers(to, lights, work);
     if (!plain.empty()) add(to, plain);
   });
+}
+
+// True if the rays of dim lights are likely to save more time than it takes to find which lights are dim.
+bool TileLighting::many_seem_dim(const SurfaceTile& tile, const std::vector<const PackLight*>& lights) const {
+  constexpr std::size_t kOneOf = 4;
+  if (!tile.any_surface || lights.size() < kFewestLights) return false;
+  return kOneOf * choice_->dim_count(lights, box_of(tile), options_.shadow_error) >= lights.size();
 }
 
 void TileLighting::add_shadowed_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample,
@@ -208,9 +222,7 @@ void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLi
 // The light of all without occluders, times the visible fraction of a few.
 void TileLighting::add_by_chosen(SurfaceTile& tile, const TilePoints& points, const std::vector<const PackLight*>& lights,
                                  std::size_t count, int sample, Work& work, EstimatedShadows& estimate) {
-  Box3f positions;
-  for (std::uint32_t i = 0; i < kTilePixels; ++i)
-    if (tile.material[i] != nullptr) positions.add(get(tile.position, i));
+  const Box3f positions = box_of(tile);
   const double turn = 0.5 + kGolden * sample;
   const std::vector<LightChoice::Chosen> chosen = choice_->choose(lights, positions, count, turn - std::floor(turn));
   work.whole.clear();
@@ -285,7 +297,7 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
 }
 
 // Returns the lights that the caller adds as usual: none, or all that nothing occludes. Of the occluded ones, the brightest have exact
-// shadows, up to the first after which all others together send at most the permitted fraction of each pixel's light.
+// shadows, at each pixel up to the first after which all others together send at most the permitted fraction of its light.
 std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, const std::vector<const PackLight*>& lights, int sample,
                                                              Work& work, EstimatedShadows& estimate) {
   TilePoints points;
@@ -299,10 +311,10 @@ std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, 
   for (const PackLight* light : lights) {
     if (work.open.open[light->index] != 0)
       plain.push_back(light);
-    else if (light->is_area())
+    else if (light->is_area() && light->solid == nullptr)
       whole.emplace_back().light = light;
     else
-      occluded.push_back(light);
+      occluded.push_back(light);  // one ray, or one outline
   }
   if (whole.size() < kFewestLights) return add_past_blockers(tile, lights, work);
   for (const PackLight* light : add_past_blockers(tile, occluded, work)) plain.push_back(light);
@@ -315,21 +327,31 @@ std::vector<const PackLight*> TileLighting::add_within_error(SurfaceTile& tile, 
       whole[k].with_dimmer[i] = k + 1 < whole.size() ? whole[k].all[i] + whole[k + 1].with_dimmer[i] : whole[k].all[i];
 
   const auto error = static_cast<float>(options_.shadow_error);
-  std::size_t dim = 0;  // the first light whose shadow need not be exact
-  for (; dim < whole.size(); ++dim) {
-    WholeLight& w = whole[dim];
+  std::array<std::size_t, kTilePixels> dim;  // by slot: the first light whose shadow need not be exact
+  dim.fill(whole.size());
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    WholeLight& w = whole[k];
     const auto needs_no_more = [&](std::uint32_t i) { return largest(w.with_dimmer[i]) <= error * largest(radiance_in(tile, i)); };
-    if (std::all_of(slots.begin(), slots.end(), needs_no_more)) break;
+    points.groups.remove([&](std::uint32_t i) {
+      if (!needs_no_more(i)) return false;
+      dim[i] = k;
+      return true;
+    });
+    if (points.groups.groups.empty()) break;
     shadow_clock_.run([&] { shadows_->find(tile, points, *w.light, work.shadow, work.counts); });
     for (const std::uint32_t i : slots) add_radiance(tile, i, w.all[i] * whole_fraction(work.shadow, i));
     add_parts(tile, *w.light, work);
   }
-  for (std::size_t k = dim; k < whole.size(); ++k) {
+  for (std::size_t k = 0; k < whole.size(); ++k) {
     const WholeLight& w = whole[k];
     if (!(w.sum > 0)) break;  // nor do the others send any
+    if (std::none_of(slots.begin(), slots.end(), [&](std::uint32_t i) { return dim[i] <= k; })) continue;
     shadow_clock_.run([&] { few_rays_->find(tile, points, *w.light, kRaysOfDimLight, sample, work.fractions); });
-    work.counts.estimated += slots.size();
-    for (const std::uint32_t i : slots) add_estimated(tile, i, w.all[i], work.fractions, estimate);
+    for (const std::uint32_t i : slots) {
+      if (dim[i] > k) continue;
+      ++work.counts.estimated;
+      add_estimated(tile, i, w.all[i], work.fractions, estimate);
+    }
   }
   return {};
 }

@@ -38,7 +38,9 @@ class TileLighting {
   bool has_shadows() const { return shadows_.has_value(); }
   // Exact shadows of a tile stop when is_late() becomes true: the tile then lacks light. It may be called from any thread.
   void give_up_when(std::function<bool()> is_late) { is_late_ = std::move(is_late); }
-  // True if the shadows of dim lights may be estimated (RenderOptions::shadow_error).
+  // True if the picture has the layer "shadow_bound" of RenderOptions::shadow_error.
+  bool bounds_shadows() const;
+  // True if the shadows of dim lights may be estimated.
   bool may_estimate() const;
 
   // Adds the light of lights that nothing occludes to tile.radiance. With many lights, their bound() grows.
@@ -72,6 +74,7 @@ class TileLighting {
   void add_many(SurfaceTile& tile, const std::vector<const PackLight*>& lights, const std::vector<const PackLight*>& plain);
   std::vector<const PackLight*> add_past_blockers(SurfaceTile& tile, const std::vector<const PackLight*>& lights, Work& work,
                                                   ShadowTaker* taker = nullptr);
+  bool many_seem_dim(const SurfaceTile& tile, const std::vector<const PackLight*>& lights) const;
   std::vector<const PackLight*> add_within_error(SurfaceTile& tile, const std::vector<const PackLight*>& lights, int sample, Work& work,
                                                  EstimatedShadows& estimate);
   template <class Add>

@@ -23,6 +23,7 @@ Picture picture_of(const Scene& scene, double limit, RenderStats& stats) {
   options.height = 90;
   options.aa = 2;
   options.shadows = Shadows::on;
+  options.shadow_error = 0;
   options.time_limit = limit;
   return render(scene, options, &stats);
 }
@@ -88,6 +89,7 @@ TEST(ShadowError, EveryPixelIsWithinItsBoundAndTheBoundWithinTheError) {
   options.width = 160;
   options.height = 90;
   options.shadows = Shadows::on;
+  options.shadow_error = 0;
   RenderStats stats;
   const Picture exact = render(scene, options, &stats);
   EXPECT_EQ(stats.shadows_estimated, 0);

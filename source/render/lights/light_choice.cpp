@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/lights/solid_lights.h"
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian {
@@ -14,7 +15,11 @@ LightChoice::LightChoice(const std::vector<PackLight>& lights) {
     if (light.area == nullptr) continue;
     const AreaLight& area = *light.area;
     Vec3d normal;
-    if (light.is_polygon()) {
+    if (light.solid != nullptr) {
+      const Box3d& box = light.solid->form.box;
+      source.center = box.center();
+      source.area = dot(box.size(), box.size());
+    } else if (light.is_polygon()) {
       const std::vector<Vec3d> corners = flat_polygon(area).vertices;
       for (const Vec3d& corner : corners) source.center = source.center + corner * (1.0 / static_cast<double>(corners.size()));
       for (std::size_t i = 0; i < corners.size(); ++i)
@@ -32,25 +37,36 @@ LightChoice::LightChoice(const std::vector<PackLight>& lights) {
       source.center = (tube->end_a + tube->end_b) * 0.5;
       source.area = tube->radius * (2 * length(tube->end_b - tube->end_a) + std::numbers::pi * tube->radius);
     }
-    if (area.is_flat() && !area.two_sided && source.area > 0) source.normal = normalized(normal);
+    if (light.solid == nullptr && area.is_flat() && !area.two_sided && source.area > 0) source.normal = normalized(normal);
     source.power = luminance(area.radiance) * source.area;
   }
 }
 
-std::vector<LightChoice::Chosen> LightChoice::choose(std::span<const PackLight* const> lights, const Box3f& positions, std::size_t count,
-                                                     double offset) const {
+double LightChoice::sent(std::size_t index, const Vec3d& to) const {
   // No light that may be chosen is left out, however little it seems to send.
   constexpr double kLeast = 0.05;
-  const Vec3d middle = static_cast<Vec3d>(positions.low + positions.high) * 0.5;
+  const Source& source = sources_[index];
+  const Vec3d way = to - source.center;
+  const double square = std::max({dot(way, way), source.area, 1e-30});
+  const double facing = dot(source.normal, source.normal) > 0 ? std::max(dot(source.normal, way) / std::sqrt(square), kLeast) : 1.0;
+  return source.power * facing / square;
+}
+
+std::size_t LightChoice::dim_count(std::span<const PackLight* const> lights, const Box3f& positions, double fraction) const {
+  std::vector<double> each;
+  double all = 0;
+  for (const PackLight* light : lights) all += each.emplace_back(sent(light->index, static_cast<Vec3d>(positions.center())));
+  std::sort(each.begin(), each.end());
+  std::size_t count = 0;
+  for (double sum = 0; count < each.size() && (sum += each[count]) <= fraction * all;) ++count;
+  return count;
+}
+
+std::vector<LightChoice::Chosen> LightChoice::choose(std::span<const PackLight* const> lights, const Box3f& positions, std::size_t count,
+                                                     double offset) const {
   std::vector<double> sums;
   double sum = 0;
-  for (const PackLight* light : lights) {
-    const Source& source = sources_[light->index];
-    const Vec3d to = middle - source.center;
-    const double square = std::max({dot(to, to), source.area, 1e-30});
-    const double facing = dot(source.normal, source.normal) > 0 ? std::max(dot(source.normal, to) / std::sqrt(square), kLeast) : 1.0;
-    sums.push_back(sum += source.power * facing / square);
-  }
+  for (const PackLight* light : lights) sums.push_back(sum += sent(light->index, static_cast<Vec3d>(positions.center())));
   std::vector<Chosen> chosen;
   if (!(sum > 0)) return chosen;
   for (std::size_t k = 0; k < count; ++k) {

@@ -22,7 +22,13 @@ class LightChoice {
   // Meets `count` of these area lights, at equal steps of the sum of what they may send. offset: of the first step, 0 to 1.
   std::vector<Chosen> choose(std::span<const PackLight* const> lights, const Box3f& positions, std::size_t count, double offset) const;
 
+  // Number of the dimmest of these lights that together seem to send at most a fraction of what all send. A guess by their distances alone.
+  std::size_t dim_count(std::span<const PackLight* const> lights, const Box3f& positions, double fraction) const;
+
  private:
+  // What a light of this index seems to send to a place.
+  double sent(std::size_t index, const Vec3d& to) const;
+
   struct Source {
     Vec3d center, normal;  // normal: of one-sided flat lights, else 0
     double area = 0, power = 0;

@@ -1,6 +1,8 @@
 // Pictures under closed meshes that shine evenly, against rays to their faces.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "core/budget.h"
@@ -51,6 +53,31 @@ double mean_of(const Picture& picture) {
   double sum = 0;
   for (const Vec3f& p : picture.pixels) sum += static_cast<double>(p.x + p.y + p.z) / 3;
   return sum / static_cast<double>(picture.pixels.size());
+}
+
+// Rays may estimate the shadows of lamps beside the ring that are dim, while the ring stays one light with one outline.
+TEST(SolidRender, KeepsItsOutlineBesideDimLamps) {
+  Scene scene = under_a_ring(0.5f);
+  for (int i = 0; i < 12; ++i) {
+    AreaLight lamp;
+    lamp.shape = Ellipse{{-1.5 + 0.25 * i, 2, 1}, {0.05, 0, 0}, {0, 0, 0.05}};
+    lamp.two_sided = true;
+    lamp.radiance = {1e-3, 1e-3, 1e-3};
+    scene.area_lights.push_back(std::move(lamp));
+  }
+  RenderOptions options = small(Shadows::on);
+  RenderStats stats;
+  const Picture picture = render(scene, options, &stats);
+  EXPECT_EQ(stats.lights, 13u);
+  EXPECT_GT(stats.shadows_estimated, 0);
+  options.shadow_error = 0;
+  const Picture exact = render(scene, options, &stats);
+  const std::vector<Vec3f>& bound = picture.layers.at("shadow_bound");
+  for (std::size_t i = 0; i < bound.size(); ++i) {
+    const float most = std::max({exact.pixels[i].x, exact.pixels[i].y, exact.pixels[i].z}), rounding = 1e-6f * most;
+    EXPECT_LE(std::fabs(picture.pixels[i].x - exact.pixels[i].x), bound[i].x + rounding) << i;
+    EXPECT_LE(bound[i].x, 1e-3f * most + rounding) << i;
+  }
 }
 
 // Every pixel agrees with rays, and the picture with that of the single faces.

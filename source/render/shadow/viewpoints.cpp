@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/box.h"
 #include "steradian/scene.h"
@@ -94,6 +95,32 @@ using shadow::Viewpoint;
 Vec3d double_of(const TileVector& v, std::size_t i) { return static_cast<Vec3d>(Vec3f{v.x[i], v.y[i], v.z[i]}); }
 
 }  // namespace
+
+void PointGroups::remove(const std::function<bool(std::uint32_t)>& leaves) {
+  bool any_empty = false;
+  for (std::vector<std::uint32_t>& slots : groups) {
+    std::erase_if(slots, leaves);
+    any_empty = any_empty || slots.empty();
+  }
+  if (!any_empty) return;
+  std::vector<std::uint32_t> new_number(groups.size());
+  std::vector<std::vector<std::uint32_t>> kept;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    new_number[g] = static_cast<std::uint32_t>(kept.size());
+    if (!groups[g].empty()) kept.push_back(std::move(groups[g]));
+  }
+  std::vector<std::vector<std::uint32_t>> kept_clusters;
+  for (const std::vector<std::uint32_t>& cluster : clusters) {
+    std::vector<std::uint32_t> numbers;
+    for (const std::uint32_t g : cluster) {
+      const std::size_t next = g + 1 < new_number.size() ? new_number[g + 1] : kept.size();
+      if (next > new_number[g]) numbers.push_back(new_number[g]);
+    }
+    if (!numbers.empty()) kept_clusters.push_back(std::move(numbers));
+  }
+  groups = std::move(kept);
+  clusters = std::move(kept_clusters);
+}
 
 TilePoints points_for_shadows(const SurfaceTile& tile, const RayScene& rays, Terminator terminator) {
   TilePoints result;

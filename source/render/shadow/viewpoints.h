@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "render/surface/ray_scene.h"
@@ -19,6 +20,9 @@ namespace steradian {
 struct PointGroups {
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<std::vector<std::uint32_t>> clusters;  // numbers of groups
+
+  // Takes the slots out for which leaves(slot) is true, and groups and clusters that have none left.
+  void remove(const std::function<bool(std::uint32_t)>& leaves);
 };
 
 // Groups of lit surfaces. positions: for every slot with a surface.
