@@ -28,7 +28,7 @@ ROWS = [
     ["source/device/direct"],
     ["source/device/vulkan"],
     ["source/render/frame"],
-    ["source/render/bounce", "source/render/shadow", "source/render/many", "source/render/batch"],
+    ["source/render/bounce", "source/render/certificate", "source/render/shadow", "source/render/many", "source/render/batch"],
     ["source/render/sampled", "source/render/direct", "source/render/radiosity"],
     ["source/render/environment", "source/render/lights"],
     ["source/render/surface"],

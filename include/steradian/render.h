@@ -71,6 +71,9 @@ struct RenderOptions {
   int bounces = 0;
   double bounce_error = 0;  // with bounces: estimated error of a pixel over the scene's mean light, as far as 16 times the directions reach
   bool bounce_strict = false;  // with bounces: each pixel gathers by itself, in 16 times the directions
+  // With bounces: the layers "lower" and "upper" enclose the picture by a proof, and "bounce_bound" is how far it may be from either. For
+  // scenes of flat diffuse surfaces and polygon lights only; others are an Error (docs/bounds.md).
+  bool bound = false;
   int reflections = 2;          // with bounces: number of mirrors in a row that show what they face
   bool bounce_preview = false;  // with bounces: 2,000 patches and 16 directions a pixel, for pictures that are shown for a moment
   PicturePart part;          // the rest of the picture stays black; on the CPU, without `indirect`, mirrors of bounces and a limit of time
@@ -111,6 +114,9 @@ struct RenderStats {
   int bounce_iterations = 0;            // over all patches
   double bounce_left_out = 0;           // bound of the radiance that further bounces would add; negative: none is known
   double bounce_error = 0;              // estimated rms error of the light between surfaces over the picture's mean
+  std::size_t bound_elements = 0;       // that carry the bounds of RenderOptions::bound; 0: there are none
+  double bound_mean = 0;                // half the mean distance between the bounds over the picture's mean light
+  double bound_inside = 1;              // fraction of the pixels that lie between them
   bool light_tree = false;              // many lights were summed together; the layer "light_bound" gives each pixel's possible error
   double light_elements = 0;            // lights that were one or four elements at a point by themselves, on average over diffuse points
   double light_outlines = 0;            // and lights whose outline was walked

@@ -75,6 +75,9 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"bounce_iterations", stats.bounce_iterations},
           {"bounce_left_out", stats.bounce_left_out},
           {"bounce_error", stats.bounce_error},
+          {"bound_elements", stats.bound_elements},
+          {"bound_mean", stats.bound_mean},
+          {"bound_inside", stats.bound_inside},
           {"environment_shadow_error", stats.environment_shadow_error},
           {"shadow_fallback", stats.shadow_fallback},
           {"shadows_estimated", stats.shadows_estimated},
@@ -126,9 +129,11 @@ std::string identity_of(const RenderArguments& options, const Scene& scene) {
 // The same for any render.
 std::string settings_of(const RenderArguments& options, const Scene& scene) {
   const RenderOptions& r = options.render;
-  return identity_of(options, scene) + fmt::format(" | peak {} {} | lights {} {} | shadow error {} | bounce error {} {} reflections {}",
-                                                   words::name_of(r.peak_form), r.early_stop, words::name_of(r.lights), r.light_error,
-                                                   r.shadow_error, r.bounce_error, r.bounce_strict, r.reflections);
+  return identity_of(options, scene) +
+         fmt::format(" | peak {} {} | lights {} {} | shadow error {} | bounce error {} {} reflections {}", words::name_of(r.peak_form),
+                     r.early_stop, words::name_of(r.lights), r.light_error, r.shadow_error, r.bounce_error, r.bounce_strict,
+                     r.reflections) +
+         (r.bound ? " bound" : "");
 }
 
 // Renders the picture. The error for running out of memory gives the picture and its size.
@@ -179,6 +184,7 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--bounces", r.indirect.mode == IndirectMode::off, "no --indirect"},
        {"--bounce-error", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--bounce-strict", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
+       {"--bound", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--reflections", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
        {"--shadow-error", !samples && r.method != "reference" && r.shadows == Shadows::on, "--shadows on, by a method without samples"},
        {"--time-limit", r.method != "sampled" && r.method != "reference", "a method without samples"},
@@ -191,11 +197,12 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  verb.refuse({"--quality",    "--table",       "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
-               "--indirect",   "--vpls",        "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
-               "--max-lights", "--light",       "--lights",           "--light-error",    "--environment",    "--environment-rotation",
-               "--background", "--light-units", "--camera",           "--target-error",   "--resume",         "--animation",
-               "--time-limit", "--part",        "--bounce-error",     "--bounce-strict",  "--reflections",    "--shadow-error"},
+  verb.refuse({"--quality",     "--table",       "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
+               "--indirect",    "--vpls",        "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
+               "--max-lights",  "--light",       "--lights",           "--light-error",    "--environment",    "--environment-rotation",
+               "--background",  "--light-units", "--camera",           "--target-error",   "--resume",         "--animation",
+               "--time-limit",  "--part",        "--bounce-error",     "--bounce-strict",  "--bound",          "--reflections",
+               "--shadow-error"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -316,6 +323,13 @@ void run(const Verb& verb, RenderArguments& options) {
   if (stats.patches > 0 && stats.bounce_left_out < 0)
     fmt::print(stderr, "warning: --bounces: surfaces that reflect all light keep it; no bound of the bounces left out is known\n");
 
+  if (stats.bound_elements > 0)
+    fmt::print(
+        stderr,
+        "steradian: --bound: {} sides; the bounds are on average {:.2g} % of the light from their middle, and {:.4g} % of the pixels "
+        "lie between them\n",
+        stats.bound_elements, 100 * stats.bound_mean, 100 * stats.bound_inside);
+
   if (loaded.scene.environment && stats.method != "sampled" && stats.method != "reference")
     fmt::print(
         stderr,
@@ -381,6 +395,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--indirect", r.indirect.mode, "one bounce of light").group("Light");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
+  verb.add_flag("--bound", r.bound, "of --bounces: layers lower and upper, a proof for flat diffuse scenes").group("Light");
   verb.add_flag("--bounce-strict", r.bounce_strict, "of --bounces: each pixel by itself, in 16 times the directions").group("Light");
   verb.add("--reflections", r.reflections, "of --bounces: mirrors in a row").range(0, 16).group("Light");
   verb.add_word("--lights", r.lights, "sum of diffuse lights; tree groups far ones").group("Light");

@@ -1,5 +1,6 @@
 #include "render/frame/all_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -21,21 +22,24 @@ void add(TileVector& to, std::size_t i, Vec3f r) {
 
 }  // namespace
 
-AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, const FrameSurfaces& surfaces, const RenderOptions& options,
-                   radiosity::AddDirect add_direct)
+AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, std::unique_ptr<const certificate::BounceBounds> bounds,
+                   const FrameSurfaces& surfaces, const RenderOptions& options, radiosity::AddDirect add_direct)
     : width_(options.width),
       bounces_(options.bounces),
       reflections_(options.reflections),
       eye_(surfaces.camera().origin()),
       patches_(std::move(patches)),
+      bounds_(std::move(bounds)),
       gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), {options.bounce_error, options.bounce_strict, options.aa}),
       mirror_images_(kMostLayers, radiosity::MirrorImage(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
                                                          kFar * static_cast<float>(surfaces.rays().reach()))),
       surfaces_(surfaces),
       add_direct_(std::move(add_direct)) {}
 
-void AllLight::begin(Picture& picture) {
+void AllLight::begin(Picture& picture, const RenderOptions& options) {
   for (const char* layer : {"indirect", "bounce_error", "bounce_bound"}) picture.layers[layer].resize(picture.pixels.size());
+  if (!options.bound) return;
+  for (const char* layer : {"lower", "upper"}) picture.layers[layer].resize(picture.pixels.size());
 }
 
 // Adds the light that a tile's surfaces gather to `light`.
@@ -131,15 +135,41 @@ void AllLight::add(SurfaceTile& tile, const Seen& seen, Picture& picture) {
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
     if (reflections_ > 0) add_mirrored(tile, distance, seen, light, error);
+    add_bounds(tile, light, seen, picture);
     for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(tile.radiance, i, get(light, i));
   });
   add_to_picture(light, seen.area, seen.shares, seen.weight, picture.layers.at("indirect"), width_);
   add_to_picture(error, seen.area, seen.shares, seen.weight, picture.layers.at("bounce_error"), width_);
+}
+
+// Adds what is known of the light that `light` stands for: a tile's lower and upper bounds, if they are asked for, else a bound of the
+// bounces that the iterations leave out.
+void AllLight::add_bounds(const SurfaceTile& tile, const TileVector& light, const Seen& seen, Picture& picture) const {
+  TileVector bound{}, lower{}, upper{};
   const float left_out = patches_->left_out().value_or(0);
-  TileVector bound{};
-  for (std::size_t i = 0; i < kTilePixels; ++i)  // no surface reflects more than arrives
-    if (tile.material[i] != nullptr) put(bound, i, {left_out, left_out, left_out});
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (tile.material[i] == nullptr) continue;
+    if (bounds_ == nullptr) {
+      put(bound, i, {left_out, left_out, left_out});  // no surface reflects more than arrives
+      continue;
+    }
+    const Vec3f direct = get(tile.radiance, i), shown = get(light, i), albedo = get(tile.albedo, i);
+    Vec3f low{}, high{};
+    if (albedo != Vec3f{}) {
+      const certificate::RadianceRange white =
+          bounds_->white_at(static_cast<Vec3d>(get(tile.position, i)), static_cast<Vec3d>(get(tile.normal, i)));
+      low = static_cast<Vec3f>(white.low) * albedo;
+      high = static_cast<Vec3f>(white.high) * albedo;
+    }
+    const auto farther = [](float value, float least, float most) { return std::max(value - least, most - value); };
+    put(bound, i, {farther(shown.x, low.x, high.x), farther(shown.y, low.y, high.y), farther(shown.z, low.z, high.z)});
+    put(lower, i, direct + low);
+    put(upper, i, direct + high);
+  }
   add_to_picture(bound, seen.area, seen.shares, seen.weight, picture.layers.at("bounce_bound"), width_);
+  if (bounds_ == nullptr) return;
+  add_to_picture(lower, seen.area, seen.shares, seen.weight, picture.layers.at("lower"), width_);
+  add_to_picture(upper, seen.area, seen.shares, seen.weight, picture.layers.at("upper"), width_);
 }
 
 void AllLight::finish(Picture& picture) {
@@ -158,6 +188,22 @@ void AllLight::report(int threads, RenderStats& stats, const Picture& picture) c
   for (const Vec3f& p : picture.pixels) light += luminance(static_cast<Vec3d>(p));
   const auto count = static_cast<double>(picture.pixels.size());
   stats.bounce_error = light > 0 ? std::sqrt(squares / count) / (light / count) : 0;
+  if (bounds_ == nullptr) return;
+  stats.bound_elements = bounds_->side_count();
+  const std::vector<Vec3f>&lower = picture.layers.at("lower"), &upper = picture.layers.at("upper");
+  double distance = 0;
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    distance += luminance(static_cast<Vec3d>(upper[i] - lower[i])) / 2;
+    constexpr float kRounding = 1e-6f;
+    const auto is_between = [](float value, float low, float high) {
+      return value >= low * (1 - kRounding) && value <= high * (1 + kRounding);
+    };
+    const Vec3f p = picture.pixels[i];
+    inside += is_between(p.x, lower[i].x, upper[i].x) && is_between(p.y, lower[i].y, upper[i].y) && is_between(p.z, lower[i].z, upper[i].z);
+  }
+  stats.bound_mean = light > 0 ? distance / light : 0;
+  stats.bound_inside = count > 0 ? static_cast<double>(inside) / count : 1;
 }
 
 }  // namespace steradian

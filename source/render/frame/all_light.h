@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/certificate/bounce_bounds.h"
 #include "render/frame/frame_surfaces.h"
 #include "render/radiosity/gather.h"
 #include "render/radiosity/mirror_image.h"
@@ -16,11 +17,12 @@ class AllLight {
  public:
   // add_direct: adds the direct light of a tile's surfaces, also where other surfaces of the tile's pixels are being lit. Rays and surfaces
   // must outlive this object.
-  AllLight(std::shared_ptr<const radiosity::PatchLight> patches, const FrameSurfaces& surfaces, const RenderOptions& options,
-           radiosity::AddDirect add_direct);
+  // bounds: null without RenderOptions::bound.
+  AllLight(std::shared_ptr<const radiosity::PatchLight> patches, std::unique_ptr<const certificate::BounceBounds> bounds,
+           const FrameSurfaces& surfaces, const RenderOptions& options, radiosity::AddDirect add_direct);
 
-  // Makes the layers "indirect", "bounce_error" and "bounce_bound".
-  static void begin(Picture& picture);
+  // Makes the layers "indirect", "bounce_error" and "bounce_bound", and with RenderOptions::bound "lower" and "upper".
+  static void begin(Picture& picture, const RenderOptions& options);
   // Place of a tile's surfaces in the picture.
   struct Seen {
     TileArea area;
@@ -37,6 +39,7 @@ class AllLight {
   void report(int threads, RenderStats& stats, const Picture& picture) const;
 
  private:
+  void add_bounds(const SurfaceTile& tile, const TileVector& light, const Seen& seen, Picture& picture) const;
   void gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const;
   void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, const Seen& seen, TileVector& light, TileVector& error);
   TilePlane follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t seed, int sample, int depth, TileVector& light,
@@ -46,6 +49,7 @@ class AllLight {
   const Vec3f eye_;
   PassClock clock_{"bounces"};
   const std::shared_ptr<const radiosity::PatchLight> patches_;
+  const std::unique_ptr<const certificate::BounceBounds> bounds_;
   const radiosity::Gather gather_;
   std::vector<radiosity::MirrorImage> mirror_images_;  // by layer of surfaces
   const FrameSurfaces& surfaces_;

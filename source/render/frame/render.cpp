@@ -188,7 +188,7 @@ class Renderer {
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
       if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
       if (is_limited() || lighting_.bounds_shadows()) picture.layers["shadow_bound"].resize(picture.pixels.size());
-      if (options_.bounces != 0 && !method_.estimates()) AllLight::begin(picture);
+      if (options_.bounces != 0 && !method_.estimates()) AllLight::begin(picture, options_);
     }
     if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||
         (picture.layers.count("variance") != 0) != method_.estimates())
@@ -329,6 +329,7 @@ class Renderer {
   // Solves the light between surfaces, unless the cache holds it. The sum of many lights depends on the camera, so it is not kept.
   void solve_bounces() {
     const auto start = Clock::now();
+    if (options_.bound) certificate::BounceBounds::check(scene_, options_);
     const auto solve = [&] { return solve_patches(); };
     std::shared_ptr<const radiosity::PatchLight> patches;
     if (cache_ != nullptr && !many_lights_) {
@@ -339,7 +340,16 @@ class Renderer {
       patches = solve();
     }
     patches_ms_ = ms_since(start);
-    all_light_ = std::make_unique<AllLight>(std::move(patches), surfaces_, options_,
+    std::unique_ptr<const certificate::BounceBounds> bounds;
+    if (options_.bound) {
+      steps_ += certificate::BounceBounds::steps(scene_, options_);
+      arena_.execute([&] {
+        bounds = std::make_unique<const certificate::BounceBounds>(scene_, surfaces_.rays(), options_, [this] {
+          if (options_.progress) options_.progress(++done_, steps_);
+        });
+      });
+    }
+    all_light_ = std::make_unique<AllLight>(std::move(patches), std::move(bounds), surfaces_, options_,
                                             [this](SurfaceTile& tile) { light_directly(tile, ReceiverKind::asked); });
   }
 

@@ -26,7 +26,7 @@ class LightChoice {
   std::size_t dim_count(std::span<const PackLight* const> lights, const Box3f& positions, double fraction) const;
 
  private:
-  // What a light of this index seems to send to a place.
+  // Light that the light of this index seems to send to a place.
   double sent(std::size_t index, const Vec3d& to) const;
 
   struct Source {
