@@ -140,6 +140,27 @@ bool crosses(const Polygon& p, const PlaneAxes& axes) {
   return !triangles_of(contours);
 }
 
+// A direction as a mirror with this unit normal shows it.
+Vec3d mirrored(Vec3d way, Vec3d normal) { return way - normal * (2 * dot(normal, way)); }
+
+// The vertex of a copy of a polygon for each of its own. placed(way): the way from the middle to a vertex, as the copy has it. Empty if the
+// other light is no copy.
+template <class Placed>
+std::vector<std::size_t> corners_of_copy(const AreaLight& light, const AreaLight& other, Placed placed) {
+  constexpr double kSame = 1e-4;  // of the size: distance between equal vertices
+  if (!std::holds_alternative<Polygon>(light.shape) || !std::holds_alternative<Polygon>(other.shape)) return {};
+  auto polygon = std::get<Polygon>(light.shape), copy = std::get<Polygon>(other.shape);
+  const std::vector<Vec3d*> own = vertices_of(polygon), its = vertices_of(copy);
+  const Vec3d middle = center_of(polygon), its_middle = center_of(copy);
+  std::vector<std::size_t> corners;
+  for (const Vec3d* v : own) {
+    const Vec3d place = its_middle + placed(*v - middle);
+    for (std::size_t k = 0; k < its.size(); ++k)
+      if (length(*its[k] - place) <= kSame * length(*v - middle)) corners.push_back(k);
+  }
+  return own.size() == its.size() && corners.size() == own.size() ? corners : std::vector<std::size_t>{};
+}
+
 // Emitting area of one side.
 double area_of(const PolygonLight& light) {
   Vec3d sum{};
@@ -246,12 +267,19 @@ FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits
       }
       add_light(tie.lights[i]);
       lights_.back().leader = number;
-      if (std::any_of(lights_[number].unknowns.begin(), lights_[number].unknowns.end(),
-                      [&](std::size_t u) { return unknowns_[u].kind == UnknownKind::vertex_u; }))
-        problems.push_back("'" + lights_.back().name + "' cannot follow the vertices of another light (leave the tie out)");
       lights_.back().mirrored = tie.has_mirror;
       lights_.back().mirror_point = tie.mirror_point;
       lights_.back().mirror_normal = normalized(tie.mirror_normal);
+      if (std::any_of(lights_[number].unknowns.begin(), lights_[number].unknowns.end(),
+                      [&](std::size_t u) { return unknowns_[u].kind == UnknownKind::vertex_u; })) {
+        const Driven &first = lights_[number], &copy = lights_.back();
+        std::vector<std::size_t> corners = corners_of_copy(
+            first.start.area, copy.start.area, [&](Vec3d way) { return copy.mirrored ? mirrored(way, copy.mirror_normal) : way; });
+        if (corners.empty())
+          problems.push_back("'" + copy.name + "' cannot follow the vertices of '" + first.name + "', since it has another outline" +
+                             (copy.mirrored ? " than its mirror image" : "") + " (leave the tie out)");
+        lights_.back().corners = std::move(corners);
+      }
       const bool colored = std::any_of(lights_[number].unknowns.begin(), lights_[number].unknowns.end(),
                                        [&](std::size_t u) { return unknowns_[u].kind == UnknownKind::red; });
       if (colored) {
@@ -378,14 +406,18 @@ bool FittedLights::crosses_itself(const std::vector<double>& x) const {
 }
 
 // The flux stays.
-void FittedLights::move_vertices(const std::vector<std::pair<std::size_t, double>>& by, FittedLight& light) const {
+void FittedLights::move_vertices(const std::vector<std::pair<std::size_t, double>>& by, const Driven& leader, const Driven& driven,
+                                 FittedLight& light) const {
   constexpr double kLeastArea = 1e-3;  // of the start's: a light that collapses in a step keeps a finite radiance
-  const PlaneAxes axes = plane_of(light.area);
+  const PlaneAxes axes = plane_of(leader.start.area);
   const double area = area_of(flat_polygon(light.area));
   auto& polygon = std::get<Polygon>(light.area.shape);
   const std::vector<Vec3d*> all = vertices_of(polygon);
-  for (const auto& [unknown, value] : by)
-    *all[unknowns_[unknown].vertex] += (unknowns_[unknown].kind == UnknownKind::vertex_u ? axes.u : axes.v) * value;
+  for (const auto& [unknown, value] : by) {
+    const Vec3d way = (unknowns_[unknown].kind == UnknownKind::vertex_u ? axes.u : axes.v) * value;
+    const std::size_t vertex = unknowns_[unknown].vertex;
+    *all[driven.corners.empty() ? vertex : driven.corners[vertex]] += driven.mirrored ? mirrored(way, driven.mirror_normal) : way;
+  }
   for (const Vec3d* v : all) light.change.vertices.push_back(*v);
   light.scale = light.scale * (area / std::max(area_of(flat_polygon(light.area)), kLeastArea * area));
 }
@@ -418,7 +450,7 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
     }
     moves = true;
   }
-  if (!vertices.empty()) move_vertices(vertices, light);
+  if (!vertices.empty()) move_vertices(vertices, leader, driven, light);
   if (!moves) return;
   if (!has_second && !(light.is_punctual) && !std::holds_alternative<Capsule>(light.area.shape)) motion.f2 = motion.f1;
   if (driven.mirrored) {
@@ -426,8 +458,8 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
     const bool placed = std::any_of(leader.unknowns.begin(), leader.unknowns.end(),
                                     [&](std::size_t i) { return unknowns_[i].kind == UnknownKind::position_x; });
     const Vec3d there = from + by;
-    by = placed ? there - n * (2 * dot(n, there - driven.mirror_point)) - motion.center : Vec3d{};
-    rotation = -(rotation - n * (2 * dot(n, rotation)));  // an axial vector
+    by = placed ? driven.mirror_point + mirrored(there - driven.mirror_point, n) - motion.center : Vec3d{};
+    rotation = -mirrored(rotation, n);  // an axial vector
   }
   motion.by = by;
   motion.rotation = rotation;

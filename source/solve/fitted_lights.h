@@ -81,9 +81,11 @@ class FittedLights {
     bool mirrored = false;
     Vec3d mirror_point{}, mirror_normal{};
     std::vector<std::size_t> unknowns;  // of a leader
+    std::vector<std::size_t> corners;   // of a light that follows vertices: its vertex for each of the leader's
   };
   void add_unknowns(const LightFit& fit, std::size_t light, double room, std::vector<std::string>& problems);
-  void move_vertices(const std::vector<std::pair<std::size_t, double>>& by, FittedLight& light) const;
+  void move_vertices(const std::vector<std::pair<std::size_t, double>>& by, const Driven& leader, const Driven& driven,
+                     FittedLight& light) const;
   void move(const Driven& leader, const std::vector<double>& x, FittedLight& light, const Driven& driven) const;
 
   std::vector<Driven> lights_;

@@ -13,8 +13,8 @@
 namespace steradian::certificate {
 namespace {
 
-constexpr double kEnough = 0.2;     // width of a factor's range that is not split, over the mean of the factors of a row
-constexpr double kBright = 0.999;   // largest albedo for which a bound exists that iterations reach
+constexpr double kEnough = 0.2;    // width of a factor's range that is not split, over the mean of the factors of a row
+constexpr double kBright = 0.999;  // largest albedo for which a bound exists that iterations reach
 
 std::size_t patches_for(const RenderOptions& options) {
   switch (options.quality) {
@@ -97,14 +97,14 @@ void BounceBounds::check(const Scene& scene, const RenderOptions& options) {
     const bool shines = m.metallic > 0 || m.specular > 0 || m.clearcoat > 0 || m.sheen_color != Vec3f{} || !m.specular_override.empty();
     if (shines) refuse(name, "has more lobes than the diffuse one");
     if (m.base_color_texture.image >= 0 || m.normal_texture.image >= 0 || !mesh.colors.empty()) refuse(name, "has a texture");
-    if (std::max({m.base_color.x, m.base_color.y, m.base_color.z}) > static_cast<float>(kBright))
-      refuse(name, "reflects all light");
+    if (std::max({m.base_color.x, m.base_color.y, m.base_color.z}) > static_cast<float>(kBright)) refuse(name, "reflects all light");
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
       constexpr float kFlat = 1e-4f;
       const auto at = [&](std::size_t k) { return mesh.indices[3 * t + k]; };
       const Vec3f a = mesh.positions[at(0)], n = cross(mesh.positions[at(1)] - a, mesh.positions[at(2)] - a);
       for (std::size_t k = 0; k < 3 && length(n) > 0; ++k)
-        if (length(mesh.normals[at(k)] - n / length(n)) > kFlat) refuse("the mesh \"" + mesh.name + "\"", "has normals that are not its faces'");
+        if (length(mesh.normals[at(k)] - n / length(n)) > kFlat)
+          refuse("the mesh \"" + mesh.name + "\"", "has normals that are not its faces'");
     }
   }
   constexpr std::size_t kMostSides = 20'000;  // rows hold up to the square of it
@@ -123,7 +123,8 @@ BounceBounds::BounceBounds(const Scene& scene, const RayScene& rays, const Rende
     const double step = static_cast<double>(at.step), cell = static_cast<double>(at.u) / step;
     const double scale = cell - std::floor(cell) > 0.5 ? -step : step;
     const auto place = [&](double u, double v) {
-      return a + along_u * (static_cast<double>(at.u) + (u - 1.0 / 3) * scale) + along_v * (static_cast<double>(at.v) + (v - 1.0 / 3) * scale);
+      return a + along_u * (static_cast<double>(at.u) + (u - 1.0 / 3) * scale) +
+             along_v * (static_cast<double>(at.v) + (v - 1.0 / 3) * scale);
     };
     const OrientedTriangle front = OrientedTriangle::of({place(0, 0), place(1, 0), place(0, 1)});
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
@@ -262,8 +263,8 @@ RadianceRange BounceBounds::white_at(Vec3d position, Vec3d normal) const {
     FactorRange r = {static_cast<double>(e.low), static_cast<double>(e.high)};
     constexpr double kNarrow = 0.1;  // entries whose ranges are of no consequence stay as they are
     if (width(e) > kNarrow * mean) {
-      const FactorRange at = e.is_open ? whole_range(point, side.triangle)
-                                       : factor_range(point, side.triangle, occluders_, false, kNarrow * r.high);
+      const FactorRange at =
+          e.is_open ? whole_range(point, side.triangle) : factor_range(point, side.triangle, occluders_, false, kNarrow * r.high);
       r.low = std::max(at.low, r.low);
       r.high = std::max(std::min(at.high, r.high), r.low);
     }

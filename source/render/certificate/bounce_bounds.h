@@ -1,5 +1,5 @@
-// BounceBounds: a lower and an upper bound of the light that flat diffuse surfaces send to each other (docs/bounds.md). Both are proofs: the
-// light that bounces is a fixed point of a positive map, so a function that a bound of the map does not raise is above it.
+// BounceBounds: a lower and an upper bound of the light that flat diffuse surfaces send to each other (docs/bounds.md). Both are proofs:
+// the light that bounces is a fixed point of a positive map, so a function that a bound of the map does not raise is above it.
 #pragma once
 
 #include <cstdint>

@@ -47,14 +47,14 @@ TEST(FactorRange, NoPointIsOutside) {
     const double size = round % 2 == 0 ? 0.4 : 1.5;
     const Vec3d from_at = random_place(random, 3), to_at = random_place(random, 3);
     const auto triangle = [&](Vec3d at) {
-      return OrientedTriangle::of(
-          {at + random_place(random, size), at + random_place(random, size), at + random_place(random, size)});
+      return OrientedTriangle::of({at + random_place(random, size), at + random_place(random, size), at + random_place(random, size)});
     };
     const OrientedTriangle from = triangle(from_at), to = triangle(to_at);
     Scene scene;
     scene.materials.resize(1);
     if (round % 4 != 0) {
-      const Vec3f m = static_cast<Vec3f>((from_at + to_at) * 0.5), x{round % 4 == 1 ? 4.0f : 0.4f, 0, 0}, y{0, round % 4 == 1 ? 4.0f : 0.4f, 0.1f};
+      const Vec3f m = static_cast<Vec3f>((from_at + to_at) * 0.5), x{round % 4 == 1 ? 4.0f : 0.4f, 0, 0},
+                  y{0, round % 4 == 1 ? 4.0f : 0.4f, 0.1f};
       scene.meshes.push_back(scene::quad_mesh(m - x - y, m + x - y, m + x + y, m - x + y, 0));
     }
     const OccluderSet occluders(scene);
@@ -174,8 +174,8 @@ TEST(BounceBounds, EncloseThePathsOfTheCornellBox) {
     options.target_error = 0;
     options.spp = 256;
     const Picture paths = render(scene, options);
-    const std::vector<Vec3f>&lower = picture.layers.at("lower"), &upper = picture.layers.at("upper"), &variance = paths.layers.at("variance"),
-                &bound = picture.layers.at("bounce_bound");
+    const std::vector<Vec3f>&lower = picture.layers.at("lower"), &upper = picture.layers.at("upper"),
+          &variance = paths.layers.at("variance"), &bound = picture.layers.at("bounce_bound");
     std::size_t outside = 0;
     for (std::size_t i = 0; i < lower.size(); ++i) {
       const float sigma = 4 * std::sqrt(variance[i].y), p = paths.pixels[i].y;
@@ -185,8 +185,8 @@ TEST(BounceBounds, EncloseThePathsOfTheCornellBox) {
       EXPECT_GE(bound[i].y, upper[i].y - picture.pixels[i].y - rounding);
       EXPECT_GE(bound[i].y, picture.pixels[i].y - lower[i].y - rounding);
     }
-    std::printf("%d bounces: %zu sides, half width %.1f %%, %.1f %% inside; %zu of the paths' pixels outside\n", bounces, stats.bound_elements,
-                100 * stats.bound_mean, 100 * stats.bound_inside, outside);
+    std::printf("%d bounces: %zu sides, half width %.1f %%, %.1f %% inside; %zu of the paths' pixels outside\n", bounces,
+                stats.bound_elements, 100 * stats.bound_mean, 100 * stats.bound_inside, outside);
     EXPECT_EQ(outside, 0u);
     EXPECT_GT(stats.bound_inside, 0.99);
     EXPECT_LT(stats.bound_mean, 0.4);

@@ -215,8 +215,7 @@ OccluderSet::OccluderSet(const Scene& scene) {
   constexpr double kTouching = 1e-7;  // of the scene's size
   double reach = 0;
   for (const Mesh& mesh : scene.meshes)
-    for (const Vec3f& p : mesh.positions)
-      reach = std::max({reach, std::fabs(double{p.x}), std::fabs(double{p.y}), std::fabs(double{p.z})});
+    for (const Vec3f& p : mesh.positions) reach = std::max({reach, std::fabs(double{p.x}), std::fabs(double{p.y}), std::fabs(double{p.z})});
   tolerance = kTouching * reach;
   for (const Mesh& mesh : scene.meshes) {
     if (!mesh.casts_shadow && !mesh.is_light_shape) continue;
