@@ -1,0 +1,62 @@
+// BalancedMean: the mean of samples of several densities by the balance heuristic, and its variance.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "steradian/vector.h"
+
+namespace steradian::reference {
+
+// Estimates an integral by rounds of one sample of each density. The variance of the rounds alone is wrong where a density meets the
+// integrand so rarely that no sample has met it yet: a lobe that is sampled for a line of light. But samples of the other densities know
+// how often that happens. Here g is the integrand over the sum of all densities, and the balance heuristic sums g over a round. So
+//
+//   variance of a round = integral of g^2 sum_s p_s - sum_s (integral of g p_s)^2.
+//
+// Samples of all densities estimate both integrals. The larger of this variance and that of the rounds counts: both converge to the truth.
+class BalancedMean {
+ public:
+  explicit BalancedMean(std::size_t densities) : parts_(densities) {}
+
+  // A sample of any density: g, and all densities there.
+  void add(Vec3d g, std::span<const double> densities) {
+    double sum = 0;
+    for (const double density : densities) sum += density;
+    if (!(sum > 0)) return;
+    round_ += g;
+    squares_ += g * g;
+    for (std::size_t s = 0; s < parts_.size(); ++s) parts_[s] += g * (densities[s] / sum);
+  }
+
+  // After each round. Source: Welford 1962.
+  void end_round() {
+    const Vec3d delta = round_ - mean_;
+    mean_ += delta / static_cast<double>(++count_);
+    deviations_ += delta * (round_ - mean_);
+    round_ = {};
+  }
+
+  Vec3d mean() const { return mean_; }
+
+  // Variance of the mean. That of one round alone is by the densities only.
+  Vec3d variance() const {
+    if (count_ == 0) return {};
+    const auto n = static_cast<double>(count_);
+    Vec3d of_densities = squares_ / n;
+    for (const Vec3d& part : parts_) of_densities -= (part / n) * (part / n);
+    const auto larger = [](double a, double b) { return std::max(a, b); };
+    const Vec3d of_rounds = deviations_ / n;
+    return Vec3d{larger(of_rounds.x, of_densities.x), larger(of_rounds.y, of_densities.y), larger(of_rounds.z, of_densities.z)} /
+           std::max(n - 1, 1.0);
+  }
+
+ private:
+  int count_ = 0;
+  Vec3d round_{}, mean_{}, deviations_{}, squares_{};
+  std::vector<Vec3d> parts_;  // by density: sum of its parts of g
+};
+
+}  // namespace steradian::reference
