@@ -16,7 +16,10 @@ namespace steradian::reference {
 //
 //   variance of a round = integral of g^2 sum_s p_s - sum_s (integral of g p_s)^2.
 //
-// Samples of all densities estimate both integrals. The larger of this variance and that of the rounds counts: both converge to the truth.
+// Samples of all densities estimate both integrals. Where too few samples of one density meet the integrand, this variance is too large,
+// and that of the rounds is too small by as much: a density that finds the fraction e of a constant g gives 2 e - e' and e' for the e' that
+// it has found. So their mean is no longer off on average. But a batch that has found too much is further off than others: for a single
+// answer, the larger of both is the honest one.
 class BalancedMean {
  public:
   explicit BalancedMean(std::size_t densities) : parts_(densities) {}
@@ -41,19 +44,28 @@ class BalancedMean {
 
   Vec3d mean() const { return mean_; }
 
-  // Variance of the mean. That of one round alone is by the densities only.
+  // Variance of the mean, true on average: for sums of many estimates.
   Vec3d variance() const {
-    if (count_ == 0) return {};
-    const auto n = static_cast<double>(count_);
-    Vec3d of_densities = squares_ / n;
-    for (const Vec3d& part : parts_) of_densities -= (part / n) * (part / n);
-    const auto larger = [](double a, double b) { return std::max(a, b); };
-    const Vec3d of_rounds = deviations_ / n;
-    return Vec3d{larger(of_rounds.x, of_densities.x), larger(of_rounds.y, of_densities.y), larger(of_rounds.z, of_densities.z)} /
-           std::max(n - 1, 1.0);
+    return combined([](double a, double b) { return std::max(0.5 * (a + b), 0.0); });
+  }
+  // The larger of both, for a single estimate.
+  Vec3d larger_variance() const {
+    return combined([](double a, double b) { return std::max({a, b, 0.0}); });
   }
 
  private:
+  // That of one round alone is by the densities only.
+  template <class Join>
+  Vec3d combined(Join join) const {
+    if (count_ == 0) return {};
+    const auto n = static_cast<double>(count_);
+    Vec3d by_densities = squares_ / n;
+    for (const Vec3d& part : parts_) by_densities -= (part / n) * (part / n);
+    const Vec3d by_rounds = count_ > 1 ? deviations_ / n : by_densities;
+    return Vec3d{join(by_densities.x, by_rounds.x), join(by_densities.y, by_rounds.y), join(by_densities.z, by_rounds.z)} /
+           std::max(n - 1, 1.0);
+  }
+
   int count_ = 0;
   Vec3d round_{}, mean_{}, deviations_{}, squares_{};
   std::vector<Vec3d> parts_;  // by density: sum of its parts of g

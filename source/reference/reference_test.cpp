@@ -271,8 +271,8 @@ TEST(Sampled, TheStandardErrorOfALineOfLightIsHonest) {
       squares += off * off / kSeeds;
       stated += s.standard_error * s.standard_error / kSeeds;
     }
-    // The mean of the variances is that of the estimates: 400 of them know it within 1 / sqrt(200), here five times that. A batch without a
-    // hit states twice the variance, where each density's own part is not yet known.
+    // The mean of the variances is that of the estimates, which 400 of them know within 1 / sqrt(200), here five times that. Where nearly
+    // no batch has a hit, the larger of two variances is twice as large.
     std::printf("%d: rms error %.2e, stated %.2e, largest |z| %.2f\n", static_cast<int>(brdf), std::sqrt(squares), std::sqrt(stated),
                 worst);
     EXPECT_GT(stated, squares / (1 + 5 / std::sqrt(kSeeds / 2.0)));

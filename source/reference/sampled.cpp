@@ -60,7 +60,7 @@ SampledResult by_both(const lobes::Lobe& lobe, Vec3d radiance, const SampledOpti
     if (!(by_lobe == Vec3d{})) add(in(by_lobe));
     statistics.end_round();
   }
-  if (seen) return {statistics.mean(), standard_error_of(statistics.mean(), statistics.variance())};
+  if (seen) return {statistics.mean(), standard_error_of(statistics.mean(), statistics.larger_variance())};
   // All samples are occluded. One more pair may see the light, and would then be the only one of its mean.
   return {{}, std::sqrt(occluded_squares / options.spp) / (options.spp + 1.0)};
 }

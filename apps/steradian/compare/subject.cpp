@@ -81,6 +81,7 @@ Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareAr
   subject.warm_up = [scene, small = options.render]() mutable {
     small.width = kWarmWidth;
     small.height = kWarmHeight;
+    small.bounces = 0;  // whose time does not depend on the size
     render(*scene, small);
   };
   return subject;
