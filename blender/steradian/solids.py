@@ -3,6 +3,7 @@ writes one only for a node group of its own. So closed meshes of glass get a thi
 """
 
 import copy
+import math
 
 TRANSMISSION, VOLUME = "KHR_materials_transmission", "KHR_materials_volume"
 
@@ -33,6 +34,22 @@ def mean_chord(mesh, slots):
     return 4 * volume / area if volume > 0 else None
 
 
+def absorption(material):
+    """The extension's values for a Volume Absorption node on the material's output: of the light, exp(-density (1 - color) x) is left after x."""
+    outputs = [n for n in material.node_tree.nodes if n.type == "OUTPUT_MATERIAL" and n.is_active_output] if material.use_nodes else []
+    links = outputs[0].inputs["Volume"].links if outputs else []
+    if not links:
+        return {}
+    node = links[0].from_node
+    color, density = node.inputs.get("Color"), node.inputs.get("Density")
+    if node.type != "VOLUME_ABSORPTION" or color.is_linked or density.is_linked:
+        print(f"steradian: {material.name}: only a Volume Absorption of numbers is exported")
+        return {}
+    if density.default_value <= 0:
+        return {}
+    return {"attenuationDistance": 1 / density.default_value, "attenuationColor": [math.exp(c - 1) for c in color.default_value[:3]]}
+
+
 class Solids:
     """Gives the exporter's materials of closed meshes their thickness."""
 
@@ -56,13 +73,14 @@ class Solids:
             if chord is None:
                 print(f"steradian: {mesh.name}: glass on a mesh that is not closed is a thin wall, and bends no light")
                 continue
-            primitive.material = self.of_thickness(material, float(f"{chord:.4g}"))
+            primitive.material = self.of_thickness(material, blender_material, float(f"{chord:.4g}"))
 
-    def of_thickness(self, material, thickness):
+    def of_thickness(self, material, blender_material, thickness):
         """The material with this thickness, in units of its mesh."""
         key = id(material), thickness
         if key not in self.copies:
             solid = copy.copy(material)
-            solid.extensions = {**material.extensions, VOLUME: self.extension(name=VOLUME, extension={"thicknessFactor": thickness}, required=False)}
+            values = {"thicknessFactor": thickness, **absorption(blender_material)}
+            solid.extensions = {**material.extensions, VOLUME: self.extension(name=VOLUME, extension=values, required=False)}
             self.copies[key] = solid
         return self.copies[key]
