@@ -64,7 +64,7 @@ def started(command):
     operator.filepath, operator.texels, operator.bounces, operator.target = "//baked.glb", 16, "all", "texture"  # as Blender sets them
     operator.report = lambda kind, text: said.append((*kind, text))
     context = types.SimpleNamespace(window_manager=Manager(), window=None, workspace=types.SimpleNamespace(status_text_set=status.append),
-                                    scene=types.SimpleNamespace(world=None, steradian=types.SimpleNamespace(environment="world", shadows="on")))
+                                    scene=types.SimpleNamespace(world=None, steradian=types.SimpleNamespace(environment="world", quality="normal", shadows="on")))
     result = operator.execute(context)
     bake.program.bake_command = original
     return operator, context, result, commands, said, status

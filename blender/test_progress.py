@@ -64,8 +64,10 @@ def test_settings(steradian, scene):
         for shadows in ("on", "off"):
             for terminator in ("smooth", "strict"):
                 for environment in ("world", "sky", "white", "none"):
-                    settings = types.SimpleNamespace(method="auto", shadows=shadows, terminator=terminator, environment=environment, indirect="all")
+                    settings = types.SimpleNamespace(method="auto", quality="draft", shadows=shadows, terminator=terminator, environment=environment,
+                                                     indirect="all")
                     command = program.render_command(scene, folder + "/x.exr", 16, 9, settings, 1, None)
+                    assert command[command.index("--quality") + 1] == "draft", command
                     assert ("--terminator" in command) == (shadows == "on"), command
                     assert command[command.index("--bounces") + 1] == "all" and "--indirect" not in command, command
                     assert ("--environment" in command) == (environment in ("sky", "white")), command
@@ -86,7 +88,7 @@ def test_settings(steradian, scene):
 def test_bake(steradian, scene):
     """The program takes what the button asks for, tells its share, and writes the file."""
     program.path = lambda: steradian
-    settings = types.SimpleNamespace(shadows="on", environment="none")
+    settings = types.SimpleNamespace(quality="normal", shadows="on", environment="none")
     with tempfile.TemporaryDirectory() as folder:
         for target in ("texture", "vertex"):
             baked = folder + f"/{target}.glb"
@@ -95,7 +97,7 @@ def test_bake(steradian, scene):
             assert Path(baked).exists() and Path(folder, target + ".exr").exists() == (target == "texture")
             assert shares == sorted(shares) and all(0 < share <= 1 for share in shares), shares
             assert not any("left" in line for line in run.lines()), run.lines()
-    assert "map.exr" in program.bake_command(scene, "x.glb", types.SimpleNamespace(shadows="on", environment="world"), 16, "all", "texture", "map.exr")
+    assert "map.exr" in program.bake_command(scene, "x.glb", types.SimpleNamespace(quality="normal", shadows="on", environment="world"), 16, "all", "texture", "map.exr")
     assert program.Telling(0, "baking").line(0, 0.5) == "baking, 0 s, 50 %"
 
 

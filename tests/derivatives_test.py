@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """derivatives_test.py PROGRAM [--cases N] [--seed S] [--table]: the derivatives of `steradian eval` against differences of `eval` itself.
 
-Families of random queries: every light with an outline, every lobe, the point and the light everywhere: beside the horizon, at grazing
+Families of random queries: every area light, every lobe, the point and the light everywhere: beside the horizon, at grazing
 views, in the mirrored view, tiny, huge and far lights. The judge is Richardson's extrapolation of three central differences. Two of its
 orders bound its error.
 
@@ -73,7 +73,8 @@ class Families:
             axes = {"x": times(a, solid), "y": times(b, solid * aspect), "z": times(n, solid * 0.3)}
             return {"type": kind, "center": center, **axes, "radiance": RADIANCE}
         ends = [plus(center, times(a, solid)), plus(center, times(a, -solid))]
-        return {"type": "capsule", "ends": ends, "radius": solid * self.random.uniform(0.05, 0.4), "radiance": RADIANCE}
+        radius = 0 if kind == "line" else solid * self.random.uniform(0.05, 0.4)
+        return {"type": "capsule", "ends": ends, "radius": radius, "radiance": RADIANCE}
 
     def query(self, kind, material, method):
         place = self.random.choice(PLACES)
@@ -139,7 +140,7 @@ def parameters(query):
         for k in range(len(points)):
             for e in frame(n):
                 yield "d_vertices", [k, e], ["light", "vertices", k], e, size
-    if "radius" in light:
+    if light.get("radius"):
         yield "d_radius", None, ["light", "radius"], 1, size
     yield "d_radiance", None, ["light", "radiance"], [1, 1, 1], 1
     for key in LINEAR:
@@ -176,6 +177,10 @@ def is_flat(query):
     return query["light"]["type"] in ("polygon", "rect")
 
 
+def is_line(query):
+    return query["light"].get("radius") == 0
+
+
 def judge_of(lobe, query, key, thorough):
     """(keys of the judge's query, how far the derivative may be off, and a size below which it does not count).
 
@@ -183,12 +188,16 @@ def judge_of(lobe, query, key, thorough):
     whole lobe sends over the length in question: the judge's own error is such a fraction.
     """
     own = {"method": query["method"]}
+    if is_line(query) and lobe in ("lambert", "ltc", "ltc-compact") and key != "d_radiance":  # a strip of a thousandth of the distance
+        return own, 1e-5, 1e-6
     if key in ("d_radiance", "d_albedo", "d_f0"):
         return own, 1e-9, 1e-6
     # Transformed cosines are lobes of their own. Their light's outline is a polygon of 32 corners, if it is round.
     if lobe in ("lambert", "ltc", "ltc-compact"):
         return (own, 1e-7, 1e-6) if is_flat(query) or lobe == "lambert" else (own, 3e-2, 1e-2)
     exact = lobe.startswith("phong") or lobe == "ggx-unshadowed"
+    if is_line(query) and (is_shape(key) or key in ("d_normal", "d_view")):
+        return {"method": "exact" if exact else "reference"}, 2e-3, 1e-4
     if is_shape(key):
         # GGX has a rule of 6 nodes along an edge (docs/theory/derivatives.md).
         if is_flat(query):
@@ -266,12 +275,13 @@ def main():
     parser.add_argument("--thorough", action="store_true", help="judge round lights by polygons of 1024 corners (minutes)")
     parser.add_argument("--table", action="store_true", help="print the errors of each lobe and kind of key")
     options = parser.parse_args()
-    families = Families(options.seed)
     cases = []
-    for lobe in options.lobes or LOBES:
-        for kind in options.lights or LIGHTS:
-            for _ in range(options.cases):
-                cases.append((lobe, families.query(kind, families.lobe(lobe), lobe if lobe.startswith("ltc") else "auto")))
+    for lights in (LIGHTS, ["line"]):
+        families = Families(options.seed)
+        for lobe in options.lobes or LOBES:
+            for kind in [kind for kind in lights if kind in (options.lights or lights)]:
+                for _ in range(options.cases):
+                    cases.append((lobe, families.query(kind, families.lobe(lobe), lobe if lobe.startswith("ltc") else "auto")))
     rows, largest = check(Program(options.program), cases, options.thorough)
     errors, wrong, judged = {}, [], 0
     for lobe, query, key, got, truth, uncertain, group, tolerance in rows:

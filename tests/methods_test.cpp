@@ -143,6 +143,22 @@ TEST(Methods, RadianceIsWhatTheRowAnswers) {
   EXPECT_THROW(radiance(panel, at, lobes()[0].lobe, {.method = Method::reference, .precision = Precision::float_}), Error);
 }
 
+// Normals and views of any length: the answer is that of the unit vectors. The zero vector is no direction.
+TEST(Methods, RadianceTakesVectorsOfAnyLength) {
+  const ShadingPoint at = {{0.3, 0, 0.2}, {0, 1, 0}, normalized(Vec3d{1, 2, 0})};
+  const AreaLight disk = {Ellipse{{0, 2, 0}, {1, 0, 0}, {0, 0, 1}}};
+  for (const NamedLobe& l : lobes())
+    for (const double scale : {1e-200, 0.3, 7.0, 1e100}) {
+      const ShadingPoint scaled = {at.position, at.normal * 3.0, at.view * scale};
+      // Normalising again may change the last place; the narrowest of these lobes multiply that by some hundreds.
+      const double one = radiance(light(), at, l.lobe).radiance.x, round = radiance(disk, at, l.lobe).radiance.x;
+      EXPECT_NEAR(radiance(light(), scaled, l.lobe).radiance.x, one, 1e-12 * one) << l.words << " " << scale;
+      EXPECT_NEAR(radiance(disk, scaled, l.lobe).radiance.x, round, 1e-12 * round) << l.words << " " << scale;
+    }
+  for (const ShadingPoint& none : {ShadingPoint{at.position, {}, at.view}, ShadingPoint{at.position, at.normal, {}}})
+    EXPECT_EQ(radiance(light(), none, lobes()[0].lobe).radiance, Vec3d{});
+}
+
 // Round lights by the same call: closed forms for Lambert, and values near the ground truth.
 TEST(Methods, RadianceOfRoundLightsIsNearTheReference) {
   const ShadingPoint at = {{0.3, 0, 0.2}, {0, 1, 0}, normalized(Vec3d{1, 2, 0})};
@@ -263,6 +279,7 @@ TEST(Methods, BlenderOffersKnownWords) {
     for (std::sregex_iterator i(items.begin(), items.end(), item); i != end; ++i) {
       const std::string word = (*i)[1];
       EXPECT_TRUE(option == "method"       ? method_of(word).has_value()
+                  : option == "quality"    ? words::find<Quality>(word).has_value()
                   : option == "shadows"    ? words::find<Shadows>(word).has_value()
                   : option == "terminator" ? words::find<Terminator>(word).has_value()
                   : option == "environment"
@@ -272,7 +289,7 @@ TEST(Methods, BlenderOffersKnownWords) {
       found.insert(option);
     }
   }
-  EXPECT_EQ(found, (std::set<std::string>{"method", "shadows", "indirect", "terminator", "environment"}));
+  EXPECT_EQ(found, (std::set<std::string>{"method", "quality", "shadows", "indirect", "terminator", "environment"}));
 }
 
 }  // namespace steradian::methods_test

@@ -108,6 +108,14 @@ TEST_F(Program, RenderOfAPlaneByFramesMovesWhatTheEditsSay) {
     ASSERT_EQ(run({"render", svg, "-o", cold}).status, 0);
     EXPECT_EQ(read_picture(folder / ("f_00" + std::to_string(frame) + ".exr")).pixels, read_picture(cold).pixels) << "frame " << frame;
   }
+  // Frames that a stage does not draw come from scratch.
+  scene(10, true);
+  ASSERT_EQ(run({"render", svg, "-o", pattern, "--frames", "2..2", "--force", "--edits", edits, "--occluders", "fill", "--aa", "4"}).status,
+            0);
+  scene(14, true);
+  ASSERT_EQ(run({"render", svg, "-o", folder / "cold.exr", "--occluders", "fill", "--aa", "4"}).status, 0);
+  EXPECT_EQ(read_picture(folder / "f_002.exr").pixels, read_picture(folder / "cold.exr").pixels);
+  scene(16, false);
   std::ofstream(edits) << R"([{"frames": [1, 4], "id": "nobody", "move": [2, 0]}])";
   EXPECT_NE(run({"render", svg, "-o", pattern, "--frames", "0..3", "--edits", edits}).err.find("nobody"), std::string::npos);
   EXPECT_NE(run({"render", svg, "-o", folder / "one.exr", "--frames", "0..3"}).status, 0);

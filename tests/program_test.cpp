@@ -122,11 +122,12 @@ TEST_F(Program, HelpHasALineAnOption) {
       }
     }
   const std::string few = run({"render", "--help"}).out, all = run({"render", "--help-all"}).out;
-  for (const char* rare : {"--vpls", "--moments", "--max-work"}) {
+  for (const char* rare : {"--vpls", "--indirect-clamp", "--max-work"}) {
     EXPECT_EQ(few.find(rare), std::string::npos) << rare;
     EXPECT_NE(all.find(rare), std::string::npos) << rare;
   }
   EXPECT_NE(few.find("--help-all prints"), std::string::npos);
+  EXPECT_NE(few.find("--occluders"), std::string::npos) << "the makers of drawings need it";
 }
 
 TEST_F(Program, MethodsListsTheTableOfMethods) {

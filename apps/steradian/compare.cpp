@@ -64,6 +64,7 @@ struct Pictures {
 // reference has the rest, and other settings what remains after it.
 Pictures pictures_of(const Subject& subject, const std::vector<Settings>& settings, const CompareArguments& options) {
   const TimeLeft time(options.time_limit);
+  subject.warm_up();
   Pictures pictures;
   for (std::size_t m = 0; m < settings.size(); ++m) {
     pictures.made.emplace_back(settings[m].first.size());

@@ -1,6 +1,8 @@
 """The render engine: the scene goes to the program as glTF, the picture comes back as EXR."""
 
 import os
+import signal
+import sys
 import tempfile
 import threading
 import time
@@ -41,6 +43,9 @@ class Settings(bpy.types.PropertyGroup):
         items=[("auto", "Auto", "The most accurate in real time"), ("closed-form", "Closed form", "GGX in closed form"),
                ("ltc", "LTC", "Transformed cosines"), ("ltc-compact", "LTC, compact", "Transformed cosines by a table of 4 KB"),
                ("reference", "Reference", "Path tracing until it has converged")])
+    quality: bpy.props.EnumProperty(
+        name="Quality", description="Accuracy of the method, and of the light between surfaces", default="normal",
+        items=[("draft", "Draft", "Faster"), ("normal", "Normal", "The default"), ("high", "High", "Slower and more accurate")])
     shadows: bpy.props.EnumProperty(
         name="Shadows", default="on",
         items=[("on", "On", "Exact, by rays where there are very many edges"), ("exact", "Exact", "Never by rays"), ("off", "Off", "None")])
@@ -103,9 +108,11 @@ class SteradianEngine(bpy.types.RenderEngine):
             self.end_result(result)
 
     def fail(self, message):
-        """In the window, and on the console of a Blender without one."""
-        print(f"steradian: {message}", flush=True)
+        """In the window, and on the console. A Blender without a window takes it as Ctrl-C: it writes no picture, and ends with 1."""
+        print(f"steradian: error: {message.removeprefix('steradian: ')}", file=sys.stderr, flush=True)
         self.error_set(message)
+        if bpy.app.background:
+            signal.raise_signal(signal.SIGINT)
 
     def run(self, command):
         """True where the program came to its end."""
@@ -175,7 +182,7 @@ class SettingsPanel(bpy.types.Panel):
     def draw(self, context):
         """A row a setting. The tone curve and the exposure are Blender's, since the picture comes back linear."""
         self.layout.use_property_split = True
-        for name in ("method", "shadows", "terminator", "environment", "indirect", "aa", "viewport_pixel"):
+        for name in ("method", "quality", "shadows", "terminator", "environment", "indirect", "aa", "viewport_pixel"):
             self.layout.prop(context.scene.steradian, name)
         for name in ("view_transform", "exposure"):
             self.layout.prop(context.scene.view_settings, name)

@@ -8,6 +8,7 @@ import mathutils
 from .glb import edit
 from .lights import NodeLights, finish
 from .materials import Completion
+from .solids import Solids
 
 # Blender's world (z up) to glTF's (y up).
 TO_GLTF = mathutils.Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
@@ -33,13 +34,14 @@ _engine = None  # while the engine exports
 
 
 class Exporter:
-    """What Blender's exporter calls for each node and material."""
+    """What Blender's exporter calls for each node, mesh and material."""
 
     def __init__(self):
         from io_scene_gltf2.io.com.gltf2_io_extensions import ChildOfRootExtension, Extension
 
         self.lights = NodeLights(Extension, ChildOfRootExtension, _engine)
         self.materials = Completion(Extension, _engine is not None)
+        self.solids = Solids(Extension)
 
     def gather_node_hook(self, gltf2_node, blender_object, export_settings):
         """Puts the light on its node."""
@@ -49,6 +51,11 @@ class Exporter:
     def gather_material_hook(self, gltf2_material, blender_material, export_settings):
         """Completes the material."""
         self.materials.add(gltf2_material, blender_material)
+        self.solids.remember(gltf2_material, blender_material)
+
+    def gather_mesh_hook(self, gltf2_mesh, blender_mesh, blender_object, vertex_groups, modifiers, skip_filter, materials, export_settings):
+        """Makes closed meshes of glass solids."""
+        self.solids.add(gltf2_mesh, blender_mesh, materials)
 
 
 @contextlib.contextmanager

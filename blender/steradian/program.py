@@ -25,7 +25,8 @@ def render_command(glb, picture, width, height, settings, aa, world, direct_only
     # The program refuses an option that changes nothing.
     terminator = ["--terminator", settings.terminator] if settings.shadows != "off" else []
     bounces = ["--bounces", "all"] if indirect == "all" else ["--indirect", indirect]
-    return [path(), "render", glb, "-o", picture, "--size", f"{width}x{height}", "--method", settings.method, "--shadows", settings.shadows,
+    return [path(), "render", glb, "-o", picture, "--size", f"{width}x{height}", "--method", settings.method,
+            "--quality", settings.quality, "--shadows", settings.shadows,
             *terminator, *bounces, "--aa", str(aa), "--light", "none", "--light-units", "candela", *around]
 
 
@@ -33,8 +34,8 @@ def bake_command(glb, output, settings, texels, bounces, target, world):
     """What bakes a file of the add-on's export. world: a map, or None."""
     environment = {"world": world, "none": None}.get(settings.environment, settings.environment)
     around = ["--environment", environment] if environment else []
-    return [path(), "bake", glb, "-o", output, "--texels", f"{texels:g}", "--bounces", bounces, "--target", target, "--shadows", settings.shadows,
-            "--light-units", "candela", *around]
+    return [path(), "bake", glb, "-o", output, "--texels", f"{texels:g}", "--bounces", bounces, "--target", target,
+            "--quality", settings.quality, "--shadows", settings.shadows, "--light-units", "candela", *around]
 
 
 PROGRESS = re.compile(r"^(?:render|bake) +(\d+\.\d) %  .* left$")  # a line of the program's, one a second

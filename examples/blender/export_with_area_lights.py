@@ -74,8 +74,17 @@ def silence_specular(gltf):
             specular["specularFactor"] = 0
 
 
+def tell_of_glass(gltf):
+    """Blender's glass bends light; its exporter gives it no thickness, and glTF takes it for a thin wall."""
+    for material in gltf.get("materials", []):
+        extensions = material.get("extensions", {})
+        if "KHR_materials_transmission" in extensions and "KHR_materials_volume" not in extensions:
+            print(f"export_with_area_lights: {material['name']}: glass is written as a thin wall, which bends no light; the add-on writes solids")
+
+
 def add_area_lights(gltf):
     silence_specular(gltf)
+    tell_of_glass(gltf)
     lights = gltf.setdefault("extensions", {}).setdefault(EXTENSION, {}).setdefault("lights", [])
     for definition, node in area_lights():
         node["extensions"] = {EXTENSION: {"light": len(lights)}}

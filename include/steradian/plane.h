@@ -214,6 +214,7 @@ struct PlaneSvg {
   PlaneScene scene;
   std::vector<std::string> ignored;    // unsupported elements and attributes that the file uses, each once
   std::vector<PlaneLeftOut> left_out;  // at most one for each reason
+  std::vector<std::string> warnings;   // lights that an occluder hides, in one sentence
 };
 
 // Reads an SVG file as a scene; docs/plane-drawings.md defines lights and occluders. Throws Error with file, line and a hint.

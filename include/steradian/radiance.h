@@ -44,8 +44,9 @@ struct RadianceResult {
   Method method = Method::automatic;     // the one that answered
 };
 
-// 0 for a view below the surface, from behind (unless two-sided) and for a light without area. Throws Error if the method does not serve
-// the lobe or the precision; the message names the methods that do.
+// The normal and the view need not be unit. 0 for a view below the surface, from behind (unless two-sided), for a light without area, and
+// for a normal or view that is zero. Throws Error if the method does not serve the lobe or the precision; the message names the methods
+// that do.
 RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options = {});
 // Radiance of polygons, disks, spheres and capsules; a textured light counts with its mean radiance. Round lights are exact for Lambert by

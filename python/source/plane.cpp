@@ -15,6 +15,7 @@ struct World {
 World world_of(PlaneSvg svg) {
   for (const PlaneLeftOut& shapes : svg.left_out)
     if (shapes.is_backdrop()) svg.ignored.push_back(std::string("a backdrop, which ") + words_of(shapes.why));
+  svg.ignored.insert(svg.ignored.end(), svg.warnings.begin(), svg.warnings.end());
   return {PlaneWorld(std::move(svg.scene)), std::move(svg.ignored)};
 }
 

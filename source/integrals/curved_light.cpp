@@ -98,6 +98,11 @@ PolygonLight strip(const Capsule& c, const SegmentAxis& axis, double half_width)
   return light;
 }
 
+// Half width of the strip over the distance.
+double share_of_strip(const Material& m, const ShadingPoint& at, Precision precision) {
+  return (precision == Precision::float_ ? 0.03 : 1e-3) * std::min(lobe_axis(m, at).width, 1.0);
+}
+
 //   radiance  times width
 RadianceResult thin_answer(const Capsule& c, const SegmentAxis& axis, Vec3d radiance, const ShadingPoint& at, const Material& m,
                            const Row& entry, const RadianceOptions& options) {
@@ -114,7 +119,7 @@ RadianceResult thin_answer(const Capsule& c, const SegmentAxis& axis, Vec3d radi
     light.radiance = radiance / (2 * half_width);
     return entry.polygon(prepare_polygon(light), at, m, options);
   };
-  const double share = (options.precision == Precision::float_ ? 0.03 : 1e-3) * std::min(lobe_axis(m, at).width, 1.0);
+  const double share = share_of_strip(m, at, options.precision);
   RadianceResult answer = of_half_width(share);
   if (entry.method == Method::reference) {
     const Vec3d change = answer.radiance - of_half_width(2 * share).radiance;
@@ -179,6 +184,16 @@ struct AnswerOfShape {
 };
 
 }  // namespace
+
+PolygonLight strip_of_line(const Line& line, Vec3d radiance, const ShadingPoint& at, const Material& m, Precision precision) {
+  const Capsule c = {line.end_a, line.end_b, 0};
+  const SegmentAxis axis = axis_of(c);
+  if (!(length(axis.moment) > 1e-14 * axis.distance)) return {};
+  const double half_width = share_of_strip(m, at, precision) * axis.distance;
+  PolygonLight light = strip(c, axis, half_width);
+  light.radiance = radiance / (2 * half_width);
+  return light;
+}
 
 AreaLight seen_from(const AreaLight& light, Vec3d position, double* unit) {
   AreaLight seen = light;

@@ -23,4 +23,10 @@ AreaLight seen_from(const AreaLight& light, Vec3d position, double* unit = nullp
 RadianceResult curved_light_answer(const AreaLight& light, const ShadingPoint& at, const Material& material, const Row& entry,
                                    const RadianceOptions& options);
 
+// The strip of that kind that stands for a line seen from the origin, in walk order from its lit side. Its first and last corners lie
+// beside end_a, the others beside end_b. No corners if the line points at the origin.
+//
+//   radiance  times width
+PolygonLight strip_of_line(const Line& line, Vec3d radiance, const ShadingPoint& at, const Material& material, Precision precision);
+
 }  // namespace steradian::methods

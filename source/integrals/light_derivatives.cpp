@@ -50,11 +50,11 @@ double narrowest_width(const Material& m, const ShadingPoint& at) {
   return std::min(1.0, has_widths ? std::min({width, m.alpha_x, m.alpha_y}) : width);
 }
 
-LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPoint& at, const Material& m, const Row& row,
-                                         const RadianceOptions& options) {
-  if (row.density == nullptr) throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by " + row.name, "use auto");
-  if (light.emission) throw Error("derivatives", "there are none of a light with a profile", "leave the key out");
-  if (std::holds_alternative<Line>(light.shape)) throw Error("derivatives", "a line has no outline", "give the capsule a radius");
+namespace {
+
+// fine: by which method the lobe changes, if the row has no derivatives of its own
+LightDerivativesOfLobe with_outline(const AreaLight& light, const ShadingPoint& at, const Material& m, const Row& row,
+                                    const RadianceOptions& options, const FineMethod& fine) {
   LightDerivativesOfLobe result;
   const auto take = [&](const RadianceDerivatives& d) { result.normal = d.normal, result.view = d.view; };
   if (row.derivatives != nullptr && std::holds_alternative<Polygon>(light.shape)) {
@@ -78,7 +78,6 @@ LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPo
     take(row.derivatives(outline, {{}, at.normal, at.view}, m, options.quality));
     return result;
   }
-  const FineMethod fine = fine_method(row.method, options.quality);
   const Row& smooth = resolve(fine.method, m, Precision::double_, fine.quality);
   RadianceOptions in_double = options;
   in_double.precision = Precision::double_;
@@ -89,6 +88,39 @@ LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPo
   result.view = by_direction(at.view, step, [&](Vec3d v) { return value(at.normal, v); });
   result.normal = by_direction(at.normal, step, [&](Vec3d n) { return value(n, at.view); });
   return result;
+}
+
+// A turn of the strip about its line changes nothing of first order, since the strip stands across the line of sight. So each end moves the
+// two corners beside it.
+LightDerivativesOfLobe line_derivatives(const Line& line, Vec3d radiance, const ShadingPoint& at, const Material& m, const Row& row,
+                                        const RadianceOptions& options) {
+  const ShadingPoint origin = {{}, at.normal, at.view};
+  const PolygonLight strip = strip_of_line({line.end_a - at.position, line.end_b - at.position}, radiance, origin, m, Precision::double_);
+  LightDerivativesOfLobe result;
+  result.light.by_vector.resize(2);
+  if (strip.vertices.empty()) return result;
+  AreaLight light;
+  light.shape = Polygon{strip.vertices, {}};
+  light.radiance = strip.radiance;
+  // The error of a method's value on so thin a strip changes quickly with the lobe.
+  result = with_outline(light, origin, m, row, options, {Method::reference, options.quality});
+  const std::vector<OutlineDerivatives::ByChannel> corners = result.light.by_vector;
+  result.light.by_vector.resize(2);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    result.light.by_vector[0][channel] = corners[0][channel] + corners[3][channel];
+    result.light.by_vector[1][channel] = corners[1][channel] + corners[2][channel];
+  }
+  return result;
+}
+
+}  // namespace
+
+LightDerivativesOfLobe light_derivatives(const AreaLight& light, const ShadingPoint& at, const Material& m, const Row& row,
+                                         const RadianceOptions& options) {
+  if (row.density == nullptr) throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by " + row.name, "use auto");
+  if (light.emission) throw Error("derivatives", "there are none of a light with a profile", "leave the key out");
+  if (const auto* line = std::get_if<Line>(&light.shape)) return line_derivatives(*line, light.radiance, at, m, row, options);
+  return with_outline(light, at, m, row, options, fine_method(row.method, options.quality));
 }
 
 }  // namespace steradian::methods

@@ -245,10 +245,18 @@ std::string names() {
 
 namespace steradian {
 
+namespace {
+
+// A unit vector. One that is already unit, within its rounding, stays as it is to the last bit.
+Vec3d unit(Vec3d v) { return std::fabs(dot(v, v) - 1) <= 8 * std::numeric_limits<double>::epsilon() ? v : normalized(v); }
+ShadingPoint with_unit_vectors(const ShadingPoint& at) { return {at.position, unit(at.normal), unit(at.view)}; }
+
+}  // namespace
+
 RadianceResult radiance(const PreparedPolygon& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options) {
   const methods::Row& row = methods::resolve(options.method, lobe, options.precision, options.quality);
   if (!(dot(at.normal, at.view) > 0)) return methods::nothing(row.method);
-  return row.polygon(light, at, lobe, options);
+  return row.polygon(light, with_unit_vectors(at), lobe, options);
 }
 
 RadianceResult radiance(const PolygonLight& light, const ShadingPoint& at, const Material& lobe, const RadianceOptions& options) {
@@ -270,7 +278,7 @@ RadianceResult radiance(const AreaLight& light, const ShadingPoint& at, const Ma
   if (std::holds_alternative<Polygon>(light.shape) && !light.emission) return radiance(flat_polygon(light), at, lobe, options);
   const methods::Row& row = methods::resolve(options.method, lobe, options.precision, options.quality);
   if (!(dot(at.normal, at.view) > 0)) return methods::nothing(row.method);
-  RadianceResult result = methods::curved_light_answer(light, at, lobe, row, options);
+  RadianceResult result = methods::curved_light_answer(light, with_unit_vectors(at), lobe, row, options);
   result.method = row.method;
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "night.h"
 #include "reference/gauss_kronrod.h"
+#include "reference/sampled.h"
 #include "support/chi2.h"
 #include "support/random_configurations.h"
 
@@ -229,7 +230,7 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
     ++tested;
     const SampledResult s = sampled_radiance(light, c.at, m, {2000, static_cast<std::uint64_t>(i)});
     // A lobe sample that hits a small light adds at most about exact / spp. A number of hits below 20 is Poisson distributed, not normal.
-    // It may be 0, and then the standard error misses it: use that of 20.
+    // Use the standard error of 20.
     const double least = std::sqrt(20.0) / 2000 * exact;
     const double z = (largest(s.radiance) - exact) / std::max(s.standard_error, least);
     worst = std::max(worst, std::fabs(z));
@@ -247,6 +248,49 @@ TEST(Sampled, AgreesWithTheReferenceWithinItsStandardError) {
   EXPECT_GT(p, 1e-4) << squares;
   EXPECT_LT(p, 1 - 1e-4) << squares;
   std::printf("largest |z| %.2f of %d, mean square %.3f\n", worst, tested, squares / random_ones);
+}
+
+// A lobe sample meets a line of light once in some thousand times. A batch that has met it not once knows from its light samples how much
+// of the light is left to the lobe's.
+TEST(Sampled, TheStandardErrorOfALineOfLightIsHonest) {
+  PolygonLight strip;
+  strip.vertices = {{-1, 0.5, 1}, {-1, 0.501, 1}, {1, 0.501, 1}, {1, 0.5, 1}};
+  const PreparedPolygon light = prepare_polygon(strip);
+  constexpr int kSeeds = 400;
+  for (const Brdf brdf : {Brdf::lambert, Brdf::phong, Brdf::ggx}) {
+    const Material m = of(brdf);
+    const double exact = largest(reference_radiance(light, seen_at(0.5), m).radiance);
+    ASSERT_GT(exact, 0);
+    double worst = 0, squares = 0, stated = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const SampledResult s = sampled_radiance(light, seen_at(0.5), m, {256, seed});
+      const double off = largest(s.radiance) - exact;
+      // Sidak: 1,200 tests that together fail once in 1,000 times. The few hits are Poisson distributed, which has longer tails.
+      EXPECT_LE(std::fabs(off), 6 * s.standard_error) << seed;
+      worst = std::max(worst, std::fabs(off) / s.standard_error);
+      squares += off * off / kSeeds;
+      stated += s.standard_error * s.standard_error / kSeeds;
+    }
+    // The mean of the variances is that of the estimates, which 400 of them know within 1 / sqrt(200), here five times that. Where nearly
+    // no batch has a hit, the larger of two variances is twice as large.
+    std::printf("%d: rms error %.2e, stated %.2e, largest |z| %.2f\n", static_cast<int>(brdf), std::sqrt(squares), std::sqrt(stated),
+                worst);
+    EXPECT_GT(stated, squares / (1 + 5 / std::sqrt(kSeeds / 2.0)));
+    EXPECT_LT(stated, 2 * squares * (1 + 5 / std::sqrt(kSeeds / 2.0)));
+  }
+}
+
+// If all samples are occluded, one more may not be.
+TEST(Sampled, NothingSeenIsNotCertain) {
+  const Material m = of(Brdf::lambert);
+  const SampledOptions options{100, 1};
+  const auto nothing = [](Vec3d) { return false; };
+  const SampledResult dark = reference::sampled_radiance_past(nothing, ceiling(), seen_at(0.5), m, options);
+  const double open = largest(sampled_radiance(ceiling(), seen_at(0.5), m, options).radiance);
+  EXPECT_EQ(largest(dark.radiance), 0);
+  // A pair adds about the whole light, by one of its two samples or by both: between the square root of a half and 1 of it.
+  EXPECT_GT(dark.standard_error, 0.5 * open / 101);
+  EXPECT_LT(dark.standard_error, 2 * open / 101);
 }
 
 TEST(Sampled, TheSeedDecides) {

@@ -1,10 +1,12 @@
 // Monte Carlo with two strategies, the light and the lobe, weighted by the balance heuristic.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/random.h"
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
+#include "reference/balanced_mean.h"
 #include "reference/sampled.h"
 #include "reference/spherical_region.h"
 #include "reference/surface_sampler.h"
@@ -13,58 +15,54 @@
 namespace steradian {
 namespace {
 
-// Mean and variance in one pass. Source: Welford 1962.
-class Statistics {
- public:
-  void add(Vec3d x) {
-    ++count_;
-    const Vec3d delta = x - mean_;
-    mean_ += delta / static_cast<double>(count_);
-    squares_ += delta * (x - mean_);
-  }
-  Vec3d mean() const { return mean_; }
-  // Standard error of the mean of the largest channel.
-  double standard_error() const {
-    if (count_ < 2) return 0;
-    double squares = squares_.x, largest = std::fabs(mean_.x);
-    if (std::fabs(mean_.y) > largest) squares = squares_.y, largest = std::fabs(mean_.y);
-    if (std::fabs(mean_.z) > largest) squares = squares_.z;
-    const auto n = static_cast<double>(count_);
-    return std::sqrt(squares / (n * (n - 1)));
-  }
-
- private:
-  int count_ = 0;
-  Vec3d mean_, squares_;
-};
-
 using Sees = std::function<bool(Vec3d)>;
 
 // A sampled direction in the shading frame, the density of the light there, and its radiance over the light's. Density 0: no light.
 struct Incident {
   Vec3d direction;
   double density = 0, emitted = 1;
+  bool occluded = false;
 };
+
+// The standard error of the largest channel.
+double standard_error_of(Vec3d mean, Vec3d variance) {
+  double largest = std::fabs(mean.x), of_it = variance.x;
+  if (std::fabs(mean.y) > largest) largest = std::fabs(mean.y), of_it = variance.y;
+  if (std::fabs(mean.z) > largest) of_it = variance.z;
+  return std::sqrt(of_it);
+}
 
 // from_light(u, v) samples the light; in(direction) looks in a direction of the lobe.
 template <class FromLight, class In>
 SampledResult by_both(const lobes::Lobe& lobe, Vec3d radiance, const SampledOptions& options, FromLight from_light, In in) {
   reference::Random random(options.seed);
-  const auto contribution = [&](const Incident& to) -> lobes::LobeValue {
-    const double pdf = to.density + lobe.pdf(to.direction);
-    if (!(to.density > 0) || !(pdf > 0)) return {};
-    return lobe.evaluate(to.direction) * (to.emitted / pdf);
+  reference::BalancedMean statistics(2);
+  bool seen = false;
+  double occluded_squares = 0;  // of the largest channel of what samples would add if nothing occluded them
+  const auto add = [&](const Incident& to) {
+    const std::array densities = {to.density, to.density > 0 ? lobe.pdf(to.direction) : 0.0};
+    const double pdf = densities[0] + densities[1];
+    if (!(to.density > 0) || !(pdf > 0)) return;
+    const Vec3d value = lobe.radiance(lobe.evaluate(to.direction) * (to.emitted / pdf)) * radiance;
+    if (to.occluded) {
+      const double largest = std::max({value.x, value.y, value.z});
+      occluded_squares += largest * largest;
+    } else {
+      seen = true;
+      statistics.add(value, densities);
+    }
   };
-  Statistics statistics;
   for (int i = 0; i < options.spp; ++i) {
     const double u0 = random.uniform(), v0 = random.uniform(), u1 = random.uniform(), v1 = random.uniform();
     const Incident to_light = from_light(u0, v0);
     const Vec3d by_lobe = lobe.sample(u1, v1);
-    lobes::LobeValue sum = contribution(to_light);
-    if (!(by_lobe == Vec3d{})) sum += contribution(in(by_lobe));
-    statistics.add(lobe.radiance(sum) * radiance);
+    add(to_light);
+    if (!(by_lobe == Vec3d{})) add(in(by_lobe));
+    statistics.end_round();
   }
-  return {statistics.mean(), statistics.standard_error()};
+  if (seen) return {statistics.mean(), standard_error_of(statistics.mean(), statistics.larger_variance())};
+  // All samples are occluded. One more pair may see the light, and would then be the only one of its mean.
+  return {{}, std::sqrt(occluded_squares / options.spp) / (options.spp + 1.0)};
 }
 
 SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const ShadingPoint& at, const Material& material,
@@ -81,8 +79,9 @@ SampledResult estimate(const Sees* sees, const PreparedPolygon& light, const Sha
   if (!(sampler.measure() > 0)) return {};
 
   const auto incident = [&](Vec3d l, double density) -> Incident {
-    if (!(density > 0) || (sees != nullptr && !(*sees)(frame.to_world(l)))) return {};
-    return {l, density, options.emission ? options.emission(frame.to_world(l)) : 1};
+    if (!(density > 0)) return {};
+    const Vec3d to = frame.to_world(l);
+    return {l, density, options.emission ? options.emission(to) : 1, sees != nullptr && !(*sees)(to)};
   };
   return by_both(
       lobe, light.radiance, options,
@@ -113,8 +112,8 @@ SampledResult reference::sampled_on_surface(const std::function<bool(Vec3d)>& op
   const SurfaceSampler sampler(light, at.position);
   const auto incident = [&](const SurfaceSampler::Place& place) -> Incident {
     const Vec3d l = frame.to_local(place.direction);
-    if (!(place.density > 0) || !(l.z > 0) || !open(place.direction * place.distance)) return {};
-    return {l, place.density, options.emission ? options.emission(place.direction) : 1};
+    if (!(place.density > 0) || !(l.z > 0)) return {};
+    return {l, place.density, options.emission ? options.emission(place.direction) : 1, !open(place.direction * place.distance)};
   };
   return by_both(
       lobe, light.radiance, options, [&](double u, double v) { return incident(sampler.sample(u, v)); },

@@ -47,7 +47,10 @@ bool lets_light_through(const SurfaceMaterial& m) {
   return (m.alpha_mode == AlphaMode::blend && m.base_color.w < 0.5f) || m.transmission > 0.5f;
 }
 
-std::string counted(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+std::string counted(std::size_t n, const std::string& what, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? what : many);
+}
+std::string counted(std::size_t n, const std::string& what) { return counted(n, what, what + "s"); }
 
 std::string percent(double share) {
   char text[32];
@@ -59,10 +62,23 @@ void say_what_was_dropped(const Scene& scene, const KeptLights& kept, std::size_
   const std::string most = std::to_string(kept.most) + " are kept (max-lights)";
   if (without_area > 0) warnings.say(counted(without_area, "emissive triangle") + " without area dropped");
   if (kept.without_power > 0) warnings.say(counted(kept.without_power, "area light") + " without area or radiance dropped");
-  if (kept.merged > 0)
-    warnings.say(counted(kept.merged, "weak area light") + " of emissive meshes merged into the nearest that are kept of the same mesh, " +
-                 percent(kept.merged_share) + " of all power; " + most +
-                 (solid_meshes(scene).empty() ? "" : "; render --shadows on takes closed meshes of one radiance whole"));
+  MergedLights of_solids;
+  std::size_t solids = 0;
+  if (kept.merged.count > 0)
+    for (const SolidMesh& solid : solid_meshes(scene)) {
+      of_solids.count += kept.of[solid.mesh].count;
+      of_solids.share += kept.of[solid.mesh].share;
+      solids += kept.of[solid.mesh].count > 0 ? 1 : 0;
+    }
+  if (of_solids.count > 0)
+    warnings.say(counted(solids, "closed mesh", "closed meshes") +
+                 " of one radiance: one exact light each. Where their faces count one by one (shadows off or exact, points among them), " +
+                 counted(of_solids.count, "weak face") + " merged into the nearest, " + percent(of_solids.share) + " of all power; " +
+                 most);
+  if (kept.merged.count > of_solids.count)
+    warnings.say(counted(kept.merged.count - of_solids.count, "weak area light") +
+                 " of emissive meshes merged into the nearest that are kept of the same mesh, " +
+                 percent(kept.merged.share - of_solids.share) + " of all power; " + most);
   if (kept.dropped > 0)
     warnings.say("the " + counted(kept.dropped, "weakest area light") + " dropped, " + percent(kept.dropped_share) + " of all power; " +
                  most);

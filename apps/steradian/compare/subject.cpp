@@ -12,6 +12,9 @@
 namespace steradian::app {
 namespace {
 
+// Size of the picture that warms up.
+constexpr int kWarmWidth = 64, kWarmHeight = 36;
+
 // A separate progress bar for each picture; their lines take turns.
 std::function<void(std::uint64_t, std::uint64_t)> progress_of(const std::string& label) {
   static const ProgressOutput output = progress_on_stderr();
@@ -57,6 +60,7 @@ Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareAr
     RenderOptions r = render;
     r.method = method;
     if (method == "sampled") {
+      ++r.seed;  // with the random numbers of the reference, the errors of both would be alike
       for (r.spp = all ? 1 : render.spp; r.spp < render.spp; r.spp *= 4) add(fmt::format("{} spp", r.spp), r);
       r.spp = render.spp;
       add(fmt::format("{} spp", r.spp), r);
@@ -73,6 +77,12 @@ Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareAr
       add(quality.name, r);
     }
     return std::pair{settings, std::size_t{1}};
+  };
+  subject.warm_up = [scene, small = options.render]() mutable {
+    small.width = kWarmWidth;
+    small.height = kWarmHeight;
+    small.bounces = 0;  // whose time does not depend on the size
+    render(*scene, small);
   };
   return subject;
 }
@@ -138,6 +148,11 @@ Subject plane_subject(const std::shared_ptr<const PlaneWorld>& world, const Comp
       add("normal");
     }
     return std::pair{settings, settings.size() - 1};
+  };
+  subject.warm_up = [world, small = frame]() mutable {
+    small.width = kWarmWidth;
+    small.height = kWarmHeight;
+    render_plane(*world, small);
   };
   return subject;
 }

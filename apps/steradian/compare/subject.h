@@ -49,6 +49,8 @@ struct Subject {
   Make reference;
   std::string reference_words;
   std::function<Settings(const std::string& method)> settings;
+  // Renders a small picture, so that no method's time has that of the first threads, pages of memory and tables.
+  std::function<void()> warm_up;
 };
 
 Subject frame_subject(const std::shared_ptr<const Scene>& scene, const CompareArguments& options);

@@ -75,7 +75,7 @@ constexpr double kTurnPastOccluders = 1e-3;
 
 double turn_of(const Query& query) { return query.occluders != nullptr ? kTurnPastOccluders : methods::kStep * narrowest_width(query); }
 
-// Lights without an outline: points, parallel light and lines.
+// Lights without an outline: points and parallel light.
 void add_differences(std::vector<Derivative>& result, const Query& query) {
   const Light& light = query.lights.front();
   const double relative = methods::kStep * narrowest_width(query);
@@ -91,15 +91,6 @@ void add_differences(std::vector<Derivative>& result, const Query& query) {
     });
     result.push_back({"d_direction", Form::vector, {by_direction}});
     result.push_back({"d_position", Form::vector, {ByChannel{}}});
-  } else {
-    const auto& line = std::get<Line>(std::get<AreaLight>(light).shape);
-    const double step = relative * std::min(distance(line.end_a), distance(line.end_b));
-    const auto by_end = [&](Vec3d Line::*end) {
-      return by_vector(query, step, [&](Query& q) -> Vec3d& { return std::get<Line>(std::get<AreaLight>(q.lights.front()).shape).*end; });
-    };
-    const ByChannel a = by_end(&Line::end_a), b = by_end(&Line::end_b);
-    result.push_back({"d_ends", Form::vectors, {a, b}});
-    result.push_back({"d_position", Form::vector, {{-(a[0] + b[0]), -(a[1] + b[1]), -(a[2] + b[2])}}});
   }
   result.push_back({"d_normal", Form::vector, {by_direction(query, turn_of(query), &Query::normal)}});
   if (query.view) {
@@ -139,8 +130,8 @@ void add_shape(std::vector<Derivative>& result, const std::string_view type, con
     const auto by_radius = [&](std::size_t c) { return v[1][c].x + v[2][c].y + v[3][c].z; };
     result.push_back({"d_radius", Form::number, {numbers({by_radius(0), by_radius(1), by_radius(2)})}});
   }
+  if (type == "capsule" || type == "line") result.push_back({"d_ends", Form::vectors, v});
   if (type == "capsule") {
-    result.push_back({"d_ends", Form::vectors, v});
     result.push_back({"d_radius", Form::number, {numbers(d.by_radius)}});
   }
 }
@@ -174,7 +165,7 @@ void add_outline(std::vector<Derivative>& result, const Query& query, const Area
       sum.view = methods::by_direction(*query.view, kTurnPastOccluders,
                                        [&](Vec3d v) { return radiance_after(query, [&](Query& q) { q.view = v; }); });
   }
-  add_shape(result, query.light_type, sum.light);
+  add_shape(result, std::holds_alternative<Line>(light.shape) ? "line" : query.light_type, sum.light);
   result.push_back({"d_position", Form::vector, {sum.light.position}});
   result.push_back({"d_normal", Form::vector, {sum.normal}});
   if (query.view) result.push_back({"d_view", Form::vector, {sum.view}});
@@ -264,7 +255,7 @@ std::vector<Derivative> derivatives_of(const Query& query) {
     if (row.density == nullptr) throw Error("derivatives", std::string("brdf ") + name_of(m.brdf) + " has none by " + row.name, "use auto");
   }
   std::vector<Derivative> result;
-  if (area != nullptr && !std::holds_alternative<Line>(area->shape))
+  if (area != nullptr)
     add_outline(result, query, *area);
   else
     add_differences(result, query);

@@ -73,6 +73,7 @@ Json plane_facts(const std::string& path, const Limits& limits) {
   for (const PlaneLeftOut& shapes : drawing.left_out)
     facts["left_out"].push_back({{"name", names_of(shapes)}, {"count", shapes.count}, {"reason", words_of(shapes.why)}});
   facts["not_supported"] = drawing.ignored;
+  facts["warnings"] = drawing.warnings;
   const PlaneAnimation animation(path, limits);
   if (animation.moves()) facts["animation_seconds"] = rounded(animation.duration());
   return facts;

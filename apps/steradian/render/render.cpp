@@ -435,14 +435,14 @@ void add_render(CommandLine& line) {
 
   verb.add("--bounce-lattice", options->plane.lattice, "interpolate bounces within this error; 0: never")
       .range(0.0, 1.0)
-      .more("Plane scenes (.svg)");
-  verb.add_flag("--moments", options->plane.frame.moments, "add the layers moment_x and moment_y (.exr)").more("Plane scenes (.svg)");
-  verb.add("--normal-map", options->plane.normal_map, "light this normal map (.png, .exr; green upwards)").more("Plane scenes (.svg)");
+      .group("Plane scenes (.svg)");
+  verb.add_flag("--moments", options->plane.frame.moments, "add the layers moment_x and moment_y (.exr)").group("Plane scenes (.svg)");
+  verb.add("--normal-map", options->plane.normal_map, "light this normal map (.png, .exr; green upwards)").group("Plane scenes (.svg)");
   verb.add("--lamp-height", options->plane.lamp_height, "of --normal-map: degrees above the plane")
       .range(0.0, 90.0)
-      .more("Plane scenes (.svg)");
-  verb.add_word("--occluders", options->plane.frame.occluders, "colour of occluders").more("Plane scenes (.svg)");
-  verb.add("--edits", options->plane.edits, "JSON file of what changes before which frame").more("Plane scenes (.svg)");
+      .group("Plane scenes (.svg)");
+  verb.add_word("--occluders", options->plane.frame.occluders, "colour of occluders").group("Plane scenes (.svg)");
+  verb.add("--edits", options->plane.edits, "JSON file of what changes before which frame").group("Plane scenes (.svg)");
 
   verb.add("--max-lights", options->load.max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
   verb.add_word("--light-units", options->load.light_units, "unit of punctual lights").more("Limits");

@@ -30,6 +30,7 @@ void render_plane_scene(const PlaneRender& job) {
   // For an animated drawing, animations are skipped only if no frames are requested.
   const bool still = job.frames.empty() || !PlaneAnimation(job.scene, job.limits).moves();
   if (still) say_backdrops(loaded, job.scene);
+  for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}: {}\n", job.scene, warning);
   if (!loaded.ignored.empty() && still) {
     std::string names;
     for (const std::string& name : loaded.ignored) names += (names.empty() ? "" : ", ") + name;

@@ -106,10 +106,18 @@ void write(const Picture& drawn, const PlaneRender& job, int frame) {
   write_picture(picture, numbered(job.output, frame), job.exposure, job.tone);
 }
 
-// On the device each frame is rendered from scratch.
+// True if a stage draws the frames, which keeps what does not change. All others are rendered from scratch.
+bool is_staged(const PlaneFrameOptions& options, const PlaneDevice* device) {
+  return device == nullptr && options.aa <= 1 && options.occluders == PlaneOccluders::black && !options.moments;
+}
+
+Picture from_scratch(const PlaneWorld& world, const PlaneFrameOptions& options, PlaneDevice* device) {
+  return device != nullptr ? device->render(world, options) : render_plane(world, options);
+}
+
 void render_animation(const PlaneRender& job, const std::vector<int>& wanted, const PlaneFrameOptions& options,
                       const PlaneAnimation& animation, PlaneDevice* device) {
-  const bool staged = device == nullptr && options.aa <= 1 && options.occluders == PlaneOccluders::black && !options.moments;
+  const bool staged = is_staged(options, device);
   std::optional<PlaneStage> stage;
   std::set<std::string> named;
   for (const int frame : wanted) {
@@ -120,8 +128,7 @@ void render_animation(const PlaneRender& job, const std::vector<int>& wanted, co
     // A stage keeps the suns and the fog that it began with.
     if (!staged || !now.scene.suns.empty() || now.scene.fog_density > 0) {
       stage.reset();
-      const PlaneWorld world(std::move(now.scene), job.limits);
-      write(device != nullptr ? device->render(world, options) : render_plane(world, options), job, frame);
+      write(from_scratch(PlaneWorld(std::move(now.scene), job.limits), options, device), job, frame);
       continue;
     }
     if (stage)
@@ -145,12 +152,16 @@ void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, cons
     return render_animation(job, wanted, options, animation, device ? &*device : nullptr);
   }
   const std::vector<Edit> edits = frames.edits.empty() ? std::vector<Edit>{} : edits_of(frames.edits);
-  PlaneStage stage(std::move(scene), options);
+  PlaneDevice* const on = device ? &*device : nullptr;
+  const bool staged = is_staged(options, on);
+  PlaneFrameOptions of_stage = options;  // if it does not draw, it only keeps the scene that the edits change
+  if (!staged) of_stage.aa = 1, of_stage.occluders = PlaneOccluders::black, of_stage.moments = false;
+  PlaneStage stage(std::move(scene), of_stage);
   for (int frame = 0; frame <= wanted.back(); ++frame) {
     for (const Edit& edit : edits)
       if (edit.first <= frame && frame <= edit.last) apply(edit, frames.edits, stage);
     if (std::binary_search(wanted.begin(), wanted.end(), frame))
-      write(device ? device->render(PlaneWorld(stage.scene(), job.limits), options) : stage.draw(), job, frame);
+      write(staged ? stage.draw() : from_scratch(PlaneWorld(stage.scene(), job.limits), options, on), job, frame);
   }
 }
 

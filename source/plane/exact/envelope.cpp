@@ -56,8 +56,8 @@ class Builder {
     if (side == 0) return;  // edge on, or the point lies on it
     const bool back = side > 0;
     if (back && !seen_inside(c)) return;
-    const double width = std::atan2(std::fabs(side), dot(a, b));
-    add_range(angle_of(back ? a : b), angle_of(back ? a : b) + width, c, back);
+    const double width = std::atan2(std::fabs(side), dot(a, b)), begin = angle_of(back ? a : b);
+    add_range(begin, begin + width, c, back);
   }
 
   // At the end of an arc, the next curve of its outline begins, to the last bit.
@@ -77,10 +77,11 @@ class Builder {
       const double width = std::atan2(cross(p, q), dot(p, q));  // negative: tau runs against the angle
       if (back) {
         // A quarter near the point may span more than half a turn; one that rounding reverses is empty.
-        const double turn = width < -1e-9 ? width + 2 * pi : width;
-        add_range(angle_of(p), angle_of(p) + turn, c, true);
+        const double turn = width < -1e-9 ? width + 2 * pi : width, begin = angle_of(p);
+        add_range(begin, begin + turn, c, true);
       } else if (width < 0) {
-        add_range(angle_of(q), angle_of(q) - width, c, false);
+        const double begin = angle_of(q);
+        add_range(begin, begin - width, c, false);
       }
     }
   }

@@ -178,17 +178,26 @@ double farthest_in(const Box2d& box, Vec2d p) {
 
 // Only curves nearer than the farthest light that reaches the point can matter. From within a light, that light counts at any distance.
 std::vector<const Curve*> curves_that_matter(const World& world, Vec2d p, int inside_light) {
+  // With more lights, the tests of their wedges take longer than the curves that they spare.
+  constexpr std::size_t kMostWedges = 16;
+  thread_local std::vector<Wedge> wedges;
+  wedges.clear();
   double reach = inside_light >= 0 ? farthest_in(world.boxes[static_cast<std::size_t>(inside_light)], p) : 0;
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
     const auto& light = world.scene.bodies[i].light;
     if (!light || world.first_curve[i] == world.first_curve[i + 1]) continue;
     if (nearest_in(world.boxes[i], p) >= light->range) continue;
     reach = std::max(reach, std::min(farthest_in(world.boxes[i], p), light->range));
+    if (wedges.size() <= kMostWedges) wedges.emplace_back(world.boxes[i], p);
   }
+  // From inside a light, every direction counts.
+  const bool in_wedges = inside_light < 0 && wedges.size() <= kMostWedges;
   std::vector<const Curve*> result;
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
     if (nearest_in(world.boxes[i], p) > reach) continue;
-    for (std::size_t c = world.first_curve[i]; c < world.first_curve[i + 1]; ++c) result.push_back(&world.curves[c]);
+    for (std::size_t c = world.first_curve[i]; c < world.first_curve[i + 1]; ++c)
+      if (!in_wedges || std::any_of(wedges.begin(), wedges.end(), [&](const Wedge& w) { return w.touches(world.curves[c]); }))
+        result.push_back(&world.curves[c]);
   }
   return result;
 }

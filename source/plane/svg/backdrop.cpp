@@ -139,7 +139,76 @@ class BackdropJudge {
   bool prepared_ = false;
 };
 
+struct Occluder {
+  std::size_t body;
+  PlaneBody flat;
+  Box2d box;
+};
+
+class BurialJudge {
+ public:
+  BurialJudge(const PlaneScene& scene, double tolerance) : tolerance_(tolerance) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const PlaneBody& body = scene.bodies[i];
+      const bool passes = body.transmittance.has_value() || body.light_depth > 0;
+      if (body.light || passes || body.shape == PlaneBody::Shape::polyline) continue;
+      PlaneBody flat = flattened(body, tolerance);
+      const Box2d box = flat_bounds(flat);
+      occluders_.push_back({i, std::move(flat), box});
+    }
+  }
+
+  // The occluder that holds the first tested place, if one holds each place on either side of the light's edges that is not in the light.
+  std::optional<std::size_t> around(const PlaneBody& light) {
+    constexpr std::size_t kMostEdges = 256;
+    const PlaneBody flat = flattened(light, tolerance_);
+    std::size_t edges = 0, number = 0;
+    every_edge(flat, [&](Vec2d, Vec2d) { return ++edges > 0; });
+    const std::size_t step = edges / kMostEdges + 1;
+    const Occluder* first = nullptr;
+    const bool buried = every_edge(flat, [&](Vec2d a, Vec2d b) {
+      if (number++ % step != 0 || a == b) return true;
+      const Vec2d aside = Vec2d{a.y - b.y, b.x - a.x} * (2 * tolerance_ / length(b - a));
+      for (const Vec2d place : {(a + b) * 0.5 + aside, (a + b) * 0.5 - aside}) {
+        if (flat.shape == PlaneBody::Shape::polygon && holds_point(flat, place)) continue;
+        const Occluder* holder = holder_of(place);
+        if (holder == nullptr) return false;
+        if (first == nullptr) first = holder;
+      }
+      return true;
+    });
+    return buried && first != nullptr ? std::optional(first->body) : std::nullopt;
+  }
+
+ private:
+  const Occluder* holder_of(Vec2d place) {
+    if (last_ != nullptr && last_->box.contains(place) && holds_point(last_->flat, place)) return last_;
+    for (const Occluder& occluder : occluders_) {
+      if (work_++ > kMostWork) return nullptr;
+      if (!occluder.box.contains(place)) continue;
+      for (const auto& contour : occluder.flat.contours) work_ += contour.size();
+      if (holds_point(occluder.flat, place)) return last_ = &occluder;
+    }
+    return nullptr;
+  }
+
+  static constexpr std::uint64_t kMostWork = 20'000'000;  // about a tenth of a second
+  double tolerance_;
+  std::vector<Occluder> occluders_;
+  const Occluder* last_ = nullptr;  // a light's places lie in one occluder, as a rule
+  std::uint64_t work_ = 0;
+};
+
 }  // namespace
+
+std::vector<BuriedLight> buried_lights(const PlaneScene& scene, double tolerance) {
+  BurialJudge judge(scene, tolerance);
+  std::vector<BuriedLight> result;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].light)
+      if (const auto occluder = judge.around(scene.bodies[i])) result.push_back({i, *occluder});
+  return result;
+}
 
 std::vector<Backdrop> backdrops_among(const PlaneScene& scene, const std::vector<std::size_t>& bodies, double tolerance,
                                       const std::function<void(std::uint64_t)>& spend) {

@@ -120,6 +120,56 @@ TEST(Backdrop, LeftOutShapesAreCountedByReason) {
   EXPECT_EQ(counted.left_out[0].names.size(), 8u);
 }
 
+// A lamp in a wall, on floor tiles, in a hole of a wall, flush with a wall, half in it, in glass, and a line of light.
+TEST(Backdrop, BuriedLightsAreNamed) {
+  const std::string lamp = "<circle id='lamp' class='light' cx='50' cy='40' r='3' fill='#fff'/>",
+                    other = "<circle id='other' class='light' cx='5' cy='5' r='3' fill='#fff'/>";
+  const auto warnings = [&](const std::string& shapes) { return load(shapes).warnings; };
+  const auto says = [&](const std::string& shapes, const std::string& part) {
+    const std::vector<std::string> found = warnings(shapes);
+    return found.size() == 1 && found[0].find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(says("<rect id='wall' x='40' y='30' width='20' height='20'/>" + lamp + other, "lamp (in wall)"));
+  EXPECT_TRUE(says("\n<circle cx='50' cy='40' r='20'/>" + lamp + other, "lamp (in <circle> in line 3)"));
+  EXPECT_TRUE(
+      says("<rect id='left' x='40' y='30' width='10' height='20'/><rect id='right' x='50' y='30' width='10' height='20'/>" + lamp + other,
+           "lamp (in "));
+  EXPECT_TRUE(
+      says("<rect id='wall' x='40' y='30' width='20' height='20'/><path id='neon' class='light' stroke='#fff' fill='none' "
+           "d='M45 35H55'/>" +
+               other,
+           "neon (in wall)"));
+  EXPECT_TRUE(warnings("<path fill-rule='evenodd' d='M40 30h20v20h-20z M45 35h10v10h-10z'/>" + lamp + other).empty());
+  EXPECT_TRUE(warnings("<rect x='40' y='43' width='20' height='20'/>" + lamp + other).empty());
+  EXPECT_TRUE(warnings("<rect x='40' y='40' width='20' height='20'/>" + lamp + other).empty());
+  EXPECT_TRUE(warnings("<rect x='40' y='30' width='20' height='20' data-transmittance='0.5'/>" + lamp + other).empty());
+  EXPECT_TRUE(warnings("<rect x='40' y='30' width='20' height='20' data-steradian='ignore'/>" + lamp + other).empty());
+  std::string many = "<rect id='wall' x='40' y='30' width='20' height='20'/>" + other;
+  for (int i = 0; i < 12; ++i) many += lamp;
+  EXPECT_TRUE(says(many, "and 4 more"));
+}
+
+// A lamp drawn in another is no occluder's.
+TEST(Backdrop, LightsBuryNoLights) {
+  EXPECT_TRUE(load("<circle class='light' cx='50' cy='40' r='9' fill='#fff'/>" + kLamps).warnings.empty());
+}
+
+TEST(Backdrop, StrokesThatAreNotDrawnAreNamed) {
+  const auto ignored = [](const std::string& shapes) {
+    const PlaneSvg svg = load(shapes);
+    std::string all;
+    for (const std::string& what : svg.ignored) all += what + ";";
+    return all;
+  };
+  EXPECT_EQ(ignored("<rect width='9' height='9' stroke='#fff'/>" + kLamps), "stroke of a filled shape;");
+  EXPECT_EQ(ignored("<rect width='9' height='9' stroke='#fff' stroke-width='0'/>" + kLamps), "");
+  EXPECT_EQ(ignored("<rect width='9' height='9' fill='none' stroke='#fff' stroke-width='2'/>" + kLamps), "");
+  EXPECT_EQ(ignored("<path d='M0 0H9' fill='none' stroke='#fff' stroke-width='2' stroke-dasharray='3 1'/>" + kLamps),
+            "stroke-dasharray (the line has no gaps);");
+  EXPECT_EQ(ignored("<path d='M0 0H9' fill='none' stroke='#fff' stroke-width='2' stroke-dasharray='none'/>" + kLamps), "");
+  EXPECT_EQ(ignored("<text x='5' y='20' fill='none' stroke='#fff'>a</text>" + kLamps), "stroke of text;");
+}
+
 // Nested covers and many lights are judged in time, or refused.
 TEST(Backdrop, IsJudgedWithinTheLimits) {
   std::string inside;

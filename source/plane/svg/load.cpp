@@ -56,7 +56,10 @@ class DrawingReader {
     read_frame(root);
     styles_.emplace(document_, diagonal());
     children(root, styles_->inherit(root, {}), 0);
-    if (backdrops == nullptr) judge_backdrops();
+    if (backdrops == nullptr) {
+      judge_backdrops();
+      warn_of_buried_lights();
+    }
     result_.ignored.assign(document_.ignored.begin(), document_.ignored.end());
     for (auto& [why, shapes] : left_out_) result_.left_out.push_back(std::move(shapes));
     return {std::move(result_), std::move(backdrops_)};
@@ -261,6 +264,7 @@ class DrawingReader {
     if (!fonts_) fonts_.emplace();
     for (const TextRun& run : lay_out_text(document_, *styles_, *fonts_, n, style, size(), [&] { spend(n, 2000, 100); })) {
       const bool filled = run.style.fill != "none" && run.style.fill_opacity > 0;
+      leave_out_stroke(run.style, "stroke of text");
       if (run.style.opacity * run.style.fill_opacity == 0 || (!filled && run.style.role == Role::by_shape)) {
         leave_out(run.node, run.style, filled ? PlaneLeftOut::Why::transparent : PlaneLeftOut::Why::unpainted);
         continue;
@@ -283,6 +287,7 @@ class DrawingReader {
     const double w = result_.scene.width, h = result_.scene.height;
     const bool outlined = style.purpose == Purpose::clip;
     const bool filled = (outlined || (style.fill != "none" && style.fill_opacity > 0)) && name != "line";
+    if (filled) leave_out_stroke(style, "stroke of a filled shape");
     const double opacity = outlined ? 1 : style.opacity * (filled ? style.fill_opacity : style.stroke_opacity);
     if (opacity == 0) return leave_out(n, style, PlaneLeftOut::Why::transparent);
     if (opacity < 1 && style.role != Role::light && style.purpose == Purpose::picture)
@@ -321,6 +326,8 @@ class DrawingReader {
   // A shape without a fill: a body of the stroke's width, or a line of no thickness, which is visible from both sides.
   void stroke(pugi::xml_node n, Polylines contours, const Style& style) {
     if (style.stroke == "none" && style.role == Role::by_shape) return leave_out(n, style, PlaneLeftOut::Why::unpainted);
+    if (style.purpose == Purpose::picture && style.dashes.find_first_of("123456789") != std::string::npos)
+      document_.ignored.insert("stroke-dasharray (the line has no gaps)");
     const Stroke pen = pen_of(style);
     const bool textured = n.attribute("data-texture") && pen.cap != Cap::round;
     if (pen.radius > 0 && style.transform.determinant() != 0 && !textured) return thick_stroke(n, contours, style, pen);
@@ -399,11 +406,24 @@ class DrawingReader {
       behind[backdrop.body] = 1;
       leave_out(fill->element, {}, backdrop.why);
     }
-    std::size_t body = 0;
+    std::size_t body = 0, element = 0;
     std::erase_if(result_.scene.bodies, [&](const PlaneBody&) { return behind[body++] != 0; });
+    std::erase_if(elements_, [&](pugi::xml_node) { return behind[element++] != 0; });
     const std::vector<pugi::xml_node> elements = elements_of(document_.root());
     for (std::size_t i = 0; i < elements.size(); ++i)
       if (const auto found_here = why.find(elements[i].internal_object()); found_here != why.end()) backdrops_[i] = found_here->second;
+  }
+
+  void warn_of_buried_lights() {
+    const std::vector<BuriedLight> buried = buried_lights(result_.scene, flatness());
+    if (buried.empty()) return;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(buried.size(), kMostNamed); ++i)
+      names += (i == 0 ? "" : ", ") + document_.called(elements_[buried[i].light]) + " (in " +
+               document_.called(elements_[buried[i].occluder]) + ")";
+    if (buried.size() > kMostNamed) names += " and " + std::to_string(buried.size() - kMostNamed) + " more";
+    result_.warnings.push_back("inside an occluder, which no light leaves: " + names +
+                               "; data-steradian=\"ignore\" takes an occluder out of the scene");
   }
 
   void leave_out(pugi::xml_node n, const Style& style, PlaneLeftOut::Why why) {
@@ -438,6 +458,13 @@ class DrawingReader {
       if (body.contours.empty() && body.shape != PlaneBody::Shape::ellipse) return leave_out(n, style, PlaneLeftOut::Why::clipped);
     }
     result_.scene.bodies.push_back(std::move(body));
+    if (style.purpose == Purpose::picture) elements_.push_back(n);
+  }
+
+  // A stroke that is visible, but not drawn here.
+  void leave_out_stroke(const Style& style, const char* what) {
+    if (style.purpose == Purpose::picture && style.stroke != "none" && style.stroke_opacity > 0 && style.stroke_width.value_or(1) > 0)
+      document_.ignored.insert(what);
   }
 
   // Is it one opaque colour?
@@ -465,6 +492,7 @@ class DrawingReader {
     pugi::xml_node element;
   };
   std::vector<Fill> fills_;                                  // that may lie behind the drawing
+  std::vector<pugi::xml_node> elements_;                     // of the scene's bodies
   std::unordered_map<const void*, PlaneLeftOut::Why> kept_;  // backdrops of another frame
   Backdrops backdrops_;
   std::map<PlaneLeftOut::Why, PlaneLeftOut> left_out_;

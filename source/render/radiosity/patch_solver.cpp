@@ -332,13 +332,16 @@ void PatchSolver::find_links(std::size_t rays) {
 // Adds bounces until the picture's last one, or until those that are left out are within kSmallChange.
 //
 // Every bounce is the same positive linear map of the one before. So if it is nowhere more than a factor f of the one before, all that
-// follow are within f / (1 - f) of it.
+// follow are within f / (1 - f) of it. Where light goes to and fro between surfaces, no such f is below 1. Then the largest reflectance
+// bounds the largest radiance of each bounce by that of the one before.
 void PatchSolver::iterate() {
   const int bounces = options_.bounces;
   const std::size_t sides = patches().side_count();
   const float over_links = 1.0f / static_cast<float>(links_per_side_);
   std::vector<Vec3f> bounce = direct_, next(sides);  // radiance after exactly so many bounces
   const auto largest_of = [](Vec3f v) { return std::max({v.x, v.y, v.z}); };
+  float largest_reflectance = 0;
+  for (const Vec3f& reflectance : reflectance_) largest_reflectance = std::max(largest_reflectance, largest_of(reflectance));
   const int most = bounces == kAllBounces ? kMostIterations : bounces - 1;
   for (light_.iterations_ = 0; light_.iterations_ < most && !stopped();) {
     each(sides, [&](std::size_t side) {
@@ -364,7 +367,8 @@ void PatchSolver::iterate() {
     if (bounces != kAllBounces) continue;
     // The first bounce holds light of glossy lobes that the direct light does not.
     light_.left_out_.reset();
-    if (light_.iterations_ > 1 && factor < 1) light_.left_out_ = largest_bounce * factor / (1 - factor);
+    const float decrease = std::min(light_.iterations_ > 1 ? factor : largest_reflectance, largest_reflectance);
+    if (decrease < 1) light_.left_out_ = largest_bounce * decrease / (1 - decrease);
     if (largest_bounce <= kNoChange * largest || (light_.left_out_ && *light_.left_out_ <= kSmallChange * largest)) break;
   }
 }

@@ -93,6 +93,26 @@ TEST(Radiosity, WhiteRoomsHaveNoBound) {
   EXPECT_LT(stats.bounce_left_out, 0);
 }
 
+// Light that goes to and fro between a floor and a ceiling comes back to each in every second bounce: their reflectance bounds it.
+TEST(Radiosity, LightToAndFroHasABound) {
+  Scene scene;
+  scene.materials = {grey(0.5f)};
+  scene.meshes = {quad_mesh({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}, 0),
+                  quad_mesh({-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}, 0)};
+  AreaLight lamp;
+  Polygon square;
+  square.vertices = {{-0.2, 0.9, -0.2}, {0.2, 0.9, -0.2}, {0.2, 0.9, 0.2}, {-0.2, 0.9, 0.2}};
+  lamp.shape = square;
+  lamp.radiance = {10, 10, 10};
+  scene.area_lights = {lamp};
+  scene.cameras = {camera_at({0, 0.5, 3}, {0, 0, -1}, 0.8)};
+  RenderStats stats;
+  const Picture picture = render(scene, options_for(8, kAllBounces), &stats);
+  EXPECT_GE(stats.bounce_left_out, 0);
+  EXPECT_LE(stats.bounce_left_out, 1e-3);  // 1e-4 of the largest radiance, which is below 10
+  EXPECT_GT(mean_luminance(picture), 0);
+}
+
 // A closed box in the light of a lamp outside, whatever its walls reflect.
 TEST(Radiosity, NoLightEntersAClosedBox) {
   Scene scene = closed_box(0.7f, false);

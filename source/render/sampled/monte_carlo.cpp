@@ -7,6 +7,7 @@
 #include "core/lattices.h"
 #include "lobes/lobe.h"
 #include "reference/azimuth_sampler.h"
+#include "reference/balanced_mean.h"
 #include "reference/spherical_region.h"
 #include "reference/surface_sampler.h"
 #include "shadow/region/light_frame.h"
@@ -18,26 +19,7 @@ namespace {
 
 using lobes::Lobe;
 using reference::AzimuthSampler;
-
-// Running mean of samples, and its variance.
-//
-// Source: Welford 1962.
-class RunningMean {
- public:
-  void add(Vec3d x) {
-    const Vec3d delta = x - mean_;
-    mean_ += delta / static_cast<double>(++count_);
-    squares_ += delta * (x - mean_);
-  }
-  Estimate estimate() const {
-    const auto n = static_cast<double>(count_);
-    return {mean_, count_ > 1 ? squares_ / (n * (n - 1)) : Vec3d{}};
-  }
-
- private:
-  Vec3d mean_{}, squares_{};
-  int count_ = 0;
-};
+using reference::BalancedMean;
 
 // Fraction of the way to a surface that is left out: the rays are in float.
 constexpr double kBeforeTheLight = 1e-6;
@@ -63,6 +45,15 @@ struct DirectSampler::Scratch {
   reference::SphericalRegion region;
   AzimuthSampler sampler;
   std::vector<Lobe> lobes;
+  std::vector<double> densities;  // of the light, and of each lobe
+
+  // Finds the densities in a direction, and returns their sum.
+  double find_densities(double of_light, Vec3d l) {
+    densities.assign(1, of_light);
+    double sum = of_light;
+    for (const Lobe& lobe : lobes) sum += densities.emplace_back(lobe.pdf(l));
+    return sum;
+  }
 };
 
 DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const environment::EnvironmentSampler* around,
@@ -113,26 +104,25 @@ Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice 
 // Estimates the environment as an area light: by the map's density and those of scratch_->lobes, with the balance heuristic.
 Estimate DirectSampler::estimate_environment(const Frame& frame, Vec3d p, Vec3d geometric, int spp, reference::Random& random) const {
   const std::vector<Lobe>& lobes = scratch_->lobes;
-  const auto contribution = [&](Vec3d l, Vec3d direction) -> Vec3d {
-    if (!(l.z > 0)) return {};
-    double pdf = around_->pdf(direction);
-    for (const Lobe& lobe : lobes) pdf += lobe.pdf(l);
-    if (!(pdf > 0) || (shadows_ != nullptr && (!above(geometric, direction) || shadows_->blocked_towards(p, direction)))) return {};
-    return evaluate(lobes, l) * around_->radiance(direction) / pdf;
+  BalancedMean mean(1 + lobes.size());
+  const auto add = [&](Vec3d l, Vec3d direction) {
+    if (!(l.z > 0)) return;
+    const double pdf = scratch_->find_densities(around_->pdf(direction), l);
+    if (!(pdf > 0) || (shadows_ != nullptr && (!above(geometric, direction) || shadows_->blocked_towards(p, direction)))) return;
+    mean.add(evaluate(lobes, l) * around_->radiance(direction) / pdf, scratch_->densities);
   };
-  RunningMean mean;
   for (int i = 0; i < spp; ++i) {
     const double u = random.uniform(), v = random.uniform();
     const Vec3d from_map = around_->sample(u, v);
-    Vec3d x = contribution(frame.to_local(from_map), from_map);
+    add(frame.to_local(from_map), from_map);
     for (const Lobe& lobe : lobes) {
       const double a = random.uniform(), b = random.uniform();
       const Vec3d by_lobe = lobe.sample(a, b);
-      x += contribution(by_lobe, frame.to_world(by_lobe));
+      add(by_lobe, frame.to_world(by_lobe));
     }
-    mean.add(x);
+    mean.end_round();
   }
-  return mean.estimate();
+  return {mean.mean(), mean.variance()};
 }
 
 template <class Punctual, class Area>
@@ -214,27 +204,26 @@ Vec3d DirectSampler::visit_lights(const Frame& frame, const Surface& surface, Pu
 Estimate DirectSampler::estimate_in(const Frame& frame, const Surface& surface, int spp, reference::Random& random) {
   const std::vector<Lobe>& lobes = scratch_->lobes;
   Estimate result;
-  const auto contribution = [&](const Incident& to) -> Vec3d {
-    double pdf = to.density;
-    for (const Lobe& lobe : lobes) pdf += lobe.pdf(to.direction);
-    if (!(to.density > 0) || !(pdf > 0)) return {};
-    return evaluate(lobes, to.direction) * (1 / pdf) * to.radiance;
+  const auto add = [&](BalancedMean& mean, const Incident& to) {
+    if (!(to.density > 0)) return;
+    const double pdf = scratch_->find_densities(to.density, to.direction);
+    if (pdf > 0) mean.add(evaluate(lobes, to.direction) * (1 / pdf) * to.radiance, scratch_->densities);
   };
   const Vec3d p = visit_lights(
       frame, surface, [&](Vec3d l, Vec3d irradiance) { result.mean += irradiance * evaluate(lobes, l); },
       [&](auto sample, auto towards) {
-        RunningMean mean;
+        BalancedMean mean(1 + lobes.size());
         for (int i = 0; i < spp; ++i) {
           const double u = random.uniform(), w = random.uniform();
-          Vec3d x = contribution(sample(u, w));
+          add(mean, sample(u, w));
           for (const Lobe& lobe : lobes) {
             const double a = random.uniform(), b = random.uniform();
             const Vec3d by_lobe = lobe.sample(a, b);
-            if (by_lobe.z > 0) x += contribution(towards(by_lobe));
+            if (by_lobe.z > 0) add(mean, towards(by_lobe));
           }
-          mean.add(x);
+          mean.end_round();
         }
-        result += mean.estimate();
+        result += {mean.mean(), mean.variance()};
       });
   if (around_ != nullptr) result += estimate_environment(frame, p, static_cast<Vec3d>(surface.geometric_normal), spp, random);
   return result;

@@ -143,6 +143,7 @@ void merge_into_kept(Scene& scene, const std::vector<std::size_t>& source, const
     if (!keep[i]) pairs += kept[source[i]].size();
   budget.take_work(path, "merging its weakest lights into those that max-lights keeps", pairs);
   std::vector<double> gained(lights.size(), 0.0);
+  result.of.resize(kept.size());
   for (const std::size_t i : with_power) {
     if (keep[i]) continue;
     const std::vector<LightCandidate>& candidates = kept[source[i]];
@@ -151,8 +152,10 @@ void merge_into_kept(Scene& scene, const std::vector<std::size_t>& source, const
       result.dropped_share += lights[i].power / all;
     } else {
       gained[nearest(place_of(i), candidates)] += lights[i].power;
-      ++result.merged;
-      result.merged_share += lights[i].power / all;
+      for (MergedLights* merged : {&result.merged, &result.of[source[i]]}) {
+        ++merged->count;
+        merged->share += lights[i].power / all;
+      }
     }
   }
   for (const std::size_t i : with_power)

@@ -4,18 +4,26 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/budget.h"
 #include "steradian/scene.h"
 
 namespace steradian::scene {
 
+// Lights that were merged into others, and their fraction of all power.
+struct MergedLights {
+  std::size_t count = 0;
+  double share = 0;
+};
+
 struct KeptLights {
-  std::size_t most = 0;                        // the most lights to keep
-  std::size_t without_power = 0;               // dropped: no area or no radiance
-  std::size_t merged = 0;                      // merged into other lights of their meshes
-  std::size_t dropped = 0;                     // dropped because no other light could take their power
-  double merged_share = 0, dropped_share = 0;  // fractions of all power
+  std::size_t most = 0;           // the most lights to keep
+  std::size_t without_power = 0;  // dropped: no area or no radiance
+  std::size_t dropped = 0;        // dropped because no other light could take their power
+  double dropped_share = 0;       // fraction of all power
+  MergedLights merged;            // merged into other lights of their meshes
+  std::vector<MergedLights> of;   // the same by mesh; empty: none
 };
 
 // Keeps at most `most` area lights, in their order, and renumbers triangle_lights; removed lights have -1.

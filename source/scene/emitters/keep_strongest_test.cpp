@@ -9,6 +9,7 @@
 #include "steradian/load_scene.h"
 #include "support/gltf_test_file.h"
 #include "support/meshes.h"
+#include "support/rings.h"
 
 namespace steradian::scene::keep_strongest_test {
 namespace {
@@ -60,9 +61,9 @@ TEST(KeepStrongest, KeepsAMeshesPowerAndNearlyItsLight) {
   Scene scene = all;
   const KeptLights kept = keep(scene, 40);
   EXPECT_EQ(scene.area_lights.size(), 40u);
-  EXPECT_EQ(kept.merged, 80u);
+  EXPECT_EQ(kept.merged.count, 80u);
   EXPECT_EQ(kept.dropped, 0u);
-  EXPECT_GT(kept.merged_share, 0.5);
+  EXPECT_GT(kept.merged.share, 0.5);
   EXPECT_NEAR(power(scene), power(all), 1e-9 * power(all));
   // Power moves by one face, a sixtieth of a unit, equally to both sides, and turns by a fiftieth of a radian. At distances of 1 to 3 units
   // the error is the square of these.
@@ -77,7 +78,7 @@ TEST(KeepStrongest, AMeshOfManyWeakLightsStandsBeforeAStrongerSingleOne) {
   Scene scene = emitting({ribbon(120, {0, 0, 0}), quad_mesh({0, 3, 0}, {0, 3, 0.3f}, {0.3f, 3, 0.3f}, {0.3f, 3, 0}, 0)}, 1);
   const double before = power(scene);
   const KeptLights kept = keep(scene, 2);
-  EXPECT_EQ(kept.merged, 119u);
+  EXPECT_EQ(kept.merged.count, 119u);
   EXPECT_NEAR(power(scene), before, 1e-9 * before);
   Scene one = emitting({ribbon(120, {0, 0, 0}), quad_mesh({0, 3, 0}, {0, 3, 0.3f}, {0.3f, 3, 0.3f}, {0.3f, 3, 0}, 0)}, 1);
   const KeptLights of_one = keep(one, 1);
@@ -124,7 +125,7 @@ TEST(KeepStrongest, GivesEveryMeshAPlaceWhereNobodySaysHowMany) {
   const KeptLights kept = keep_strongest(scene, {}, budget, "a test");
   EXPECT_EQ(kept.most, 300u);
   EXPECT_EQ(kept.dropped, 0u);
-  EXPECT_EQ(kept.merged, 300u);
+  EXPECT_EQ(kept.merged.count, 300u);
   EXPECT_EQ(scene.area_lights.size(), 300u);
 }
 
@@ -140,6 +141,22 @@ TEST(KeepStrongest, IsSaidOfAFile) {
   ASSERT_FALSE(loaded.warnings.empty());
   EXPECT_NE(loaded.warnings[0].find("60 weak area lights of emissive meshes merged into the nearest"), std::string::npos)
       << loaded.warnings[0];
+}
+
+// The faces of closed meshes lose nothing in a picture, and are not called weak lights.
+TEST(KeepStrongest, ClosedMeshesAreSaidToBeOneLightEach) {
+  GltfTestFile f;
+  const Mesh mesh = ring_mesh({0, 0, 0}, 0.5, 0.1, 0.4, 0, 24, 8);
+  std::vector<float> positions;
+  for (const Vec3f& p : mesh.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
+  f.add_mesh({{"POSITION", f.add_floats(positions, "VEC3")}},
+             f.add_indices(std::vector<std::uint16_t>(mesh.indices.begin(), mesh.indices.end())));
+  f.material()["emissiveFactor"] = {1, 1, 1};
+  const LoadedScene loaded = steradian::load_scene(f.write(), {.max_lights = 10});
+  std::string all;
+  for (const std::string& warning : loaded.warnings) all += warning + "\n";
+  EXPECT_NE(all.find("1 closed mesh of one radiance: one exact light each."), std::string::npos) << all;
+  EXPECT_EQ(all.find("weak area light"), std::string::npos) << all;
 }
 
 }  // namespace

@@ -122,6 +122,7 @@ EMSCRIPTEN_KEEPALIVE Plane* plane_from_svg(const char* svg, const char* name) {
     for (const std::string& what : read.ignored) made->ignored += what + "\n";
     for (const PlaneLeftOut& shapes : read.left_out)
       if (shapes.is_backdrop()) made->ignored += std::string("a backdrop, which ") + words_of(shapes.why) + "\n";
+    for (const std::string& warning : read.warnings) made->ignored += warning + "\n";
     return made.release();
   });
 }

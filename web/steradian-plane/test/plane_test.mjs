@@ -49,6 +49,10 @@ const clear = behind.light(50, 10, { occluders: "clear", moments: true });
 found.map = { inside: clear.alpha[5 * 50 + 14], outside: clear.alpha[5 * 50 + 40], moment: clear.momentX[3 * (2 * 50 + 40)], radiance: clear.radiance[3 * (2 * 50 + 40)] };
 found.rays = behind.query(20, 2.5, { rays: 200000 }).radiance[0];
 
+// A lamp inside a wall, and a stroke that is not drawn.
+found.warnings = (await Plane.load(`<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80"><rect id="wall" x="40" y="30" width="20" height="20" stroke="#fff"/>
+  <circle id="lamp" class="light" cx="50" cy="40" r="3"/><circle class="light" cx="5" cy="5" r="3"/></svg>`)).warnings;
+
 const refuse = async (job) => {
   try {
     await job();

@@ -83,6 +83,8 @@ def check_package(package):
     assert -found["map"]["radiance"] <= found["map"]["moment"] < -0.9 * found["map"]["radiance"], found["map"]  # all light comes from the left
     # 200,000 stratified rays of an angle: two edges, each off by less than a ray.
     assert abs(found["rays"] - BEHIND[3]) < 2 / 200000, found["rays"]
+    assert len(found["warnings"]) == 2 and found["warnings"][0] == "stroke of a filled shape", found["warnings"]
+    assert "lamp (in wall)" in found["warnings"][1], found["warnings"]
     for sentence in found["refused"]:
         print("refused:", sentence)
         assert not sentence.startswith("not "), sentence

@@ -50,11 +50,19 @@ const Styles::Declared& Styles::declared(pugi::xml_node n) {
 }
 
 void Styles::read_declared(pugi::xml_node n, Declared& d) {
-  const std::pair<const char*, std::optional<std::string>*> texts[] = {
-      {"fill", &d.fill},           {"stroke", &d.stroke},        {"color", &d.color},
-      {"stroke-linecap", &d.cap},  {"stroke-linejoin", &d.join}, {"fill-rule", &d.rule},
-      {"clip-rule", &d.clip_rule}, {"font-family", &d.family},   {"font-size", &d.font_size},
-      {"font-weight", &d.weight},  {"font-style", &d.slant},     {"text-anchor", &d.anchor}};
+  const std::pair<const char*, std::optional<std::string>*> texts[] = {{"fill", &d.fill},
+                                                                       {"stroke", &d.stroke},
+                                                                       {"color", &d.color},
+                                                                       {"stroke-linecap", &d.cap},
+                                                                       {"stroke-linejoin", &d.join},
+                                                                       {"fill-rule", &d.rule},
+                                                                       {"clip-rule", &d.clip_rule},
+                                                                       {"font-family", &d.family},
+                                                                       {"font-size", &d.font_size},
+                                                                       {"font-weight", &d.weight},
+                                                                       {"font-style", &d.slant},
+                                                                       {"text-anchor", &d.anchor},
+                                                                       {"stroke-dasharray", &d.dashes}};
   for (const auto& [key, value] : texts) {
     auto p = document_.property(n, key);
     if (p && *p != "inherit") *value = std::move(p);
@@ -101,7 +109,7 @@ Style Styles::inherit(pugi::xml_node n, Style style) {
   const std::pair<const std::optional<std::string>*, std::string*> texts[] = {
       {&d.fill, &style.fill},     {&d.stroke, &style.stroke}, {&d.color, &style.color},         {&d.cap, &style.cap},
       {&d.join, &style.join},     {&d.rule, &style.rule},     {&d.clip_rule, &style.clip_rule}, {&d.family, &style.family},
-      {&d.weight, &style.weight}, {&d.slant, &style.slant},   {&d.anchor, &style.anchor}};
+      {&d.weight, &style.weight}, {&d.slant, &style.slant},   {&d.anchor, &style.anchor},       {&d.dashes, &style.dashes}};
   for (const auto& [own, value] : texts)
     if (*own) *value = **own;
   if (d.font_size) style.font_size = font_size_of(*d.font_size, style.font_size);

@@ -30,6 +30,7 @@ struct SunPlace {
 // Properties that elements inherit.
 struct Style {
   std::string fill = "black", stroke = "none", color = "black", cap = "butt", join = "miter", rule = "nonzero", clip_rule = "nonzero";
+  std::string dashes = "none";
   std::string family = "sans-serif", weight = "normal", slant = "normal", anchor = "start";
   double font_size = 16;
   std::optional<double> stroke_width;  // none: a line without thickness, or of width 1 with round ends
@@ -61,7 +62,8 @@ class Styles {
  private:
   // Properties declared by one element.
   struct Declared {
-    std::optional<std::string> fill, stroke, color, cap, join, rule, clip_rule, family, font_size, weight, slant, anchor, clip, mask;
+    std::optional<std::string> fill, stroke, color, cap, join, dashes, rule, clip_rule, family, font_size, weight, slant, anchor, clip,
+        mask;
     std::optional<double> stroke_width, miter_limit, intensity, range, fill_opacity, stroke_opacity;
     double opacity = 1;          // for the whole element
     Role role = Role::by_shape;  // by_shape: not declared
