@@ -3,6 +3,7 @@
 
 #include "core/budget.h"
 #include "exchange/files/matrix_files.h"
+#include "merge/merge_fits.h"
 #include "merge/merge_maps.h"
 #include "merge/merge_pictures.h"
 #include "steradian/error.h"
@@ -54,7 +55,8 @@ void merge_factors(const MergeArguments& arguments) {
 
 void merge(const Verb& verb, const MergeArguments& arguments) {
   const std::string& first = arguments.parts[0];
-  if (first.ends_with(".exr")) verb.refuse({"--drop", "--close", "--report"}, "parts of viewfactor");
+  if (first.ends_with(".exr") || first.ends_with(".json")) verb.refuse({"--drop", "--close", "--report"}, "parts of viewfactor");
+  if (first.ends_with(".json")) return merge_fits(arguments.parts, arguments.output, arguments.limits);
   if (first.ends_with(".exr")) {
     return arguments.output.ends_with(".exr") || arguments.output.ends_with(".png")
                ? merge_pictures(arguments.parts, arguments.output, arguments.limits)
@@ -67,10 +69,10 @@ void merge(const Verb& verb, const MergeArguments& arguments) {
 
 void add_merge(CommandLine& line) {
   auto a = std::make_shared<MergeArguments>();
-  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor, bake or render with --part");
+  Verb verb = line.verb("merge", "Join the parts of a run of viewfactor, bake, render or fit with --part");
   verb.group("View factors");
-  verb.add("PARTS", a->parts, "files of all parts (.npz of viewfactor, .exr of bake or render)").required();
-  verb.add("-o,--output", a->output, "view factors; .glb or .gltf; .exr or .png").required().writes(Writes::file);
+  verb.add("PARTS", a->parts, "all parts: .npz of viewfactor, .exr of bake or render, .json of fit").required();
+  verb.add("-o,--output", a->output, "view factors; .glb or .gltf; .exr or .png; a table").required().writes(Writes::file);
   verb.add("--drop", a->drop, "leave out entries below this times the run's --eps").range(0.0, 1e12);
   verb.add_flag("--close", a->close, "correct a closed enclosure: rows add up to 1");
   verb.add("--report", a->report, "report of rows, errors and guarantees (.json), or a page (.html)").writes(Writes::file);
