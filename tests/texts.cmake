@@ -121,6 +121,9 @@ foreach(part VULKAN FONTS WINDOW BENCH ALL)
   set_tests_properties(Parts.ProgramBuildsWithout_${part} PROPERTIES LABELS night TIMEOUT 3600)
 endforeach()
 
+add_test(NAME Parts.ProgramBuildsForClusters COMMAND ${parts} cluster)
+set_tests_properties(Parts.ProgramBuildsForClusters PROPERTIES LABELS night TIMEOUT 3600 SKIP_RETURN_CODE 77)
+
 add_test(NAME Build.TimesAreRead COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/build_times.py --test)
 
 # The rules of the house that hold everywhere; `tools/house.py` alone prints the figures of all.

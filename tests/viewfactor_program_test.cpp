@@ -166,7 +166,7 @@ TEST_F(Program, ViewFactorRefusesWrongUse) {
     EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
     EXPECT_FALSE(fs::exists(file));
   };
-  refuses({room, "-o", folder / "room.csv"}, 2, ".npz, .mtx or .vf");
+  refuses({room, "-o", folder / "room.csv"}, 2, ".npz, .h5, .mtx or .vf");
   refuses({room, "-o", file, "--part", "4/3"}, 2, "--part");
   refuses({room, "-o", file, "--part", "1/2", "--close"}, 2, "merge");
   refuses({room}, 2, "-o");

@@ -231,7 +231,7 @@ void add_viewfactor(CommandLine& line) {
   Verb verb = line.verb("viewfactor", "Compute exact view factors between the faces of a scene, with an error for each");
   verb.group("View factors");
   verb.add("SCENE", a->inputs, "scene (glTF, OBJ, STL, PLY, VS3), points SCENE SENSORS, verify FILE").required();
-  verb.add("-o,--output", a->output, "view factors (.npz, .mtx, .vf); points: factors of the sensors (.csv)").writes(Writes::file);
+  verb.add("-o,--output", a->output, "view factors (.npz, .h5, .mtx, .vf); points: of the sensors (.csv)").writes(Writes::file);
   verb.add("--eps", a->eps, "relative error of an entry").range(1e-14, 0.1);
   verb.add("--by", a->by, "rows of the matrix, columns of the points").words({"face", "node", "material"});
   verb.add("--divide", a->divide, "cut faces into elements of this length [m]; 0: no").range(0.0, 1e9);

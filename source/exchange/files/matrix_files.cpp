@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/files.h"
+#include "exchange/files/hdf5_file.h"
 #include "exchange/files/npz.h"
 #include "exchange/files/utf8.h"
 #include "exchange/files/view3d_text.h"
@@ -322,13 +323,15 @@ void write_factors_mtx(const std::string& path, const ViewFactors& f) {
 }
 
 void check_factors_name(const std::string& path) {
+  if (ends_with(path, ".h5")) return check_hdf5();
   if (!ends_with(path, ".npz") && !ends_with(path, ".mtx") && !ends_with(path, ".vf"))
-    throw UsageError(path, "view factors are written as .npz, .mtx or .vf", "choose one of these endings");
+    throw UsageError(path, "view factors are written as .npz, .h5, .mtx or .vf", "choose one of these endings");
 }
 
 void write_factors(const std::string& path, const StoredRun& stored) {
   check_factors_name(path);
   if (ends_with(path, ".npz")) return write_factors_npz(path, stored);
+  if (ends_with(path, ".h5")) return write_arrays(path, stored, write_hdf5);
   if (ends_with(path, ".vf")) return write_view3d_text(path, stored.factors, stored.run.version);
   write_factors_mtx(path, stored.factors);
 }

@@ -45,7 +45,7 @@ StoredRun read_factors_npz(const std::string& path, Budget& budget);
 // Matrix Market: the exchange areas as a symmetric coordinate matrix.
 void write_factors_mtx(const std::string& path, const ViewFactors& factors);
 
-// Writes the file in the format of its ending. Endings: .npz, .mtx and .vf (text of View3D). Throws
+// Writes the file in the format of its ending. Endings: .npz, .h5 (HDF5 with the arrays of .npz), .mtx and .vf (text of View3D). Throws
 // UsageError for others.
 void write_factors(const std::string& path, const StoredRun& stored);
 void check_factors_name(const std::string& path);
