@@ -191,11 +191,11 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  verb.refuse({"--quality",    "--table",       "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
-               "--indirect",   "--vpls",        "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
-               "--max-lights", "--light",       "--lights",           "--light-error",    "--environment",    "--environment-rotation",
-               "--background", "--light-units", "--camera",           "--target-error",   "--resume",         "--animation",
-               "--time-limit", "--part",        "--bounce-error",     "--bounce-strict",  "--reflections",    "--shadow-error"},
+  verb.refuse({"--quality",    "--table",        "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
+               "--indirect",   "--vpls",         "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
+               "--max-lights", "--light",        "--lights",           "--light-error",    "--environment",    "--environment-rotation",
+               "--background", "--light-units",  "--camera",           "--target-error",   "--resume",         "--animation",
+               "--time-limit", "--bounce-error", "--bounce-strict",    "--reflections",    "--shadow-error"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -207,6 +207,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
        {"--occluders", options.plane.normal_map.empty(), "a light map, not --normal-map"},
        {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
        {"--frames", method == "auto" || method == "exact", "--method exact"},
+       {"--part", !options.frames.empty(), "--frames"},
        {"--bounce-lattice", options.bounces != "0", "--bounces"},
        {"--edits", !options.frames.empty(), "--frames"},
        {"--fps", !options.frames.empty(), "--frames"},
@@ -231,6 +232,7 @@ void run_plane(RenderArguments& options) {
   }
   job.bounces = bounces_of(options.bounces);
   job.frames = options.frames;
+  if (!options.part.empty()) job.part = part_named(options.part);
   job.fps = options.fps;
   job.force = options.force;
   job.vulkan = options.render.backend == Backend::vulkan;
