@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <thread>
+#include <tuple>
 
 #include "program.h"
 
@@ -58,6 +59,16 @@ TEST_F(Program, PartsOfAFitAreTheFit) {
   for (std::size_t cut : {text.size() / 2, text.size() - 3}) {
     std::ofstream(first) << text.substr(0, cut);
     refused({"merge", first, "-o", none}, "no part of a fit");
+  }
+  for (const auto& [from, to, why] : {std::tuple{"\"samples\"", "\"x; int y\"", "other characters"},
+                                      {"\"classic\"", "\"flat\"", "layout"},
+                                      {"\"size\":4", "\"size\":1", "size"},
+                                      {"\"part\":\"1/3\"", "\"part\":\"4/3\"", "damaged"}}) {
+    std::string changed = text;
+    ASSERT_NE(changed.find(from), std::string::npos) << from;
+    changed.replace(changed.find(from), std::string(from).size(), to);
+    std::ofstream(first) << changed;
+    refused({"merge", first, "-o", none}, why);
   }
   std::string damaged = text;
   damaged.replace(damaged.find("[["), 2, "[[\"x\",");

@@ -75,6 +75,13 @@ FitPart read_fit_part(const std::string& path, const Limits& limits) {
     part.family.frame = file.at("frame").get<std::string>() == "mirror" ? LobeFrame::mirror : LobeFrame::normal;
     if (file.contains("fixed_roughness")) part.family.fixed_roughness = file.at("fixed_roughness").get<double>();
     part.size = file.at("size").get<int>();
+    // The name becomes part of names in headers.
+    const std::string& name = part.family.name;
+    if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-") != std::string::npos)
+      throw fail("has a lobe whose name has other characters than letters, digits and -");
+    if ((part.form.layout != "classic" && part.form.layout != "compact") ||
+        (part.form.normalisation != "middle" && part.form.normalisation != "last"))
+      throw fail("has an unknown layout");
     if (part.size < 2 || part.size > 1024) throw fail("has a size that is not 2 to 1024");
     FitOptions options;
     options.size = part.size;
