@@ -4,7 +4,7 @@
 #   packages   what else it asks for, with their libraries; a program that links it needs them too
 #   build_packages, build_libraries  headers that only its own build needs
 #   sources    its files, as a pattern of paths under source/
-set(STERADIAN_LAYERS integrals shadow image scene reference exchange fit plane render bake solve plane_vulkan)
+set(STERADIAN_LAYERS integrals shadow image scene reference exchange fit plane render bake light solve plane_vulkan)
 
 # No package at all. The reference methods are part of it: `radiance` answers by them too.
 set(STERADIAN_integrals_sources "^(core|shapes|lobes|reference|integrals)/")
@@ -34,6 +34,16 @@ if(STERADIAN_ASSIMP)
   list(APPEND STERADIAN_exchange_packages assimp)
   list(APPEND STERADIAN_exchange_libraries assimp::assimp)
 endif()
+if(STERADIAN_HDF5)
+  find_package(PkgConfig QUIET)
+  if(PKG_CONFIG_FOUND)
+    pkg_check_modules(HDF5 QUIET IMPORTED_TARGET hdf5-serial)
+  endif()
+  steradian_require(HDF5 "HDF5" "libhdf5-dev pkg-config" "${HDF5_FOUND}")
+  # The libraries by their paths: a program that links the installed library needs no package for them.
+  list(APPEND STERADIAN_exchange_libraries ${HDF5_LINK_LIBRARIES})
+  list(APPEND STERADIAN_exchange_build_libraries PkgConfig::HDF5)
+endif()
 
 set(STERADIAN_fit_sources "^fit/")
 set(STERADIAN_fit_needs integrals reference)
@@ -61,6 +71,10 @@ set(STERADIAN_bake_packages TBB "embree 3")
 set(STERADIAN_bake_libraries TBB::tbb embree)
 set(STERADIAN_bake_build_packages Eigen3)
 set(STERADIAN_bake_build_libraries Eigen3::Eigen)
+
+set(STERADIAN_light_sources "^$")  # a name for all light between surfaces, in pictures and in light maps
+set(STERADIAN_light_needs integrals shadow scene reference image render bake)
+set(STERADIAN_light_joins TRUE)
 
 set(STERADIAN_solve_sources "^solve/")
 set(STERADIAN_solve_needs integrals shadow scene reference image render)
@@ -120,7 +134,9 @@ function(steradian_layer name)
   endforeach()
   if(NOT sources)
     add_library(steradian_${name} INTERFACE)
-    target_link_libraries(steradian_${name} INTERFACE steradian_${STERADIAN_${name}_needs})
+    foreach(need ${STERADIAN_${name}_needs})
+      target_link_libraries(steradian_${name} INTERFACE steradian_${need})
+    endforeach()
     add_library(steradian::${name} ALIAS steradian_${name})
     set_target_properties(steradian_${name} PROPERTIES EXPORT_NAME ${name})
     return()

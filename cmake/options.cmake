@@ -6,7 +6,9 @@ option(STERADIAN_ASSIMP "Build the reading of OBJ, STL and PLY for view factors 
 option(STERADIAN_WINDOW "Build the window of `steradian view` (GLFW, Dear ImGui)" ${PROJECT_IS_TOP_LEVEL})
 option(STERADIAN_BENCH "Build the program steradian-bench" ${PROJECT_IS_TOP_LEVEL})
 option(STERADIAN_PYTHON "Build the Python module (pybind11)" OFF)
-set(STERADIAN_OPTIONAL_PARTS VULKAN FONTS ASSIMP WINDOW BENCH PYTHON)
+option(STERADIAN_MPI "Build the sharing of work between ranks of mpirun (Open MPI)" OFF)
+option(STERADIAN_HDF5 "Build the writing of view factors as HDF5" OFF)
+set(STERADIAN_OPTIONAL_PARTS VULKAN FONTS ASSIMP WINDOW BENCH PYTHON MPI HDF5)
 
 if(STERADIAN_TESTS)
   foreach(part VULKAN FONTS WINDOW BENCH)

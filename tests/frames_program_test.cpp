@@ -47,6 +47,28 @@ TEST_F(Program, FramesGoOnWhereTheyWereInterrupted) {
   EXPECT_EQ(contents(folder / "f_01.png"), second);
 }
 
+// Each part has every third frame, with the exposure of the first frame of all.
+TEST_F(Program, FramesAreDealtOutToParts) {
+  std::vector<std::string> command = {"render", morph(), "--frames", "2..6", "--fps", "2", "--size", "48x27", "--shadows", "off", "-o"};
+  const auto make = [&](const std::string& pattern, const std::string& part) {
+    std::vector<std::string> whole = command;
+    whole.push_back(folder / pattern);
+    if (!part.empty()) whole.insert(whole.end(), {"--part", part});
+    return run(whole);
+  };
+  ASSERT_EQ(make("whole_#.png", "").status, 0);
+  ASSERT_EQ(make("part_#.png", "2/3").status, 0);
+  for (int frame = 2; frame <= 6; ++frame)
+    EXPECT_EQ(fs::exists(folder / ("part_" + std::to_string(frame) + ".png")), frame == 3 || frame == 6) << frame;
+  for (const char* part : {"1/3", "3/3"}) ASSERT_EQ(make("part_#.png", part).status, 0);
+  for (int frame = 2; frame <= 6; ++frame) {
+    const std::string name = std::to_string(frame) + ".png";
+    EXPECT_EQ(contents(folder / ("part_" + name)), contents(folder / ("whole_" + name))) << frame;
+  }
+  EXPECT_EQ(make("none_#.png", "9/9").status, 0) << "a part without frames";
+  EXPECT_NE(make("none_#.png", "4/3").err.find("not k/n"), std::string::npos);
+}
+
 TEST_F(Program, FramesRefuseWhatMeansNothing) {
   const std::string pattern = folder / "f_##.png";
   const auto error = [&](std::vector<std::string> more) {

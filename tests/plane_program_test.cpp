@@ -182,6 +182,14 @@ TEST_F(Program, RenderOfAPlaneByFramesMovesAsTheDrawingDoes) {
   ASSERT_EQ(run({"render", svg, "-o", pattern, "--frames", "0..4", "--fps", "5", "--force"}).status, 0);
   EXPECT_EQ(read_picture(third).pixels, drawn.pixels);
   EXPECT_NO_THROW(read_picture(folder / "f_02.exr"));
+  // Parts have the frames of the sequence.
+  for (const char* part : {"2/2", "1/2"}) {
+    ASSERT_EQ(run({"render", svg, "-o", folder / "p_#.exr", "--frames", "0..4", "--fps", "5", "--part", part}).status, 0);
+    EXPECT_EQ(fs::exists(folder / "p_4.exr"), part[0] == '1');
+  }
+  for (const std::string k : {"0", "1", "2", "3", "4"})
+    EXPECT_EQ(contents(folder / ("p_" + k + ".exr")), contents(folder / ("f_0" + k + ".exr")));
+  EXPECT_NE(run({"render", svg, "-o", folder / "none.exr", "--part", "1/2"}).err.find("needs --frames"), std::string::npos);
   // 3 / 5 of a second: 10 + 40 * 0.3.
   scene("22", "");
   const std::string cold = folder / "cold.exr";

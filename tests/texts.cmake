@@ -94,6 +94,8 @@ add_test(NAME Packaging.InstalledTreeServesEverything COMMAND ${consume} everyth
 set_tests_properties(Packaging.InstalledTreeServesEverything PROPERTIES FIXTURES_REQUIRED installed_tree)
 add_test(NAME Packaging.InstalledTreeFitsALobeOfOnesOwn COMMAND ${consume} lobe ${CMAKE_CXX_COMPILER})
 set_tests_properties(Packaging.InstalledTreeFitsALobeOfOnesOwn PROPERTIES FIXTURES_REQUIRED installed_tree)
+add_test(NAME Packaging.InstalledTreeNamesUnknownComponents COMMAND ${consume} components ${CMAKE_CXX_COMPILER})
+set_tests_properties(Packaging.InstalledTreeNamesUnknownComponents PROPERTIES FIXTURES_REQUIRED installed_tree LABELS night)
 set_tests_properties(Packaging.Installs Packaging.InstalledTreeServesEverything Packaging.InstalledTreeFitsALobeOfOnesOwn PROPERTIES LABELS night)
 foreach(compiler g++ clang++)
   add_test(NAME Packaging.InstalledTreeServesIntegralsAlone_${compiler} COMMAND ${consume} installed ${compiler})
@@ -118,6 +120,9 @@ foreach(part VULKAN FONTS WINDOW BENCH ALL)
   add_test(NAME Parts.ProgramBuildsWithout_${part} COMMAND ${parts} ${part})
   set_tests_properties(Parts.ProgramBuildsWithout_${part} PROPERTIES LABELS night TIMEOUT 3600)
 endforeach()
+
+add_test(NAME Parts.ProgramBuildsForClusters COMMAND ${parts} cluster)
+set_tests_properties(Parts.ProgramBuildsForClusters PROPERTIES LABELS night TIMEOUT 3600 SKIP_RETURN_CODE 77)
 
 add_test(NAME Build.TimesAreRead COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/build_times.py --test)
 

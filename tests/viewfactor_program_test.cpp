@@ -84,6 +84,45 @@ TEST_F(Program, ViewFactorPartsMergeToTheSameBytes) {
   EXPECT_EQ(contents(merged), contents(whole));  // nothing half written
 }
 
+// Groups, masks, closing and small factors wait for the whole matrix: merge takes them from the parts.
+TEST_F(Program, ViewFactorPartsOfGroupsMergeToTheSameBytes) {
+  const std::string room = write_room(folder / "room.gltf"), masked = folder / "masked.vs3";
+  std::ofstream(masked) << "F 3\nV 1 0 0 0\nV 2 4 0 0\nV 3 4 5 0\nV 4 0 5 0\nV 5 0 0 3\nV 6 4 0 3\nV 7 4 5 3\nV 8 0 5 3\n"
+                           "V 9 1 1 0\nV 10 3 1 0\nV 11 3 3 0\nV 12 1 3 0\nS 1 1 2 3 4 0 0 .5 floor\nS 2 8 7 6 5 0 0 .5 ceiling\n"
+                           "S 3 1 5 6 2 0 0 .5 south\nS 4 3 7 8 4 0 0 .5 north\nM 5 12 11 10 9 1 0 .5 carpet\n";
+  const struct {
+    std::string scene;
+    std::vector<std::string> options, last;
+  } runs[] = {{room, {"--by", "material"}, {"--close"}},
+              {room, {"--by", "node"}, {"--drop", "10"}},
+              {masked, {}, {}},
+              {masked, {"--by", "node", "--divide", "2"}, {}}};
+  for (const auto& r : runs) {
+    const std::string whole = folder / "whole.npz", merged = folder / "merged.npz", report = folder / "merged.json";
+    std::vector<std::string> one = {"viewfactor", r.scene, "-o", whole}, merge = {"merge", "-o", merged, "--report", report};
+    one.insert(one.end(), r.options.begin(), r.options.end());
+    for (const char* part : {"1/2", "2/2"}) {
+      std::vector<std::string> command = one;
+      merge.push_back(command[3] = folder / (std::string("part") + part[0] + ".npz"));
+      command.insert(command.end(), {"--part", part});
+      const Outcome made = run(command);
+      ASSERT_EQ(made.status, 0) << made.err;
+    }
+    one.insert(one.end(), r.last.begin(), r.last.end());
+    merge.insert(merge.end(), r.last.begin(), r.last.end());
+    ASSERT_EQ(run(one).status, 0);
+    const Outcome joined = run(merge);
+    ASSERT_EQ(joined.status, 0) << joined.err;
+    EXPECT_EQ(contents(merged), contents(whole)) << r.scene;
+    EXPECT_EQ(json::parse(contents(report))["guarantees"].size(), 2u);
+  }
+  // A mask sees its base alone.
+  const std::string text = folder / "masked.mtx";
+  ASSERT_EQ(run({"viewfactor", masked, "-o", text}).status, 0);
+  EXPECT_NE(contents(text).find("\n5 1 4\n"), std::string::npos) << contents(text);
+  EXPECT_EQ(contents(text).find("\n5 2 "), std::string::npos);
+}
+
 TEST_F(Program, ViewFactorsByMaterialCloseAndResume) {
   const std::string room = write_room(folder / "room.gltf"), file = folder / "room.mtx", plain = folder / "plain.npz",
                     again = folder / "again.npz";
@@ -127,7 +166,7 @@ TEST_F(Program, ViewFactorRefusesWrongUse) {
     EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
     EXPECT_FALSE(fs::exists(file));
   };
-  refuses({room, "-o", folder / "room.csv"}, 2, ".npz, .mtx or .vf");
+  refuses({room, "-o", folder / "room.csv"}, 2, ".npz, .h5, .mtx or .vf");
   refuses({room, "-o", file, "--part", "4/3"}, 2, "--part");
   refuses({room, "-o", file, "--part", "1/2", "--close"}, 2, "merge");
   refuses({room}, 2, "-o");

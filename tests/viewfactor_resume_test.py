@@ -20,12 +20,11 @@ OPTIONS = ["--eps", "1e-5", "--divide", "4"]
 def finished_blocks(rows):
     """The bytes of `rows` up to the end of its last whole block."""
     end = 16
-    while end + 32 <= len(rows):
-        _, count, entries, _ = struct.unpack_from("<4Q", rows, end)
-        size = 32 + 8 * (count + 1) + 16 * entries
-        if end + size > len(rows):
+    while end + 24 <= len(rows):
+        _, size, _ = struct.unpack_from("<3Q", rows, end)
+        if end + 24 + size > len(rows):
             break
-        end += size
+        end += 24 + size
     return rows[:end]
 
 

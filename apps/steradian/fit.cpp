@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstring>
 #include <memory>
 
-#include "core/files.h"
 #include "core/progress.h"
+#include "core/unfinished_file.h"
+#include "fit/fit_part.h"
 #include "fit/fit_report.h"
-#include "fit/table_files.h"
+#include "fit/fitted_table.h"
+#include "part.h"
 #include "steradian/error.h"
 #include "steradian/fit.h"
 #include "verbs.h"
@@ -18,17 +21,32 @@ namespace {
 using namespace fit;
 
 struct FitArguments {
-  std::string lobe = "ggx", samples, layout = "classic", output, picture, normalisation = "middle", search = "bobyqa";
-  bool report = false, fresnel_lobe = false;
-  CompactSizes compact;
+  std::string lobe = "ggx", samples, output, picture, search = "bobyqa", part = "1/1";
+  bool report = false, fresnel_lobe = false, resume = false;
+  TableForm form;
   FitOptions fit;
   Limits limits;
 };
 
 LtcTable fit_with_progress(const LobeFamily& family, FitOptions fit, LtcTable (*fitter)(const LobeFamily&, const FitOptions&) = fit_table) {
-  Progress progress("fit " + family.name, static_cast<std::uint64_t>(fit.size * fit.size));
+  Progress progress("fit " + family.name, columns_of_part(family, fit).size() * static_cast<std::uint64_t>(fit.size));
   fit.cell_done = [&] { progress.add(); };
   return fitter(family, fit);
+}
+
+// The fit, with its finished columns in a file beside the output. The caller removes the file when the output is written.
+LtcTable resumed_fit(const LobeFamily& family, FitOptions fit, UnfinishedFile& unfinished) {
+  fit.known = [&](int i, std::vector<LtcCell>& column) {
+    const auto found = unfinished.find(static_cast<std::uint64_t>(i));
+    column.resize(static_cast<std::size_t>(fit.size));
+    if (!found || found->size() != column.size() * sizeof(LtcCell)) return false;
+    std::memcpy(column.data(), found->data(), found->size());
+    return true;
+  };
+  fit.finished = [&](int i, const std::vector<LtcCell>& column) {
+    unfinished.add(static_cast<std::uint64_t>(i), {reinterpret_cast<const char*>(column.data()), column.size() * sizeof(LtcCell)});
+  };
+  return fit_with_progress(family, fit);
 }
 
 std::string with_suffix(const std::string& path, const std::string& suffix) {
@@ -36,26 +54,9 @@ std::string with_suffix(const std::string& path, const std::string& suffix) {
   return dot == std::string::npos ? path + suffix : path.substr(0, dot) + suffix + path.substr(dot);
 }
 
-ClassicNormalisation normalisation_of(const FitArguments& options) {
-  return options.normalisation == "last" ? ClassicNormalisation::last : ClassicNormalisation::middle;
-}
-
-void write_table(const LtcTable& table, const FitArguments& options, const std::string& path) {
-  const std::vector<TableFile> files = options.layout == "classic"
-                                           ? classic_files(classic_table(table, normalisation_of(options)), table.family.name, path)
-                                           : compact_files(compact_table(table, options.compact), table.family.name, path);
-  write_files(files);
-  for (const TableFile& file : files) fmt::print("{}\n", file.path);
-}
-
-LookUp look_up_of(const LtcTable& table, const FitArguments& options) {
-  if (options.layout == "compact") return [t = compact_table(table, options.compact)](double r, double c) { return t.look_up(r, c); };
-  return [t = classic_table(table, normalisation_of(options))](double r, double c) { return t.look_up(r, c); };
-}
-
 void report(const LtcTable& table, const FitArguments& options) {
-  const LookUp look_up = look_up_of(table, options);
-  if (options.layout == "compact") fmt::print("bytes        {}\n", compact_table(table, options.compact).bytes());
+  const LookUp look_up = look_up_of(table, options.form);
+  if (options.form.layout == "compact") fmt::print("bytes        {}\n", compact_table(table, options.form.compact).bytes());
   ReportOptions all = whole_grid(), on_nodes = node_grid();
   const auto& fixed = table.family.fixed_roughness;
   if (fixed) all.roughness = on_nodes.roughness = {*fixed};
@@ -68,7 +69,8 @@ void report(const LtcTable& table, const FitArguments& options) {
 void report_fresnel(const LtcTable& table, const LtcTable& fresnel, const FitArguments& options) {
   fmt::print("\nFresnel, F90 = 1, whole grid: relative error by n_A and f_A, and with the lobe of its own\n");
   for (double f0 : {0.04, 0.2, 0.9}) {
-    const FresnelError e = measure_fresnel(table.family, look_up_of(table, options), look_up_of(fresnel, options), f0, whole_grid());
+    const FresnelError e =
+        measure_fresnel(table.family, look_up_of(table, options.form), look_up_of(fresnel, options.form), f0, whole_grid());
     fmt::print("F0 = {:.2f}  {:6.2f} %  {:6.2f} %\n", f0, 100 * e.split, 100 * e.lobe);
   }
 }
@@ -77,37 +79,52 @@ void run(const FitArguments& options) {
   if (options.output.empty() && !options.report) throw WrongOption("-o or --report", "one of them is required");
   if (options.search != "bobyqa" && !options.output.empty())
     throw WrongOption("--search", "nelder-mead is a baseline to measure; use it with --report, without -o");
-  if (options.fresnel_lobe && options.layout == "compact")
+  if (options.fresnel_lobe && options.form.layout == "compact")
     throw WrongOption("--fresnel-lobe", "the compact layout has too few nodes for this lobe; use --layout classic");
-  if (!options.samples.empty() && options.layout == "compact")
+  if (!options.samples.empty() && options.form.layout == "compact")
     throw WrongOption("--samples", "the compact layout's matrix follows the roughness, which samples do not have; use --layout classic");
   LobeSamples samples;
   if (!options.samples.empty()) samples = read_lobe_samples(options.samples, options.limits);
   const LobeFamily& family = options.samples.empty() ? lobe_family(options.lobe) : samples.family;
   // A wrong file ending is reported before the work.
-  if (!options.output.empty()) {
-    if (options.layout == "classic")
-      classic_files({2, std::vector<std::array<float, 4>>(4), std::vector<std::array<float, 4>>(4), ClassicNormalisation::middle},
-                    family.name, options.output);
-    else
-      compact_files({}, family.name, options.output);
+  const Part part = part_named(options.part);
+  if (part.count > 1) {
+    for (const auto& [option, given] : {std::pair{"--report", options.report}, {"--fresnel-lobe", options.fresnel_lobe}})
+      if (given) throw WrongOption(option, "needs the whole table; a part has some columns");
+    if (!options.output.ends_with(".json")) throw WrongOption("-o", "a part is written as .json; steradian merge joins them");
+  } else if (!options.output.empty()) {
+    check_table_name(options.output, options.form);
   }
   if (!options.samples.empty())
     fmt::print("albedo       {:.4f} {:.4f} {:.4f} along the normal\n", samples.albedo.x, samples.albedo.y, samples.albedo.z);
   FitOptions fit = options.fit;
   fit.search = options.search == "bobyqa" ? FitSearch::bobyqa : FitSearch::nelder_mead;
   const auto start = std::chrono::steady_clock::now();
-  const LtcTable table = fit_with_progress(family, fit);
+  fit.part = part.number;
+  fit.parts = part.count;
+  const std::string settings = part.count > 1 || options.resume ? fit_settings(family, options.samples, fit) : std::string();
+  std::unique_ptr<UnfinishedFile> unfinished;
+  if (options.resume) unfinished = std::make_unique<UnfinishedFile>(options.output + ".part", settings + " | part " + options.part);
+  const LtcTable table = unfinished ? resumed_fit(family, fit, *unfinished) : fit_with_progress(family, fit);
+  if (part.count > 1) {
+    FitPart file{settings, options.form, family, fit.size, part};
+    for (const int i : columns_of_part(family, fit))
+      for (int j = 0; j < fit.size; ++j) file.columns[i].push_back(table.at(i, j));
+    write_fit_part(file, options.output);
+    if (unfinished) unfinished->remove();
+    return;
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.report) fmt::print("fit          {} x {} in {:.1f} s\n", table.size, table.size, seconds);
-  if (!options.output.empty()) write_table(table, options, options.output);
+  if (!options.output.empty()) write_fitted_table(table, options.form, options.output);
+  if (unfinished) unfinished->remove();
   if (options.report) report(table, options);
   if (options.fresnel_lobe) {
     LobeFamily fresnel = family;
     fresnel.name += "-fresnel";
     fresnel.at = [&family](double roughness, double cosine) { return with_grazing_fresnel(family.at(roughness, cosine)); };
     const LtcTable fitted = fit_with_progress(fresnel, fit, fit_table_from_both_sides);
-    write_table(fitted, options, with_suffix(options.output, "_fresnel"));
+    write_fitted_table(fitted, options.form, with_suffix(options.output, "_fresnel"));
     if (options.report) report_fresnel(table, fitted, options);
   }
 }
@@ -136,13 +153,15 @@ void add_fit(CommandLine& line) {
   verb.add("--lobe", options->lobe, "lobe to fit").words(names);
   verb.add("--samples", options->samples, "measured lobe: MERL's .binary, or lines of angles and values").excludes("--lobe");
   verb.add("--size", options->fit.size, "nodes of roughness and of view").range(2, 1024);
-  verb.add("--layout", options->layout, "two textures, or arrays of at most 4 KB").words({"classic", "compact"});
+  verb.add("--layout", options->form.layout, "two textures, or arrays of at most 4 KB").words({"classic", "compact"});
   verb.add("-o,--output", options->output, "table: .h .glsl .json; classic also .dds .exr (NAME_1, NAME_2)").writes(Writes::file);
   verb.add_flag("--fresnel-lobe", options->fresnel_lobe, "also fit the lobe times (1 - v.h)^5, into NAME_fresnel").needs("--output");
   verb.add_flag("--report", options->report, "measure the error on lights and between nodes");
   verb.add("--report-picture", options->picture, "picture of the error (.png, .exr)").writes(Writes::picture).needs("--report");
-  verb.add("--normalisation", options->normalisation, "element 1 of the classic matrix").words({"middle", "last"});
+  verb.add("--normalisation", options->form.normalisation, "element 1 of the classic matrix").words({"middle", "last"});
   verb.add("--search", options->search, "search for the minimum").words({"bobyqa", "nelder-mead"});
+  verb.add("--part", options->part, "k/n: fit one of n parts to a .json; steradian merge joins them").needs("--output");
+  verb.add_flag("--resume", options->resume, "go on after an interruption; keeps finished columns in OUTPUT.part").needs("--output");
   verb.add("--threads", options->fit.threads, "number of threads (0: all)").range(0, 4096);
   verb.add_limits(options->limits);
   verb.callback([options] { run(*options); });

@@ -1,8 +1,14 @@
 // steradian VERB [--option VALUE] INPUT -o OUTPUT
+#include <vector>
+
+#include "ranks/command_process.h"
+#include "ranks/ranks.h"
 #include "steradian/version.h"
 #include "verbs.h"
 
 int main(int argc, char** argv) {
+  if (!steradian::app::follow_parent() && steradian::app::is_rank())
+    return steradian::app::run_with_ranks(argc, argv, std::vector<std::string>(argv + 1, argv + argc));
   steradian::app::CommandLine line("Light computed without sampling: area light integrals in closed form.",
                                    std::string("steradian ") + steradian::version());
   steradian::app::add_render(line);

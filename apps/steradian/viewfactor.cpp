@@ -24,6 +24,7 @@
 #include "steradian/view_factors.h"
 #include "verbs.h"
 #include "viewfactor/finish.h"
+#include "viewfactor/in_file.h"
 #include "viewfactor/report.h"
 
 namespace steradian::app {
@@ -39,19 +40,6 @@ struct ViewFactorArguments {
   int pairs = 1000;
   Limits limits;
 };
-
-// Calls a function; an error that names only a face then names the file as well.
-template <class Function>
-auto in_file(const std::string& path, Function function) {
-  try {
-    return function();
-  } catch (const UsageError&) {
-    throw;
-  } catch (const Error& e) {
-    if (e.place().starts_with(path)) throw;
-    throw Error(e.place().empty() ? path : path + ": " + e.place(), e.problem(), e.hint());
-  }
-}
 
 SceneFaces load_faces(const std::string& path, const ViewFactorArguments& arguments) {
   FaceOptions options;
@@ -84,14 +72,16 @@ void compute(const ViewFactorArguments& arguments) {
   const Part part = part_named(arguments.part);
   stored.run.part = part.number;
   stored.run.parts = part.count;
-  if (stored.run.parts > 1 && arguments.close) throw WrongOption("--close", "needs the whole matrix; merge the parts first");
-  if (stored.run.parts > 1 && arguments.by != "face") throw WrongOption("--by", "needs the whole matrix; parts are by face");
+  if (stored.run.parts > 1 && arguments.close) throw WrongOption("--close", "needs the whole matrix; give it to steradian merge");
+  if (stored.run.parts > 1 && !arguments.report.empty())
+    throw WrongOption("--report", "needs the whole matrix; give it to steradian merge");
   if (stored.run.parts > 1 && arguments.drop > 0) throw WrongOption("--drop", "needs the whole matrix; give it to steradian merge");
   if (stored.run.parts > 1 && !arguments.output.ends_with(".npz")) throw WrongOption("-o", "a part is written as .npz");
   smallest_kept(arguments.drop, arguments.eps);  // an error comes before the work
   SceneFaces faces = load_faces(arguments.inputs[0], arguments);
   stored.faces = faces.faces;
   stored.obstacles = faces.obstacles;
+  stored.grouping = {faces.groups, faces.group_names, faces.masks};
 
   const auto start = std::chrono::steady_clock::now();
   ViewFactorOptions options;
@@ -114,15 +104,9 @@ void compute(const ViewFactorArguments& arguments) {
     options.advanced = [&](std::uint64_t done) { progress.add(done); };
     stored.factors = in_file(arguments.inputs[0], [&] { return view_factors(stored.faces, options); });
   }
-  const std::vector<std::string> doubts = doubts_about(stored);
-  warn(arguments.inputs[0], doubts);
-  faces.warnings.insert(faces.warnings.end(), doubts.begin(), doubts.end());
-  if (arguments.close) stored.factors = in_file(arguments.inputs[0], [&] { return closed_view_factors(stored.factors); });
-  if (!faces.groups.empty()) {
-    stored.run.groups = faces.groups;
-    stored.factors = grouped_view_factors(stored.factors, faces.groups, faces.group_names);
-  }
-  drop_small(stored, arguments.drop);
+  if (stored.run.parts == 1)
+    for (const std::string& doubt : finish_factors(arguments.inputs[0], stored, {arguments.close, arguments.drop}))
+      faces.warnings.push_back(doubt);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_factors(arguments.output, stored);
   if (unfinished) unfinished->remove();
@@ -247,7 +231,7 @@ void add_viewfactor(CommandLine& line) {
   Verb verb = line.verb("viewfactor", "Compute exact view factors between the faces of a scene, with an error for each");
   verb.group("View factors");
   verb.add("SCENE", a->inputs, "scene (glTF, OBJ, STL, PLY, VS3), points SCENE SENSORS, verify FILE").required();
-  verb.add("-o,--output", a->output, "view factors (.npz, .mtx, .vf); points: factors of the sensors (.csv)").writes(Writes::file);
+  verb.add("-o,--output", a->output, "view factors (.npz, .h5, .mtx, .vf); points: of the sensors (.csv)").writes(Writes::file);
   verb.add("--eps", a->eps, "relative error of an entry").range(1e-14, 0.1);
   verb.add("--by", a->by, "rows of the matrix, columns of the points").words({"face", "node", "material"});
   verb.add("--divide", a->divide, "cut faces into elements of this length [m]; 0: no").range(0.0, 1e9);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 
 namespace steradian {
 namespace {
@@ -17,6 +18,9 @@ constexpr double kTerminalInterval = 0.1, kLinesInterval = 1.0;
 ProgressOutput progress_on_stderr() {
   ProgressOutput output;
   output.form = isatty(STDERR_FILENO) == 1 ? ProgressForm::over_the_last : ProgressForm::lines;
+  // A program that runs others shows its own progress.
+  if (const char* wish = std::getenv("STERADIAN_PROGRESS"); wish != nullptr && std::string_view(wish) == "none")
+    output.form = ProgressForm::none;
   output.write = [](std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);

@@ -229,22 +229,37 @@ std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, cons
   return column;
 }
 
+std::vector<int> columns_of_part(const LobeFamily& family, const FitOptions& options) {
+  // The columns of a part are spread over the roughness: neighbours cost about the same.
+  std::vector<int> columns;
+  for (int i = options.part - 1; i < (family.fixed_roughness ? 1 : options.size); i += options.parts) columns.push_back(i);
+  return columns;
+}
+
+void put_column(LtcTable& table, int i, const std::vector<LtcCell>& column) {
+  const int n = table.size, first = table.family.fixed_roughness ? 0 : i, last = table.family.fixed_roughness ? n - 1 : i;
+  for (int j = 0; j < n; ++j)
+    for (int k = first; k <= last; ++k) table.cells[static_cast<std::size_t>(j * n + k)] = column[static_cast<std::size_t>(j)];
+}
+
 LtcTable fit_table(const LobeFamily& family, const FitOptions& options) {
   LtcTable table;
   table.family = family;
   table.size = options.size;
-  const int n = options.size;
-  table.cells.resize(static_cast<std::size_t>(n * n));
+  table.cells.resize(static_cast<std::size_t>(options.size * options.size));
   std::optional<tbb::global_control> limit;
   if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-  if (family.fixed_roughness) {
-    const std::vector<LtcCell> column = fit_column(family, 0, n, options);
-    for (int k = 0; k < n * n; ++k) table.cells[static_cast<std::size_t>(k)] = column[static_cast<std::size_t>(k / n)];
-    return table;
-  }
-  tbb::parallel_for(0, n, [&](int i) {
-    const std::vector<LtcCell> column = fit_column(family, i, n, options);
-    for (int j = 0; j < n; ++j) table.cells[static_cast<std::size_t>(j * n + i)] = column[static_cast<std::size_t>(j)];
+  const std::vector<int> columns = columns_of_part(family, options);
+  tbb::parallel_for(std::size_t{0}, columns.size(), [&](std::size_t at) {
+    const int i = columns[at];
+    std::vector<LtcCell> column;
+    if (options.known && options.known(i, column)) {
+      for (int j = 0; options.cell_done && j < options.size; ++j) options.cell_done();
+    } else {
+      column = fit_column(family, i, options.size, options);
+      if (options.finished) options.finished(i, column);
+    }
+    put_column(table, i, column);
   });
   return table;
 }

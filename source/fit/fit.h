@@ -48,6 +48,11 @@ struct FitOptions {
   double lobe_share = 0.1;             // weight of the lobe's L1 beside the relative error on the lights
   int threads = 0;                     // 0: all
   std::function<void()> cell_done;     // called after every cell, from any thread
+  int part = 1, parts = 1;             // fits the columns of one part only; other cells stay as they are made
+  // To go on after an interruption: `finished` takes the column of a roughness, from any thread; `known` returns true if it can fill the
+  // column from an earlier run with the same lobe and settings.
+  std::function<void(int, const std::vector<LtcCell>&)> finished;
+  std::function<bool(int, std::vector<LtcCell>&)> known;
 };
 
 // Node i of n along an axis: roughness, and the view's cosine. At cosine 0 lobes have no limit, so the last node is at the smallest cosine.
@@ -72,6 +77,12 @@ struct LtcTable {
 std::vector<LtcCell> fit_column(const LobeFamily& family, int i, int views, const FitOptions& options);
 
 LtcTable fit_table(const LobeFamily& family, const FitOptions& options = {});
+
+// The columns that a part fits: every one of `parts`. A lobe with fixed roughness has one column.
+std::vector<int> columns_of_part(const LobeFamily& family, const FitOptions& options);
+
+// Puts a column into the table; all columns are those of a lobe with fixed roughness.
+void put_column(LtcTable& table, int i, const std::vector<LtcCell>& column);
 
 // The same, but fits every cell once more from the shape of its rougher neighbour and takes the nearer lobe. This helps where a column's
 // continuation is in another valley than its neighbour's. The lobe times (1 - v.h)^5 is such a case below roughness 0.4 at grazing views.

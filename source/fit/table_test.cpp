@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <vector>
 
@@ -159,6 +160,46 @@ TEST(LtcFit, IsTheSameAtAnyNumberOfThreads) {
     EXPECT_EQ(one.cells[k].shape.e02, two.cells[k].shape.e02) << k;
     EXPECT_EQ(one.cells[k].shape.e20, two.cells[k].shape.e20) << k;
     EXPECT_EQ(one.cells[k].n_a(), two.cells[k].n_a()) << k;
+  }
+}
+
+// Columns of parts, and columns of an earlier run, are those of one run.
+TEST(LtcFit, IsTheSameInPartsAndFromKnownColumns) {
+  FitOptions options;
+  options.size = 5;
+  options.nodes = 8;
+  options.lights = 4;
+  options.light_directions = 64;
+  options.magnitude_directions = 64;
+  for (const char* lobe : {"ggx", "charlie"}) {
+    LobeFamily family = lobe_family(lobe);
+    if (family.name == "charlie") family.fixed_roughness = 0.5;
+    std::vector<std::vector<LtcCell>> columns(static_cast<std::size_t>(options.size));
+    FitOptions keeping = options;
+    keeping.finished = [&](int i, const std::vector<LtcCell>& column) { columns[static_cast<std::size_t>(i)] = column; };
+    const LtcTable whole = fit_table(family, keeping);
+    LtcTable joined = whole;
+    joined.cells.assign(joined.cells.size(), LtcCell{});
+    int made = 0;
+    for (int part = 1; part <= 3; ++part) {
+      FitOptions some = options;
+      some.part = part;
+      some.parts = 3;
+      some.finished = [&](int, const std::vector<LtcCell>&) { ++made; };
+      some.known = [&](int i, std::vector<LtcCell>& column) {
+        column = columns[static_cast<std::size_t>(i)];
+        return i % 2 == 1;
+      };
+      const LtcTable table = fit_table(family, some);
+      for (const int i : columns_of_part(family, some)) {
+        std::vector<LtcCell> column;
+        for (int j = 0; j < options.size; ++j) column.push_back(table.at(i, j));
+        put_column(joined, i, column);
+      }
+    }
+    EXPECT_EQ(made, family.fixed_roughness ? 1 : 3);
+    for (std::size_t k = 0; k < whole.cells.size(); ++k)
+      EXPECT_EQ(std::memcmp(&joined.cells[k], &whole.cells[k], sizeof(LtcCell)), 0) << lobe << " " << k;
   }
 }
 

@@ -1,10 +1,11 @@
 # Builds a program against this project as somebody else would, and runs it.
-#   cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... [-DLAUNCHER=...] -P consume.cmake install | (everything|installed|subdirectory|lobe COMPILER)
+#   cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... [-DLAUNCHER=...] -P consume.cmake install | (everything|installed|subdirectory|lobe|components COMPILER)
 #     install       installs the build into SCRATCH: also the manual page, the completions of shells and the shader files; the kernels
 #                   compile with one include path
 #     everything    from the installed tree, all layers
 #     installed     from the installed tree, the integrals alone: every package that other layers ask for is hidden
 #     lobe          from the installed tree, the layer that fits tables
+#     components    exchange and light are found in the installed tree, and an unknown component is refused by name
 #     subdirectory  the integrals alone, with this project as a subdirectory
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -56,6 +57,16 @@ if(how STREQUAL "everything")
   run(${configure} -S ${SOURCE}/tests/consumer/everything)
 elseif(how STREQUAL "lobe")
   run(${configure} -S ${SOURCE}/examples/fit)
+elseif(how STREQUAL "components")
+  run(${configure} -S ${SOURCE}/tests/consumer/components "-DCOMPONENTS=exchange;light")
+  file(REMOVE_RECURSE ${build})
+  execute_process(COMMAND ${configure} -S ${SOURCE}/tests/consumer/components "-DCOMPONENTS=exchange;lights"
+                  RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE output)
+  if(result EQUAL 0 OR NOT output MATCHES "steradian[ \n]+has[ \n]+no[ \n]+component[ \n]+lights[ \n]+here")
+    message(FATAL_ERROR "an unknown component gives no reason:\n${output}")
+  endif()
+  message(STATUS "${output}")
+  return()
 elseif(how STREQUAL "installed")
   run(${configure} ${hidden} -S ${SOURCE}/examples/cpp)
 else()

@@ -15,8 +15,13 @@
 #include "verb.h"
 
 namespace steradian::app {
+
+void check_baked_name(const std::string& path) {
+  if (!path.ends_with(".glb") && !path.ends_with(".gltf")) throw WrongOption("-o", "the baked scene is a .glb or .gltf file");
+}
+
 void merge_maps(const std::vector<std::string>& parts, const std::string& output, const Limits& limits) {
-  if (!output.ends_with(".glb") && !output.ends_with(".gltf")) throw WrongOption("-o", "the baked scene is a .glb or .gltf file");
+  check_baked_name(output);
   const auto add = [](Picture& to, const Picture& part, Part) {
     for (std::size_t i = 0; i < to.pixels.size(); ++i) to.pixels[i] += part.pixels[i];
     std::vector<Vec3f>& error = to.layers["error"];

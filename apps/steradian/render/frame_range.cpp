@@ -36,16 +36,17 @@ std::string numbered(const std::string& pattern, int frame) {
   return pattern.substr(0, first) + fmt::format("{:0{}}", frame, end - first) + pattern.substr(end);
 }
 
-std::vector<int> frames_to_make(const FrameRange& range, const std::string& output, bool force) {
+std::vector<int> frames_to_make(const FrameRange& range, const std::string& output, bool force, Part part) {
   numbered(output, 0);  // throws if there is no #
   std::vector<int> wanted;
-  for (int frame = range.first; frame <= range.last; ++frame)
+  for (int frame = range.first + part.number - 1; frame <= range.last; frame += part.count)
     if (force || !std::filesystem::exists(numbered(output, frame))) wanted.push_back(frame);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::string path = numbered(output, wanted[i]);
     if (i == 0 || folder_of(path) != folder_of(numbered(output, wanted[i - 1]))) check_output(path, Writes::picture);
   }
-  const std::size_t all = static_cast<std::size_t>(range.last - range.first) + 1;
+  const int length = range.last - range.first + 1;
+  const auto all = static_cast<std::size_t>((length - part.number + part.count) / part.count);
   if (wanted.size() < all)
     fmt::print(stderr, "steradian: {} of {} frames are there (--force makes them again)\n", all - wanted.size(), all);
   return wanted;

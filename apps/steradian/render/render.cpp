@@ -154,6 +154,7 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
   const bool ltc = r.indirect.mode == IndirectMode::ltc, path = r.indirect.mode == IndirectMode::path;
   const bool points = ltc || r.indirect.mode == IndirectMode::ltc_outgoing || r.indirect.mode == IndirectMode::ggx;
   const bool samples = r.method == "sampled" || path;
+  const bool frames = !options.frames.empty();  // a part of a sequence has whole frames
   const char* bounce = "--indirect ltc, ltc-outgoing or ggx";
   verb.refuse_without_effect(
       {{"--spp", samples, "--method sampled or --indirect path"},
@@ -174,12 +175,11 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
        {"--animation", !options.frames.empty(), "--frames"},
        {"--force", !options.frames.empty(), "--frames"},
        {"--stats", options.frames.empty(), "one picture, not --frames"},
-       {"--part", options.frames.empty(), "one picture; frames that exist are left out, so machines can share a sequence"},
-       {"--part", r.indirect.mode == IndirectMode::off, "no --indirect"},
-       {"--part", r.backend == Backend::cpu, "--backend cpu"},
-       {"--part", r.time_limit == 0, "no --time-limit"},
-       {"--part", options.output.ends_with(".exr"), "-o FILE.exr; steradian merge joins the parts"},
-       {"--part", options.bounces == "0" || samples || r.method == "reference" || r.reflections == 0,
+       {"--part", frames || r.indirect.mode == IndirectMode::off, "no --indirect"},
+       {"--part", frames || r.backend == Backend::cpu, "--backend cpu"},
+       {"--part", frames || r.time_limit == 0, "no --time-limit"},
+       {"--part", frames || options.output.ends_with(".exr"), "-o FILE.exr; steradian merge joins the parts"},
+       {"--part", frames || options.bounces == "0" || samples || r.method == "reference" || r.reflections == 0,
         "--bounces with --reflections 0, since mirrors blur over the whole picture"},
        {"--bounces", r.indirect.mode == IndirectMode::off, "no --indirect"},
        {"--bounce-error", options.bounces != "0" && !samples && r.method != "reference", "--bounces, by a method without samples"},
@@ -197,12 +197,11 @@ void refuse_unused_in_space(const Verb& verb, const RenderArguments& options) {
 void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
   const std::string& method = options.render.method;
   const char* third = "a scene in three dimensions (.gltf, .glb)";
-  verb.refuse({"--quality",     "--table",       "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
-               "--indirect",    "--vpls",        "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
-               "--max-lights",  "--light",       "--lights",           "--light-error",    "--environment",    "--environment-rotation",
-               "--background",  "--light-units", "--camera",           "--target-error",   "--resume",         "--animation",
-               "--time-limit",  "--part",        "--bounce-error",     "--bounce-strict",  "--bound",          "--reflections",
-               "--shadow-error"},
+  verb.refuse({"--quality",    "--table",        "--peak-form",        "--early-stop",     "--terminator",     "--multiple-scattering",
+               "--indirect",   "--vpls",         "--indirect-shadows", "--indirect-pairs", "--indirect-quads", "--indirect-clamp",
+               "--max-lights", "--light",        "--lights",           "--light-error",    "--environment",    "--environment-rotation",
+               "--background", "--light-units",  "--camera",           "--target-error",   "--resume",         "--animation",
+               "--time-limit", "--bounce-error", "--bounce-strict",    "--bound",          "--reflections",    "--shadow-error"},
               third);
   verb.refuse_without_effect(
       {{"--shadows", options.render.shadows != Shadows::off, third},
@@ -214,6 +213,7 @@ void refuse_unused_in_plane(const Verb& verb, const RenderArguments& options) {
        {"--occluders", options.plane.normal_map.empty(), "a light map, not --normal-map"},
        {"--bounces", (method == "auto" || method == "exact") && options.frames.empty(), "--method exact, without --frames"},
        {"--frames", method == "auto" || method == "exact", "--method exact"},
+       {"--part", !options.frames.empty(), "--frames"},
        {"--bounce-lattice", options.bounces != "0", "--bounces"},
        {"--edits", !options.frames.empty(), "--frames"},
        {"--fps", !options.frames.empty(), "--frames"},
@@ -238,6 +238,7 @@ void run_plane(RenderArguments& options) {
   }
   job.bounces = bounces_of(options.bounces);
   job.frames = options.frames;
+  if (!options.part.empty()) job.part = part_named(options.part);
   job.fps = options.fps;
   job.force = options.force;
   job.vulkan = options.render.backend == Backend::vulkan;
@@ -264,13 +265,11 @@ void run(const Verb& verb, RenderArguments& options) {
   load.near_origin = true;
   load.aspect = static_cast<double>(render_options.width) / render_options.height;
   for (const std::string& light : options.lights) load.lights.push_back(*words::find<AddedLight>(light));
-  if (!options.part.empty()) {
-    const Part part = part_named(options.part);
-    render_options.part = {part.number, part.count};
-  }
+  const Part part = options.part.empty() ? Part{} : part_named(options.part);
   if (!options.frames.empty())
-    return render_scene_frames({options.scene, options.output, frame_range(options.frames), options.fps, options.animation, options.force,
-                                load, render_options, fixed_exposure, options.tone, options.multiple_scattering});
+    return render_scene_frames({options.scene, options.output, frame_range(options.frames), part, options.fps, options.animation,
+                                options.force, load, render_options, fixed_exposure, options.tone, options.multiple_scattering});
+  render_options.part = {part.number, part.count};
   const auto start = std::chrono::steady_clock::now();
   LoadedScene loaded = load_scene(options.scene, load);
   const double load_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -424,7 +423,7 @@ void add_render(CommandLine& line) {
   verb.add("--device", r.device, "of vulkan: number or part of the name in `steradian info`").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--time-limit", r.time_limit, "seconds for the picture; 0: no limit").range(0.0, 1e6).group("Machine");
-  verb.add("--part", options->part, "k/n: render one of n parts to an .exr; steradian merge joins them").group("Machine");
+  verb.add("--part", options->part, "k/n: one of n parts, an .exr for steradian merge; or its --frames").group("Machine");
   verb.add("--stats", options->stats, "write times and counts of the passes to this JSON file").writes(Writes::file).group("Machine");
 
   verb.add("--vpls", r.indirect.virtual_lights, "number of virtual lights").range(64, 1 << 22).more("Bounce");

@@ -72,7 +72,7 @@ float exposure_of(const SceneFrames& job, SceneMoments& moments) {
 }  // namespace
 
 void render_scene_frames(SceneFrames job) {
-  const std::vector<int> wanted = frames_to_make(job.range, job.output, job.force);
+  const std::vector<int> wanted = frames_to_make(job.range, job.output, job.force, job.part);
   if (wanted.empty()) return;
 
   SceneMoments moments(job);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "part.h"
 #include "render/frame_range.h"
 #include "steradian/load_scene.h"
 #include "steradian/render_cache.h"
@@ -14,6 +15,7 @@ namespace steradian::app {
 struct SceneFrames {
   std::string scene, output;  // the frame's number replaces the #s of the output's name
   FrameRange range;
+  Part part;  // renders every part.count-th frame
   double fps = 24;
   std::string animation;  // by name; empty: the first
   bool force = false;     // existing frames are rendered again

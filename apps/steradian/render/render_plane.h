@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "part.h"
 #include "steradian/plane_bounce.h"
 #include "steradian/tone.h"
 
@@ -19,6 +20,7 @@ struct PlaneRender {
   std::string normal_map;   // a picture of this normal map is lit instead; empty: none
   double lamp_height = 45;  // height of the lamp over the normal map, in degrees
   std::string frames;       // A..B; empty: one picture
+  Part part;                // renders every part.count-th frame
   std::string edits;        // JSON file of edits, for frames
   double fps = 24;          // frames per second of an animated drawing
   bool force = false;       // for frames: renders existing frames again

@@ -142,7 +142,7 @@ void render_animation(const PlaneRender& job, const std::vector<int>& wanted, co
 }  // namespace
 
 void render_plane_frames(const PlaneRender& job, const PlaneFrames& frames, const PlaneFrameOptions& options, PlaneScene scene) {
-  const std::vector<int> wanted = frames_to_make(frames.range, job.output, job.force);
+  const std::vector<int> wanted = frames_to_make(frames.range, job.output, job.force, job.part);
   if (wanted.empty()) return;
   const PlaneAnimation animation(job.scene, job.limits);
   std::optional<PlaneDevice> device;

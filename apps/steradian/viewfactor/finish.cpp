@@ -6,6 +6,7 @@
 
 #include "steradian/view_factors.h"
 #include "verb.h"
+#include "viewfactor/in_file.h"
 #include "viewfactor/report.h"
 
 namespace steradian::app {
@@ -17,19 +18,7 @@ namespace {
 // Errors of rows above this and above ten times --eps come from parts of faces that could not be decided.
 constexpr double kDoubtfulError = 0.01;
 
-}  // namespace
-
-double smallest_kept(double drop, double eps) {
-  if (!(drop * eps < 1)) throw WrongOption("--drop", "times --eps must be below 1");
-  return drop * eps;
-}
-
-void drop_small(StoredRun& stored, double drop) {
-  if (!(drop > 0)) return;
-  stored.run.smallest = smallest_kept(drop, stored.run.eps);
-  stored.factors = without_small_factors(stored.factors, stored.run.smallest);
-}
-
+// Sentences about rows that a user should look at, with the name of the worst one.
 std::vector<std::string> doubts_about(const StoredRun& stored) {
   const ViewFactors& f = stored.factors;
   std::vector<std::string> doubts;
@@ -53,8 +42,32 @@ std::vector<std::string> doubts_about(const StoredRun& stored) {
   return doubts;
 }
 
+}  // namespace
+
+double smallest_kept(double drop, double eps) {
+  if (!(drop * eps < 1)) throw WrongOption("--drop", "times --eps must be below 1");
+  return drop * eps;
+}
+
 void warn(const std::string& path, const std::vector<std::string>& warnings) {
   for (const std::string& w : warnings) fmt::print(stderr, "warning: {}: {}\n", path, w);
+}
+
+std::vector<std::string> finish_factors(const std::string& path, StoredRun& stored, const FinishOptions& options) {
+  const std::vector<std::string> doubts = doubts_about(stored);
+  warn(path, doubts);
+  if (options.close) stored.factors = in_file(path, [&] { return closed_view_factors(stored.factors); });
+  if (const Grouping grouping = std::move(stored.grouping); !grouping.groups.empty()) {
+    stored.grouping = {};
+    stored.run.groups = grouping.groups;
+    stored.factors = grouped_view_factors(stored.factors, grouping.groups, grouping.names);
+    if (!grouping.masks.empty()) stored.factors = with_masks(stored.factors, grouping.masks);
+  }
+  if (options.drop > 0) {
+    stored.run.smallest = smallest_kept(options.drop, stored.run.eps);
+    stored.factors = without_small_factors(stored.factors, stored.run.smallest);
+  }
+  return doubts;
 }
 
 void print_summary(const StoredRun& stored, double seconds) {

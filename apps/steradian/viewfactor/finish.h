@@ -10,11 +10,16 @@ namespace steradian::app {
 
 // The smallest factor that --drop keeps. Throws WrongOption where it is not below 1.
 double smallest_kept(double drop, double eps);
-// Leaves out smaller ones. drop: 0 keeps all.
-void drop_small(exchange::StoredRun& stored, double drop);
 
-// Sentences about rows that a user should look at, with the name of the worst one.
-std::vector<std::string> doubts_about(const exchange::StoredRun& stored);
+struct FinishOptions {
+  bool close = false;
+  double drop = 0;  // 0 keeps all
+};
+
+// The last steps on the matrix of all faces: warns of doubtful rows, closes the enclosure, adds up the rows of groups, and drops small
+// factors. Returns the warnings. path: the file that errors name.
+std::vector<std::string> finish_factors(const std::string& path, exchange::StoredRun& stored, const FinishOptions& options);
+
 void warn(const std::string& path, const std::vector<std::string>& warnings);
 
 void print_summary(const exchange::StoredRun& stored, double seconds);

@@ -241,8 +241,8 @@ TEST(Vs3Files, ReadSurfacesHolesObstructionsAndCombinations) {
   EXPECT_EQ(window.groups, (std::vector<std::size_t>{0, 1, 0}));
   EXPECT_EQ(read("S 1 1 2 3 4 0 0 0.5 wall\nN 2 21 24 23 22 1 0 0.5 nothing\n").faces.size(), 1u);
   EXPECT_EQ(read("S 1 1 2 3 0 0 0 0.5 triangle\n").faces[0].outline.size(), 3u);
-  for (const char* bad : {"S 1 1 2 3 99 0 0 0.5 x\n", "S 1 1 2 3 4 7 0 0.5 x\n", "M 1 1 2 3 4 0 0 0.5 x\n", "S 1 1 2\n",
-                          "S 1 1 1 1 1 0 0 0.5 x\n", "F 3a\n", "Q\n", "V 1 0 0\n", "S 1 1 2 3 4 0 0 .5 x\nS 1 1 2 3 4 0 0 .5 x\n"})
+  for (const char* bad : {"S 1 1 2 3 99 0 0 0.5 x\n", "S 1 1 2 3 4 7 0 0.5 x\n", "S 1 1 2\n", "S 1 1 1 1 1 0 0 0.5 x\n", "F 3a\n", "Q\n",
+                          "V 1 0 0\n", "S 1 1 2 3 4 0 0 .5 x\nS 1 1 2 3 4 0 0 .5 x\n"})
     EXPECT_THROW(read(bad), Error) << bad;
 }
 
@@ -252,8 +252,9 @@ TEST(SceneFaces, DividedFacesCoverTheFace) {
   EXPECT_EQ(divided_face(rectangle, 0.5, budget).size(), 8u);
   // A ring.
   const ViewFactorFace ring{"ring", {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}}, {{{1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}}}};
+  const ViewFactorFace notched{"notch", {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}};
   const ViewFactorFace triangle{"t", {{0, 0, 0}, {3, 0, 0}, {0, 3, 1}}};
-  for (const ViewFactorFace& face : {rectangle, ring, triangle})
+  for (const ViewFactorFace& face : {rectangle, ring, triangle, notched})
     for (const double size : {10.0, 1.0, 0.37}) {
       double area = 0;
       for (const ViewFactorFace& part : divided_face(face, size, budget)) area += make_element(part.outline, part.holes, "part").area;
@@ -261,6 +262,11 @@ TEST(SceneFaces, DividedFacesCoverTheFace) {
       EXPECT_NEAR(area, whole, 1e-12 * whole) << face.name << " by " << size;
     }
   EXPECT_THROW(divided_face(rectangle, 1e-9, budget), Error);
+  // Cuts that run through a hole or a notch leave simple elements, which can obstruct.
+  for (const ViewFactorFace& face : {ring, notched})
+    for (const double size : {2.0, 1.0, 0.37})
+      for (const ViewFactorFace& part : divided_face(face, size, budget))
+        EXPECT_TRUE(is_simple(make_element(part.outline, part.holes, part.name))) << part.name << " by " << size;
 }
 
 }  // namespace

@@ -9,7 +9,9 @@
 #include <numeric>
 
 #include "core/files.h"
+#include "exchange/files/hdf5_file.h"
 #include "exchange/files/npz.h"
+#include "exchange/files/utf8.h"
 #include "exchange/files/view3d_text.h"
 #include "steradian/error.h"
 
@@ -18,35 +20,6 @@ namespace {
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-// NumPy's arrays of text have one length for all: 4 bytes a character.
-std::vector<char32_t> characters_of(const std::string& utf8) {
-  std::vector<char32_t> result;
-  for (std::size_t i = 0; i < utf8.size();) {
-    const auto lead = static_cast<unsigned char>(utf8[i]);
-    const std::size_t more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 0;
-    char32_t c = more == 0 ? lead : lead & (0x3fu >> more);
-    for (std::size_t k = 1; k <= more && i + k < utf8.size(); ++k) c = c << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3fu);
-    result.push_back(c);
-    i += 1 + more;
-  }
-  return result;
-}
-void append_utf8(std::string& to, char32_t c) {
-  const auto put = [&](char32_t byte) { to += static_cast<char>(byte); };
-  if (c < 0x80) return put(c);
-  if (c < 0x800) {
-    put(0xc0 | c >> 6);
-  } else if (c < 0x10000) {
-    put(0xe0 | c >> 12);
-    put(0x80 | (c >> 6 & 0x3f));
-  } else {
-    put(0xf0 | (c >> 18 & 7));
-    put(0x80 | (c >> 12 & 0x3f));
-    put(0x80 | (c >> 6 & 0x3f));
-  }
-  put(0x80 | (c & 0x3f));
 }
 
 std::string text_of(const RunFacts& run) {
@@ -82,7 +55,45 @@ RunFacts run_of(const std::string& text, const std::string& path) {
 
 }  // namespace
 
-void write_factors_npz(const std::string& path, const StoredRun& stored) {
+namespace {
+
+// Texts as one of NumPy's arrays, all as long as the longest.
+class TextArray {
+ public:
+  TextArray(const char* name, const std::vector<std::string>& texts) : name_(name), count_(texts.size()) {
+    std::vector<std::vector<char32_t>> characters;
+    for (const std::string& text : texts) {
+      characters.push_back(characters_of(text));
+      longest_ = std::max(longest_, characters.back().size());
+    }
+    all_.reserve(longest_ * count_);
+    for (std::vector<char32_t>& text : characters) {
+      text.resize(longest_);
+      all_.insert(all_.end(), text.begin(), text.end());
+    }
+  }
+  NpyArray array() const { return {name_, "<U" + std::to_string(longest_), {count_}, {bytes_of(all_)}}; }
+
+ private:
+  std::string name_;
+  std::size_t count_, longest_ = 1;
+  std::vector<char32_t> all_;
+};
+
+std::vector<std::string> texts_of(const ReadArray& array) {
+  const std::size_t count = array.count(), longest = count == 0 ? 0 : array.bytes.size() / 4 / count;
+  std::vector<std::string> texts(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < longest; ++k) {
+      char32_t c = 0;
+      std::memcpy(&c, array.bytes.data() + 4 * (i * longest + k), 4);
+      if (c != 0) append_utf8(texts[i], c);
+    }
+  return texts;
+}
+
+// All arrays of a run, given to a writer of files.
+void write_arrays(const std::string& path, const StoredRun& stored, void (*write)(const std::string&, const std::vector<NpyArray>&)) {
   const ViewFactors& f = stored.factors;
   const std::uint64_t entries = f.entries(), n = f.size(), own = f.own.empty() ? 0 : n;
   if (n > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max())) throw Error(path, "more faces than a 32-bit index holds");
@@ -135,22 +146,10 @@ void write_factors_npz(const std::string& path, const StoredRun& stored) {
   }
 
   const std::vector<std::int64_t> shape = {static_cast<std::int64_t>(n), static_cast<std::int64_t>(n)};
-  std::vector<std::vector<char32_t>> names;
-  std::size_t longest = 1;
-  for (const std::string& name : f.names) {
-    names.push_back(characters_of(name));
-    longest = std::max(longest, names.back().size());
-  }
-  std::vector<char32_t> name_characters;
-  name_characters.reserve(longest * n);
-  for (std::vector<char32_t>& name : names) {
-    name.resize(longest);
-    name_characters.insert(name_characters.end(), name.begin(), name.end());
-  }
+  const TextArray names("names", f.names), grouped_names("grouping_names", stored.grouping.names);
   std::vector<double> corners;
   std::vector<std::int64_t> loops = {0}, face_loops = {0};
   std::vector<std::int64_t> groups(stored.run.groups.begin(), stored.run.groups.end());
-  std::string face_names;
   for (const ViewFactorFace& face : stored.faces) {
     const auto add = [&](const std::vector<Vec3d>& loop) {
       for (const Vec3d& v : loop) corners.insert(corners.end(), {v.x, v.y, v.z});
@@ -160,27 +159,41 @@ void write_factors_npz(const std::string& path, const StoredRun& stored) {
     for (const auto& hole : face.holes) add(hole);
     face_loops.push_back(static_cast<std::int64_t>(loops.size() - 1));
   }
+  const std::vector<std::int64_t> grouping(stored.grouping.groups.begin(), stored.grouping.groups.end());
+  std::vector<double> masks;
+  for (const FaceMask& m : stored.grouping.masks)
+    masks.insert(masks.end(), {static_cast<double>(m.row), static_cast<double>(m.base), m.area});
   const std::string run = text_of(stored.run), format = "csr";
   const auto numbers = [](const char* name, const auto& values, const char* type) {
     return NpyArray{name, type, {values.size()}, {bytes_of(values)}};
   };
-  write_npz(path, {indices,
-                   wide ? numbers("indptr", starts, "<i8") : numbers("indptr", narrow_starts, "<i4"),
-                   {"format", "|S3", {}, {format}},
-                   numbers("shape", shape, "<i8"),
-                   data,
-                   errors,
-                   numbers("areas", f.areas, "<f8"),
-                   numbers("row_sums", f.row_sums, "<f8"),
-                   numbers("row_errors", f.row_errors, "<f8"),
-                   {"names", "<U" + std::to_string(longest), {n}, {bytes_of(name_characters)}},
-                   {"run", "|S" + std::to_string(run.size()), {}, {run}},
-                   {"corners", "<f8", {corners.size() / 3, 3}, {bytes_of(corners)}},
-                   numbers("loops", loops, "<i8"),
-                   numbers("face_loops", face_loops, "<i8"),
-                   {"obstacles", "<f8", {stored.obstacles.size(), 3, 3}, {bytes_of(stored.obstacles)}},
-                   numbers("groups", groups, "<i8")});
+  std::vector<NpyArray> arrays = {indices,
+                                  wide ? numbers("indptr", starts, "<i8") : numbers("indptr", narrow_starts, "<i4"),
+                                  {"format", "|S3", {}, {format}},
+                                  numbers("shape", shape, "<i8"),
+                                  data,
+                                  errors,
+                                  numbers("areas", f.areas, "<f8"),
+                                  numbers("row_sums", f.row_sums, "<f8"),
+                                  numbers("row_errors", f.row_errors, "<f8"),
+                                  names.array(),
+                                  {"run", "|S" + std::to_string(run.size()), {}, {run}},
+                                  {"corners", "<f8", {corners.size() / 3, 3}, {bytes_of(corners)}},
+                                  numbers("loops", loops, "<i8"),
+                                  numbers("face_loops", face_loops, "<i8"),
+                                  {"obstacles", "<f8", {stored.obstacles.size(), 3, 3}, {bytes_of(stored.obstacles)}},
+                                  numbers("groups", groups, "<i8")};
+  if (!grouping.empty()) {
+    arrays.push_back(numbers("grouping", grouping, "<i8"));
+    arrays.push_back(grouped_names.array());
+    arrays.push_back({"grouping_masks", "<f8", {masks.size() / 3, 3}, {bytes_of(masks)}});
+  }
+  write(path, arrays);
 }
+
+}  // namespace
+
+void write_factors_npz(const std::string& path, const StoredRun& stored) { write_arrays(path, stored, write_npz); }
 
 StoredRun read_factors_npz(const std::string& path, Budget& budget) {
   const NpzFile file(path, budget);
@@ -194,16 +207,7 @@ StoredRun read_factors_npz(const std::string& path, Budget& budget) {
   const std::size_t n = f.areas.size();
   const ReadArray& names = file.array("names", "<U");
   if (names.count() != n) damaged("names");
-  const std::size_t longest = n == 0 ? 0 : names.bytes.size() / 4 / n;
-  for (std::size_t i = 0; i < n; ++i) {
-    std::string name;
-    for (std::size_t k = 0; k < longest; ++k) {
-      char32_t c = 0;
-      std::memcpy(&c, names.bytes.data() + 4 * (i * longest + k), 4);
-      if (c != 0) append_utf8(name, c);
-    }
-    f.names.push_back(std::move(name));
-  }
+  f.names = texts_of(names);
   const bool wide = file.array("indptr", "<i").type == "<i8";
   std::vector<std::int64_t> starts;
   std::vector<std::uint32_t> columns;
@@ -270,6 +274,22 @@ StoredRun read_factors_npz(const std::string& path, Budget& budget) {
   if (stored.run.groups.empty() && stored.faces.size() != n) damaged("faces");
   if (stored.run.groups.empty())
     for (std::size_t i = 0; i < n; ++i) stored.faces[i].name = f.names[i];
+  if (file.has("grouping")) {
+    Grouping& g = stored.grouping;
+    for (const std::int64_t group : file.values<std::int64_t>("grouping", "<i8")) g.groups.push_back(static_cast<std::size_t>(group));
+    const ReadArray& group_names = file.array("grouping_names", "<U");
+    if (group_names.count() > group_names.bytes.size() / 4) damaged("groups");  // texts without characters
+    g.names = texts_of(group_names);
+    const std::vector<double> masks = file.values<double>("grouping_masks", "<f8");
+    const auto is_row = [&](double x) { return x >= 0 && x < static_cast<double>(g.names.size()); };
+    if (masks.size() % 3 != 0 || g.groups.size() != n ||
+        std::any_of(g.groups.begin(), g.groups.end(), [&](std::size_t group) { return group >= g.names.size(); }))
+      damaged("groups");
+    for (std::size_t i = 0; i < masks.size(); i += 3) {
+      if (!is_row(masks[i]) || !is_row(masks[i + 1]) || !(masks[i + 2] > 0) || masks[i] == masks[i + 1]) damaged("masks");
+      g.masks.push_back({static_cast<std::size_t>(masks[i]), static_cast<std::size_t>(masks[i + 1]), masks[i + 2]});
+    }
+  }
   f.row_sums = file.values<double>("row_sums", "<f8");
   f.row_errors = file.values<double>("row_errors", "<f8");
   if (f.row_sums.size() != n || f.row_errors.size() != n) damaged("rows");
@@ -303,13 +323,15 @@ void write_factors_mtx(const std::string& path, const ViewFactors& f) {
 }
 
 void check_factors_name(const std::string& path) {
+  if (ends_with(path, ".h5")) return check_hdf5();
   if (!ends_with(path, ".npz") && !ends_with(path, ".mtx") && !ends_with(path, ".vf"))
-    throw UsageError(path, "view factors are written as .npz, .mtx or .vf", "choose one of these endings");
+    throw UsageError(path, "view factors are written as .npz, .h5, .mtx or .vf", "choose one of these endings");
 }
 
 void write_factors(const std::string& path, const StoredRun& stored) {
   check_factors_name(path);
   if (ends_with(path, ".npz")) return write_factors_npz(path, stored);
+  if (ends_with(path, ".h5")) return write_arrays(path, stored, write_hdf5);
   if (ends_with(path, ".vf")) return write_view3d_text(path, stored.factors, stored.run.version);
   write_factors_mtx(path, stored.factors);
 }

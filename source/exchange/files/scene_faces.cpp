@@ -86,17 +86,36 @@ std::vector<ViewFactorFace> divided_face(const ViewFactorFace& face, double size
     return part.is_empty() ? part : cut_element(part, e.centroid + axis * high, axis, -1);
   };
   const double far = 4 * e.radius;
+  const bool face_is_simple = is_simple(e);
+  std::vector<PlaneElement> triangles;
   for (int i = 0; i < k; ++i) {
     const auto step = [&](double low, double width, int at, int count) {
       return at == 0 ? -far : at == count ? far : low + width * at / count;
     };
-    const PlaneElement strip = k == 1 ? e : cut(e, axes.x, step(box.low.x, box.size().x, i, k), step(box.low.x, box.size().x, i + 1, k));
+    const auto strip_of = [&](const PlaneElement& whole) {
+      return k == 1 ? whole : cut(whole, axes.x, step(box.low.x, box.size().x, i, k), step(box.low.x, box.size().x, i + 1, k));
+    };
+    const PlaneElement strip = strip_of(e);
     if (strip.is_empty()) continue;
     for (int j = 0; j < l; ++j) {
-      const PlaneElement part =
-          l == 1 ? strip : cut(strip, axes.y, step(box.low.y, box.size().y, j, l), step(box.low.y, box.size().y, j + 1, l));
+      const auto cell_of = [&](const PlaneElement& of) {
+        return l == 1 ? of : cut(of, axes.y, step(box.low.y, box.size().y, j, l), step(box.low.y, box.size().y, j + 1, l));
+      };
       // Slivers of rounding are no elements.
-      if (!part.is_empty() && part.area > 1e-12 * size * size) result.push_back(face_of_element(part, name()));
+      const auto add = [&](const PlaneElement& part) {
+        if (!part.is_empty() && part.area > 1e-12 * size * size) result.push_back(face_of_element(part, name()));
+      };
+      const PlaneElement part = cell_of(strip);
+      if (part.is_empty() || !face_is_simple || is_simple(part)) {
+        add(part);
+        continue;
+      }
+      // The cut runs along a hole or through a notch: the triangles of the face have simple parts.
+      if (triangles.empty()) triangles = triangles_of_element(e, face.name);
+      for (const PlaneElement& triangle : triangles) {
+        const PlaneElement of_triangle = strip_of(triangle);
+        if (!of_triangle.is_empty()) add(cell_of(of_triangle));
+      }
     }
   }
   return result;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/budget.h"
+#include "exchange/files/masks.h"
 #include "exchange/files/mesh_files.h"
 #include "steradian/load_scene.h"
 #include "steradian/view_factors.h"
@@ -20,6 +21,7 @@ struct SceneFaces {
   std::vector<std::size_t> groups;                   // by face: its place in group_names; empty by face
   std::vector<std::string> group_names;              // nodes or materials that have faces
   std::vector<std::array<Vec3d, 3>> obstacles = {};  // triangles that obstruct and exchange nothing
+  std::vector<FaceMask> masks = {};                  // rows of group_names without faces
   std::vector<std::string> warnings = {};            // whole sentences about what was split or dropped
 };
 

@@ -14,7 +14,7 @@ namespace steradian::exchange {
 namespace {
 
 struct Vs3Surface {
-  char kind = 'S';  // S, N or O
+  char kind = 'S';  // S, M, N or O
   std::vector<Vec3d> corners;
   std::vector<std::vector<Vec3d>> holes;
   int base = 0, combined = 0;
@@ -40,19 +40,20 @@ class Vs3Reader {
       case 'F': return read_form(words);
       case 'V': return read_vertex(words);
       case 'S':
+      case 'M':
       case 'N':
       case 'O': return read_surface(words, kind);
-      case 'M': throw Error(place_, "masking surfaces (M) are not supported", "make it a surface a little above its base");
       default:
-        throw Error(place_, std::string("a line that begins with ") + kind + " is not known", "lines begin with T, C, F, V, S, N, O or E");
+        throw Error(place_, std::string("a line that begins with ") + kind + " is not known",
+                    "lines begin with T, C, F, V, S, M, N, O or E");
     }
   }
   bool has_ended() const { return ended_; }
 
-  // Subsurfaces and null surfaces become holes of their bases.
+  // Subsurfaces, masks and null surfaces become holes of their bases.
   std::map<int, Vs3Surface> finish() {
     for (auto& [number, surface] : surfaces_) {
-      if (surface.base == 0) continue;
+      if (surface.base == 0 && surface.kind != 'M') continue;
       const auto base = surfaces_.find(surface.base);
       if (base == surfaces_.end() || base->first == number)
         throw Error(surface.place, "its base " + std::to_string(surface.base) + " is no other surface",
@@ -82,8 +83,11 @@ class Vs3Reader {
     double emissivity = 0;
     s.kind = kind;
     s.place = place_;
-    if (!(words >> number >> corners[0] >> corners[1] >> corners[2] >> corners[3] >> s.base >> s.combined >> emissivity) || number < 1)
-      throw Error(place_, "is no surface", "S number v1 v2 v3 v4 base cmb emit name");
+    bool good = static_cast<bool>(words >> number >> corners[0] >> corners[1] >> corners[2] >> corners[3]) && number >= 1;
+    // An obstruction may end behind its corners.
+    const bool ends = good && kind == 'O' && !(words >> std::ws).good();
+    if (good && !ends) good = static_cast<bool>(words >> s.base >> s.combined >> emissivity);
+    if (!good) throw Error(place_, "is no surface", "S number v1 v2 v3 v4 base cmb emit name");
     if (!(words >> s.name)) s.name = "surface " + std::to_string(number);
     for (const int c : corners) {
       if (c == 0 && s.corners.size() == 3) break;
@@ -99,6 +103,55 @@ class Vs3Reader {
   std::map<int, Vec3d> vertices_;
   std::map<int, Vs3Surface> surfaces_;
 };
+
+// The faces of all surfaces, and their rows of the matrix.
+SceneFaces faces_of_surfaces(const std::map<int, Vs3Surface>& surfaces, const FaceOptions& options, Budget& budget) {
+  SceneFaces result;
+  const bool has_masks = std::any_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.second.kind == 'M'; });
+  const bool by_face = options.by == FacesBy::face;
+  if (has_masks && by_face && options.divide > 0)
+    throw UsageError("--divide", "a mask covers parts of several elements", "give --by node, or leave out --divide");
+  std::map<int, std::size_t> row_of;  // keys: surfaces, and those with which they are combined
+  const auto add_row = [&](const std::string& name) {
+    result.group_names.push_back(name);
+    return result.group_names.size() - 1;
+  };
+  const auto add_obstacle = [&](const PlaneElement& element, const std::string& place) {
+    for (const PlaneElement& t : triangles_of_element(element, place))
+      result.obstacles.push_back({t.contours[0][0], t.contours[0][1], t.contours[0][2]});
+  };
+  for (const auto& [number, s] : surfaces) {
+    if (s.kind == 'N') continue;
+    const PlaneElement element = make_element(s.corners, s.holes, s.place + " (" + s.name + ")");
+    if (s.kind == 'O') {
+      add_obstacle(element, s.place);
+    } else if (s.kind == 'M') {
+      const Vs3Surface& base = surfaces.at(s.base);
+      if (base.kind != 'S') throw Error(s.place, "its base is no radiating surface", "give the number of a surface (S)");
+      if (!(dot(element.normal, make_element(base.corners, {}, base.place).normal) < 0))
+        throw Error(s.place, "the mask and its base face the same side", "give the corners in the other order");
+      add_obstacle(element, s.place);
+      row_of[number] = add_row(s.name);
+    } else {
+      const std::size_t before = result.faces.size();
+      add_faces(result, {{s.name, s.corners, s.holes}}, options, budget);
+      if (by_face && !has_masks) continue;
+      const int whole = s.combined != 0 && !by_face ? s.combined : number;
+      if (surfaces.count(whole) == 0)
+        throw Error(s.place, "it is combined with a surface that is not there", "give the number of a surface, or 0");
+      for (std::size_t face = before; face < result.faces.size(); ++face) {
+        const bool fresh = by_face || row_of.count(whole) == 0;
+        const std::size_t row = fresh ? add_row(by_face ? result.faces[face].name : surfaces.at(whole).name) : row_of[whole];
+        result.groups.push_back(row);
+        row_of.emplace(whole, row);
+        row_of.emplace(number, row);
+      }
+    }
+  }
+  for (const auto& [number, s] : surfaces)
+    if (s.kind == 'M') result.masks.push_back({row_of.at(number), row_of.at(s.base), make_element(s.corners, s.holes, s.place).area});
+  return result;
+}
 
 }  // namespace
 
@@ -116,27 +169,8 @@ SceneFaces read_vs3(const std::string& path, const FaceOptions& options, Budget&
   std::string line;
   for (std::size_t number = 1; !reader.has_ended() && std::getline(text, line); ++number) reader.read_line(line, number);
 
-  SceneFaces result;
-  std::map<int, std::size_t> group_of;
   const std::map<int, Vs3Surface> surfaces = reader.finish();
-  for (const auto& [number, s] : surfaces) {
-    if (s.kind == 'N') continue;
-    const PlaneElement element = make_element(s.corners, s.holes, s.place + " (" + s.name + ")");
-    if (s.kind == 'O') {
-      for (const PlaneElement& t : triangles_of_element(element, s.place))
-        result.obstacles.push_back({t.contours[0][0], t.contours[0][1], t.contours[0][2]});
-      continue;
-    }
-    add_faces(result, {{s.name, s.corners, s.holes}}, options, budget);
-    if (options.by == FacesBy::face) continue;
-    const auto whole = surfaces.find(s.combined != 0 ? s.combined : number);
-    if (whole == surfaces.end())
-      throw Error(s.place, "it is combined with a surface that is not there", "give the number of a surface, or 0");
-    const auto [found, fresh] = group_of.emplace(whole->first, result.group_names.size());
-    if (fresh) result.group_names.push_back(whole->second.name);
-    result.groups.resize(result.faces.size(), found->second);
-  }
-  return result;
+  return faces_of_surfaces(surfaces, options, budget);
 }
 
 }  // namespace steradian::exchange

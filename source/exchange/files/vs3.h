@@ -9,8 +9,8 @@ namespace steradian::exchange {
 
 bool is_vs3_file(const std::string& path);
 
-// Surfaces (S), subsurfaces and null surfaces (holes in their base), obstructions (O). Combined surfaces are groups by node. Throws Error
-// with the line for anything else: masks (M), the form F 3a, surfaces that name missing vertices.
+// Surfaces (S), subsurfaces and null surfaces (N: holes in their base), masks (M), obstructions (O). Combined surfaces are groups by node;
+// with masks, faces are groups, too. Throws Error with the line for anything else: the form F 3a, surfaces that name missing vertices.
 SceneFaces read_vs3(const std::string& path, const FaceOptions& options, Budget& budget);
 
 }  // namespace steradian::exchange

@@ -198,18 +198,31 @@ PlaneElement turned_over(const PlaneElement& element) {
   return result;
 }
 
-std::vector<PlaneElement> triangles_of_element(const PlaneElement& element, const std::string& place) {
+namespace {
+
+// The contours in the element's own plane.
+Contours flat_contours(const PlaneElement& element) {
   const Frame frame = Frame::from_normal(element.normal);
   Contours contours;
-  std::vector<Vec3d> corners;
   for (const Loop& loop : element.contours) {
     std::vector<Vec2d>& flat = contours.emplace_back();
     for (const Vec3d& v : loop) {
       const Vec3d local = frame.to_local(v - element.centroid);
       flat.push_back({local.x, local.y});
-      corners.push_back(v);
     }
   }
+  return contours;
+}
+
+}  // namespace
+
+bool is_simple(const PlaneElement& element) {
+  return (element.contours.size() == 1 && element.contours[0].size() == 3) || triangles_of(flat_contours(element)).has_value();
+}
+
+std::vector<PlaneElement> triangles_of_element(const PlaneElement& element, const std::string& place) {
+  std::vector<Vec3d> corners;
+  for (const Loop& loop : element.contours) corners.insert(corners.end(), loop.begin(), loop.end());
   std::vector<PlaneElement> result;
   const auto add = [&](const Loop& loop) {
     PlaneElement t;
@@ -222,7 +235,7 @@ std::vector<PlaneElement> triangles_of_element(const PlaneElement& element, cons
     add(corners);
     return result;
   }
-  const auto triangles = triangles_of(contours);
+  const auto triangles = triangles_of(flat_contours(element));
   if (!triangles) throw Error(place, "its outline crosses or touches itself", "split the face into triangles");
   for (const auto& [a, b, c] : *triangles) add({corners[a], corners[b], corners[c]});
   return result;

@@ -48,6 +48,9 @@ PlaneElement cut_element(const PlaneElement& element, Vec3d point, Vec3d normal,
 // The same element with its front on the other side.
 PlaneElement turned_over(const PlaneElement& element);
 
+// True if no contour touches or crosses itself or another one.
+bool is_simple(const PlaneElement& element);
+
 // Triangles that cover the element. Throws Error at `place` if the contours touch or cross.
 std::vector<PlaneElement> triangles_of_element(const PlaneElement& element, const std::string& place);
 
