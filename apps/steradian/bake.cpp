@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bake/bake.h"
 #include "bake/baked_file.h"
@@ -17,6 +17,7 @@
 #include "core/simd.h"
 #include "core/words.h"
 #include "render/picture_options.h"
+#include "render/resume.h"
 #include "part.h"
 #include "steradian/version.h"
 #include "command_line.h"
@@ -29,6 +30,7 @@ namespace {
 struct BakeArguments {
   std::string scene, output, bounces = "all", direct = "on", target = "texture", stats, part;
   std::vector<std::string> groups;
+  bool resume = false;
   LoadOptions load;
   bake::BakeOptions bake;
 };
@@ -63,6 +65,16 @@ std::string settings_of(const BakeArguments& options) {
   return fmt::format("{} | bounces {} {}{} | {} | shadows {} | environment {} {} | lights {} {}", name_of(active_simd()), options.bounces,
                      r.bounce_error, r.bounce_strict ? " strict" : "", words::name_of(r.quality), words::name_of(r.shadows),
                      load.environment, load.environment_rotation, load.max_lights.value_or(0), words::name_of(load.light_units));
+}
+
+// Everything that the map depends on.
+std::string identity_of(const BakeArguments& options, const Scene& scene) {
+  const bake::BakeOptions& b = options.bake;
+  std::string identity = fmt::format("{} | {} | {} | texels {} | direct {} | {} | part {}/{}", version(),
+                                     fingerprint({options.scene, options.load.environment}, scene), settings_of(options), b.texels,
+                                     options.direct, options.target, b.part, b.parts);
+  for (const std::string& group : options.groups) identity += " | group " + group;
+  return identity;
 }
 
 void parse_part(BakeArguments& options) {
@@ -121,12 +133,13 @@ void run(const Verb& verb, BakeArguments& options) {
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Scene& scene = loaded.scene;
 
-  std::unique_ptr<Progress> progress;
-  std::once_flag once;
-  bake.light.progress = [&](std::uint64_t, std::uint64_t total) {
-    std::call_once(once, [&] { progress = std::make_unique<Progress>("bake", total); });
-    progress->add();
-  };
+  std::optional<UnfinishedRun> unfinished;
+  if (options.resume) {
+    const std::string identity = identity_of(options, scene);
+    bake.unfinished = &unfinished.emplace(options.output + ".part", steradian::fingerprint(identity.data(), identity.size()));
+  }
+  std::optional<Progress> progress(std::in_place, "bake", 1000);
+  bake.progress = [&](double fraction) { progress->reach(fraction); };
   bake::BakeStats stats;
   Budget budget(load.limits);
   const bake::LightMap map =
@@ -143,6 +156,7 @@ void run(const Verb& verb, BakeArguments& options) {
     bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits);
     scene::write_gltf_file(file, options.output);
   }
+  if (unfinished) unfinished->remove();
   stats.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (!options.stats.empty()) write_file(options.stats, stats_json(options, map, stats).dump(2) + "\n");
   print_summary(options, map, stats);
@@ -170,6 +184,7 @@ void add_bake(CommandLine& line) {
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   add_environment(verb, options->load);
   verb.add("--part", options->part, "k/n: bake one of n parts to an .exr; steradian merge joins them").group("Machine");
+  verb.add_flag("--resume", options->resume, "go on after an interruption; keeps finished charts in OUTPUT.part").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--stats", options->stats, "write counts, errors and times to this JSON file").writes(Writes::file).group("Machine");
   verb.add("--max-lights", options->load.max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");
