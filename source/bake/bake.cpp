@@ -79,7 +79,7 @@ class MapBake {
     std::uint64_t triangles = 0;
     for (const Mesh& mesh : scene_.meshes) triangles += mesh.triangle_count();
     budget_.take_memory(place_, "the charts of its triangles", triangles * kChartBytes);
-    Charts charts = charts_of(scene_, place_);
+    Charts charts = charts_of(scene_, options_.texels, place_);
     map_.warnings = std::move(charts.warnings);
     map_.charts = std::move(charts.charts);
     if (map_.charts.empty()) throw Error(place_, "has no surface that takes light", "bake a scene with lit meshes");
