@@ -28,7 +28,7 @@ namespace steradian::app {
 namespace {
 
 struct BakeArguments {
-  std::string scene, output, bounces = "all", direct = "on", target = "texture", stats, part;
+  std::string scene, output, bounces = "all", direct = "on", target = "texture", encoding = "rgbm", stats, part;
   std::vector<std::string> groups;
   bool resume = false;
   LoadOptions load;
@@ -93,6 +93,7 @@ void write_map(const BakeArguments& options, const bake::LightMap& map, const st
                       {"steradian.scene", options.scene},
                       {"steradian.bounces", options.bounces},
                       {"steradian.direct", options.direct},
+                      {"steradian.encoding", options.encoding},
                       {"steradian.texels", fmt::format("{}", options.bake.texels)},
                       {"steradian.settings", settings_of(options)}};
   if (options.bake.parts > 1) picture.metadata["steradian.part"] = fmt::format("{}/{}", options.bake.part, options.bake.parts);
@@ -126,6 +127,7 @@ void run(const Verb& verb, BakeArguments& options) {
   if (!options.groups.empty() && bake.target == bake::BakeTarget::vertex) throw WrongOption("--group", "is for --target texture");
   verb.refuse_without_effect({{"--bounce-error", bake.light.bounces != 0, "--bounces"},
                               {"--bounce-strict", bake.light.bounces != 0, "--bounces"},
+                              {"--encoding", bake.target == bake::BakeTarget::texture, "--target texture"},
                               {"--environment-rotation", !options.load.environment.empty(), "--environment"}});
   LoadOptions& load = options.load;
   const auto start = std::chrono::steady_clock::now();
@@ -153,7 +155,8 @@ void run(const Verb& verb, BakeArguments& options) {
   if (bake.target == bake::BakeTarget::texture) write_map(options, map, exr);
   if (!part) {
     scene::GltfFile file = scene::read_gltf_file(options.scene, load.limits);
-    bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits);
+    bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits,
+                        bake::encoding_of(options.encoding));
     scene::write_gltf_file(file, options.output);
   }
   if (unfinished) unfinished->remove();
@@ -174,6 +177,9 @@ void add_bake(CommandLine& line) {
   verb.add("SCENE", options->scene, "scene file").required();
   verb.add("-o,--output", options->output, "baked scene: .glb or .gltf; its map is the .exr beside it").writes(Writes::file).required();
   verb.add("--target", options->target, "a light map, or the attribute _IRRADIANCE").words({"texture", "vertex"}).group("Map");
+  verb.add("--encoding", options->encoding, "the map in the scene: 8 bits with a multiplier, or 16 bits")
+      .words({"rgbm", "rgb16"})
+      .group("Map");
   verb.add("--texels", options->bake.texels, "texels a metre").range(bake::kLeastTexels, bake::kMostTexels).group("Map");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--group", options->groups, "lights whose names begin so get a map of their own; may be repeated").group("Light");

@@ -11,17 +11,17 @@
 namespace steradian::bake {
 namespace {
 
-constexpr double kCoarsest = 0.2;      // of a doubling: texels may be 2^0.2 = 1.15 times as large as asked for
+constexpr double kCoarsest = 0.2;       // of a doubling: texels may be 2^0.2 = 1.15 times as large as asked for
 constexpr double kLeastStraight = 0.5;  // cosine between the sides of two quadrilaterals in a row
 constexpr double kMostTurn = 0.7;       // of the normal along a texel: 40 degrees
-constexpr double kLongestSide = 2048;  // texels of a chart
-constexpr double kMostDoublings = 14;  // of the texels of an edge
+constexpr double kLongestSide = 2048;   // texels of a chart
+constexpr double kMostDoublings = 14;   // of the texels of an edge
 constexpr std::uint32_t kNoQuad = UINT32_MAX;
 
 // Two triangles. Corners and sides run counter-clockwise; side i begins at corner i.
 struct MeshQuad {
-  std::array<std::uint32_t, 4> sides;      // as 3 triangle + k of the edge
-  std::array<std::uint32_t, 2> diagonal;   // the same
+  std::array<std::uint32_t, 4> sides;     // as 3 triangle + k of the edge
+  std::array<std::uint32_t, 2> diagonal;  // the same
 };
 
 // A side of a quadrilateral.
@@ -39,7 +39,8 @@ struct PlacedQuad {
 
 class GridCharts {
  public:
-  GridCharts(const Mesh& mesh, std::uint32_t number, const MeshNeighbours& neighbours, const std::vector<std::uint8_t>& curved, double texels)
+  GridCharts(const Mesh& mesh, std::uint32_t number, const MeshNeighbours& neighbours, const std::vector<std::uint8_t>& curved,
+             double texels)
       : mesh_(mesh), number_(number), neighbours_(neighbours), curved_(curved), texels_(texels), side_of_(mesh.indices.size()) {
     pair_triangles();
   }
@@ -119,7 +120,8 @@ class GridCharts {
     const auto normal = [&](std::uint32_t e) { return static_cast<Vec3d>(mesh_.normals[mesh_.indices[e]]); };
     const double turn = std::acos(std::clamp(dot(normal(edge), normal(next(edge))), -1.0, 1.0));
     const auto doublings = [](double wanted) { return std::ceil(std::log2(std::max(wanted, 1e-9)) - kCoarsest); };
-    return std::exp2(std::clamp(std::max(doublings(length_of(edge) * texels_), doublings(turn / kMostTurn)), -kMostDoublings, kMostDoublings));
+    return std::exp2(
+        std::clamp(std::max(doublings(length_of(edge) * texels_), doublings(turn / kMostTurn)), -kMostDoublings, kMostDoublings));
   }
   // The texels that the sides of a placed quadrilateral want. The sides of the chart are: 0 below, 1 on the right, 2 above, 3 on the left.
   double width_of(PlacedQuad p) const { return std::max(texels_along(side_edge(p, 0)), texels_along(side_edge(p, 2))); }
@@ -175,7 +177,8 @@ class GridCharts {
       sum += wide;
       sum_along += high;
     }
-    const double all_along = std::accumulate(along.begin(), along.end(), 0.0), all_across = std::accumulate(across.begin(), across.end(), 0.0);
+    const double all_along = std::accumulate(along.begin(), along.end(), 0.0),
+                 all_across = std::accumulate(across.begin(), across.end(), 0.0);
     // A chart of its own would have a border more.
     const double added = most * all_along, alone = (std::ceil(most) + 1) * (std::ceil(sum_along) + 1);
     if (added > alone || 4 * sum < most * static_cast<double>(line.size()) || all_across + most > kLongestSide) return false;
@@ -212,8 +215,8 @@ class GridCharts {
     return chart;
   }
 
-  // The borders of columns, or of rows [texels]. Sizes below a texel share one, which ends where they do. Inner borders are at the middles of
-  // texels, as those of other charts, and outer ones where place_charts leaves them.
+  // The borders of columns, or of rows [texels]. Sizes below a texel share one, which ends where they do. Inner borders are at the middles
+  // of texels, as those of other charts, and outer ones where place_charts leaves them.
   static std::vector<double> places_of(const std::deque<double>& sizes) {
     std::vector<double> places{kInside};
     double whole = 0;

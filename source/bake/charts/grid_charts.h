@@ -1,8 +1,8 @@
 // Grid charts: parts of a curved surface whose quadrilaterals lie in rows and columns.
 //
-// Each edge of a quadrilateral is a power of two of texels long, or a power of two of edges is a texel long. So the texels of two charts lie
-// at the same places of a common edge, or every second one does, and both sides can show the same light there. Charts of another form have
-// texels at other places of the edge.
+// Each edge of a quadrilateral is a power of two of texels long, or a power of two of edges is a texel long. So the texels of two charts
+// lie at the same places of a common edge, or every second one does, and both sides can show the same light there. Charts of another form
+// have texels at other places of the edge.
 #pragma once
 
 #include <cstdint>
