@@ -65,6 +65,20 @@ TEST_F(Program, BakesARoomThatShowsItsMap) {
   EXPECT_GT(stats["samples"], 1000);
 }
 
+TEST_F(Program, BakesAMapOfSixteenBits) {
+  const std::string baked = folder / "baked.glb";
+  const Outcome r = run({"bake", kRoom, "-o", baked, "--texels", "2", "--bounces", "0", "--encoding", "rgb16"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const scene::GltfFile file = scene::read_gltf_file(baked);
+  Budget budget;
+  const scene::GltfDocument document = scene::document_of(file, budget);
+  const auto& map = file.json["extras"]["steradian"]["lightMap"];
+  EXPECT_EQ(map["encoding"], "RGB16");
+  const auto& texture = file.json["textures"][map["maps"][0]["texture"].get<std::size_t>()];
+  const auto png = scene::view_bytes(document, file.json["images"][texture["source"].get<std::size_t>()]["bufferView"]);
+  EXPECT_EQ(png[24], 16);  // bits a channel
+}
+
 // The baked scene is the scene: its surfaces stay where they were, with their materials.
 TEST_F(Program, ABakedSceneRendersAsBefore) {
   const std::string baked = folder / "baked.gltf", before = folder / "before.exr", after = folder / "after.exr";
@@ -145,6 +159,7 @@ TEST_F(Program, BakeSaysWhatIsWrong) {
   fails({kRoom, "-o", out, "--part", "3/2"}, 2, "--part");
   fails({kRoom, "-o", out, "--part", "1/2"}, 2, "-o");
   fails({kRoom, "-o", out, "--target", "vertex", "--group", "sky"}, 2, "--group");
+  fails({kRoom, "-o", out, "--target", "vertex", "--encoding", "rgb16"}, 2, "--encoding");
   fails({kRoom, "-o", out, "--texels", "5000"}, 1, "--texels");
   fails({kRoom, "-o", out, "--texels", "100", "--max-memory", "20MB"}, 1, "--max-memory");
   fails({folder / "none.glb", "-o", out}, 1, "none.glb");

@@ -6,53 +6,14 @@ bytes as a run without interruption. Rows that were cut off or damaged are compu
 The script for Slurm runs through bash, and joins its parts to the same bytes.
 """
 import os
-import signal
-import struct
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
+from killed_runs import KilledRuns
+
 OPTIONS = ["--eps", "1e-5", "--divide", "4"]
-
-
-def finished_blocks(rows):
-    """The bytes of `rows` up to the end of its last whole block."""
-    end = 16
-    while end + 24 <= len(rows):
-        _, size, _ = struct.unpack_from("<3Q", rows, end)
-        if end + 24 + size > len(rows):
-            break
-        end += 24 + size
-    return rows[:end]
-
-
-class Runs:
-    def __init__(self, program, street, folder):
-        self.command = [program, "viewfactor", str(folder / "street.obj"), *OPTIONS]
-        self.output, self.rows = folder / "killed.npz", folder / "killed.npz.part"
-        (folder / "street.obj").write_bytes(subprocess.run([sys.executable, street, "3"], check=True, capture_output=True).stdout)
-
-    def whole(self, output, *options):
-        subprocess.run([*self.command, "-o", str(output), *options], check=True, capture_output=True)
-        return output.read_bytes()
-
-    def size(self):
-        return self.rows.stat().st_size if self.rows.exists() else 0
-
-    def kill_after(self, size):
-        """Starts the run and kills it when its finished rows take more than `size` bytes. False if it ends before that."""
-        run = subprocess.Popen([*self.command, "-o", str(self.output), "--resume"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        end = time.monotonic() + 120
-        while run.poll() is None and time.monotonic() < end:
-            if self.size() > size:
-                run.send_signal(signal.SIGKILL)
-                run.wait()
-                return True
-            time.sleep(0.001)
-        assert run.poll() == 0, f"the run did not end well: {run.poll()}"
-        return False
 
 
 def check_jobs(program, script, folder, expected):
@@ -81,28 +42,17 @@ def check_jobs(program, script, folder, expected):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        runs = Runs(sys.argv[1], Path(sys.argv[2]).with_name("street.py"), folder)
+        street = folder / "street.obj"
+        street.write_bytes(subprocess.run([sys.executable, Path(sys.argv[2]).with_name("street.py"), "3"], check=True, capture_output=True).stdout)
+        runs = KilledRuns([sys.argv[1], "viewfactor", str(street), *OPTIONS], folder / "killed.npz")
         expected = runs.whole(folder / "whole.npz")
-        kills, kept, finished = 0, 100, b""
-        while kills < 5 and runs.kill_after(kept):
-            kills += 1
-            assert not runs.output.exists(), "a killed run has written its output"
-            rows = runs.rows.read_bytes()
-            assert rows.startswith(finished), "finished rows were lost"
-            kept, finished = len(rows), finished_blocks(rows)
+        kills, rows = runs.kill_often(5)
         assert kills >= 3, f"the run ended after {kills} kills: the scene is too small for this machine"
-
-        rows = runs.rows.read_bytes()
-        for what, damaged in [("a block that was cut off", rows[:-5]), ("a damaged block", rows[:-9] + bytes([rows[-9] ^ 64]) + rows[-8:]),
-                              ("a damaged head", rows[:3] + b"?" + rows[4:]), ("an empty file", b""), ("what was killed", rows)]:
-            runs.rows.write_bytes(damaged)
-            assert runs.whole(runs.output, "--resume") == expected, f"{what}: other bytes than without interruption"
-            assert not runs.rows.exists(), f"{what}: the finished rows are still there"
-            runs.output.unlink()
+        runs.check_damage(rows, expected)
         check_jobs(sys.argv[1], sys.argv[2], folder, expected)
 
         # Rows of another tolerance are not those of this run.
-        runs.rows.write_bytes(rows)
+        runs.kept.write_bytes(rows)
         runs.command[runs.command.index("1e-5")] = "1e-4"
         assert runs.whole(runs.output, "--resume") == runs.whole(folder / "other.npz"), "rows of other settings were taken up"
     print(f"{kills} kills and three jobs, the same bytes")

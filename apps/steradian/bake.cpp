@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bake/bake.h"
 #include "bake/baked_file.h"
@@ -17,6 +17,7 @@
 #include "core/simd.h"
 #include "core/words.h"
 #include "render/picture_options.h"
+#include "render/resume.h"
 #include "part.h"
 #include "steradian/version.h"
 #include "command_line.h"
@@ -27,8 +28,9 @@ namespace steradian::app {
 namespace {
 
 struct BakeArguments {
-  std::string scene, output, bounces = "all", direct = "on", target = "texture", stats, part;
+  std::string scene, output, bounces = "all", direct = "on", target = "texture", encoding = "rgbm", stats, part;
   std::vector<std::string> groups;
+  bool resume = false;
   LoadOptions load;
   bake::BakeOptions bake;
 };
@@ -65,6 +67,16 @@ std::string settings_of(const BakeArguments& options) {
                      load.environment, load.environment_rotation, load.max_lights.value_or(0), words::name_of(load.light_units));
 }
 
+// Everything that the map depends on.
+std::string identity_of(const BakeArguments& options, const Scene& scene) {
+  const bake::BakeOptions& b = options.bake;
+  std::string identity = fmt::format("{} | {} | {} | texels {} | direct {} | {} | part {}/{}", version(),
+                                     fingerprint({options.scene, options.load.environment}, scene), settings_of(options), b.texels,
+                                     options.direct, options.target, b.part, b.parts);
+  for (const std::string& group : options.groups) identity += " | group " + group;
+  return identity;
+}
+
 void parse_part(BakeArguments& options) {
   if (options.part.empty()) return;
   const Part part = part_named(options.part);
@@ -81,6 +93,7 @@ void write_map(const BakeArguments& options, const bake::LightMap& map, const st
                       {"steradian.scene", options.scene},
                       {"steradian.bounces", options.bounces},
                       {"steradian.direct", options.direct},
+                      {"steradian.encoding", options.encoding},
                       {"steradian.texels", fmt::format("{}", options.bake.texels)},
                       {"steradian.settings", settings_of(options)}};
   if (options.bake.parts > 1) picture.metadata["steradian.part"] = fmt::format("{}/{}", options.bake.part, options.bake.parts);
@@ -114,6 +127,7 @@ void run(const Verb& verb, BakeArguments& options) {
   if (!options.groups.empty() && bake.target == bake::BakeTarget::vertex) throw WrongOption("--group", "is for --target texture");
   verb.refuse_without_effect({{"--bounce-error", bake.light.bounces != 0, "--bounces"},
                               {"--bounce-strict", bake.light.bounces != 0, "--bounces"},
+                              {"--encoding", bake.target == bake::BakeTarget::texture, "--target texture"},
                               {"--environment-rotation", !options.load.environment.empty(), "--environment"}});
   LoadOptions& load = options.load;
   const auto start = std::chrono::steady_clock::now();
@@ -121,12 +135,10 @@ void run(const Verb& verb, BakeArguments& options) {
   for (const std::string& warning : loaded.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Scene& scene = loaded.scene;
 
-  std::unique_ptr<Progress> progress;
-  std::once_flag once;
-  bake.light.progress = [&](std::uint64_t, std::uint64_t total) {
-    std::call_once(once, [&] { progress = std::make_unique<Progress>("bake", total); });
-    progress->add();
-  };
+  std::optional<UnfinishedFile> unfinished;
+  if (options.resume) bake.unfinished = &unfinished.emplace(options.output + ".part", identity_of(options, scene));
+  std::optional<Progress> progress(std::in_place, "bake", 1000);
+  bake.progress = [&](double fraction) { progress->reach(fraction); };
   bake::BakeStats stats;
   Budget budget(load.limits);
   const bake::LightMap map =
@@ -140,9 +152,11 @@ void run(const Verb& verb, BakeArguments& options) {
   if (bake.target == bake::BakeTarget::texture) write_map(options, map, exr);
   if (!part) {
     scene::GltfFile file = scene::read_gltf_file(options.scene, load.limits);
-    bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits);
+    bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits,
+                        bake::encoding_of(options.encoding));
     scene::write_gltf_file(file, options.output);
   }
+  if (unfinished) unfinished->remove();
   stats.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (!options.stats.empty()) write_file(options.stats, stats_json(options, map, stats).dump(2) + "\n");
   print_summary(options, map, stats);
@@ -160,6 +174,9 @@ void add_bake(CommandLine& line) {
   verb.add("SCENE", options->scene, "scene file").required();
   verb.add("-o,--output", options->output, "baked scene: .glb or .gltf; its map is the .exr beside it").writes(Writes::file).required();
   verb.add("--target", options->target, "a light map, or the attribute _IRRADIANCE").words({"texture", "vertex"}).group("Map");
+  verb.add("--encoding", options->encoding, "the map in the scene: 8 bits with a multiplier, or 16 bits")
+      .words({"rgbm", "rgb16"})
+      .group("Map");
   verb.add("--texels", options->bake.texels, "texels a metre").range(bake::kLeastTexels, bake::kMostTexels).group("Map");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
   verb.add("--group", options->groups, "lights whose names begin so get a map of their own; may be repeated").group("Light");
@@ -170,6 +187,7 @@ void add_bake(CommandLine& line) {
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   add_environment(verb, options->load);
   verb.add("--part", options->part, "k/n: bake one of n parts to an .exr; steradian merge joins them").group("Machine");
+  verb.add_flag("--resume", options->resume, "go on after an interruption; keeps finished charts in OUTPUT.part").group("Machine");
   verb.add("--threads", r.threads, "number of threads (0: all)").range(0, 4096).group("Machine");
   verb.add("--stats", options->stats, "write counts, errors and times to this JSON file").writes(Writes::file).group("Machine");
   verb.add("--max-lights", options->load.max_lights, "area lights kept, strongest first (256 and meshes)").range(1, 1 << 20).more("Limits");

@@ -4,11 +4,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "bake/charts/atlas.h"
 #include "bake/charts/charts.h"
@@ -45,28 +47,30 @@ class MapBake {
     prepare();
     const std::vector<Group> groups = find_groups();
     take_memory_of(groups);
-    std::size_t tiles = 0;
-    for (const Group& group : groups) tiles += blocks_in(group);
-    tiles = (tiles + SampleLight::kBlocksPerTile - 1) / SampleLight::kBlocksPerTile + groups.size();
-    steps_ = SurfaceLight::solve_steps(scene_, options_.light) + tiles;
-    const auto start = Clock::now();
-    SampleLight light(scene_, options_.light, options_.direct == BakedDirect::on ? SurfaceLight::Direct::on : SurfaceLight::Direct::off,
-                      [&] { advance(1); });
-    stats_.solve_ms = ms_since(start);
-    std::uint64_t number = 0;
-    for (std::size_t first = 0; first < groups.size() && !stopped(); ++number) {
-      std::size_t last = first, blocks = 0;
-      while (last < groups.size() && (last == first || blocks + blocks_in(groups[last]) <= kMostBlocks))
-        blocks += blocks_in(groups[last++]);
-      if (number % options_.parts == options_.part - 1) bake_groups(std::span(groups).subspan(first, last - first), number, light);
-      first = last;
-    }
-    finish(light);
+    const std::vector<Batch> batches = batches_of(groups);
+    std::size_t unknown = 0;  // blocks of samples without light
+    for (const Batch& batch : batches)
+      if (!take_up(batch)) unknown += blocks_of(batch.groups);
+    if (unknown > 0) bake_batches(batches, unknown);
+    finish();
     return std::move(map_);
   }
 
  private:
   using Group = std::vector<std::uint32_t>;  // charts that are fitted together
+  // Groups whose samples are in memory together. The number does not depend on the part.
+  struct Batch {
+    std::uint64_t number = 0;
+    std::span<const Group> groups;
+  };
+  struct GroupSums {
+    double area = 0, light = 0, residual = 0, error = 0;  // squares of the last two, all times area
+    std::uint64_t samples = 0;
+  };
+
+  // Shares of the time: estimates. The charts' share is that of scenes of 10^4 to 10^5 triangles.
+  static constexpr double kCharts = 0.05;
+  WorkFraction part(double first, double last) const { return part_of(options_.progress, first, last); }
 
   // Finds the charts, cuts them at contacts and gives them texels.
   void prepare() {
@@ -75,11 +79,11 @@ class MapBake {
     std::uint64_t triangles = 0;
     for (const Mesh& mesh : scene_.meshes) triangles += mesh.triangle_count();
     budget_.take_memory(place_, "the charts of its triangles", triangles * kChartBytes);
-    Charts charts = charts_of(scene_, place_);
+    Charts charts = charts_of(scene_, options_.texels, place_);
     map_.warnings = std::move(charts.warnings);
     map_.charts = std::move(charts.charts);
     if (map_.charts.empty()) throw Error(place_, "has no surface that takes light", "bake a scene with lit meshes");
-    CutScene cut = cut_at_contacts(std::move(scene_), map_.charts, options_.texels, budget_.limits().work);
+    CutScene cut = cut_at_contacts(std::move(scene_), map_.charts, options_.texels, budget_.limits().work, part(0, kCharts));
     scene_ = std::move(cut.scene);
     map_.cuts = std::move(cut.corners);
     map_.warnings.insert(map_.warnings.end(), cut.warnings.begin(), cut.warnings.end());
@@ -124,10 +128,6 @@ class MapBake {
   }
 
   bool stopped() const { return options_.light.stop != nullptr && options_.light.stop->load(std::memory_order_relaxed); }
-  void advance(std::uint64_t steps) {
-    done_ += steps;
-    if (options_.light.progress) options_.light.progress(std::min<std::uint64_t>(done_, steps_), steps_);
-  }
   std::size_t blocks_in(const Group& group) const {
     std::size_t blocks = 0;
     for (const std::uint32_t c : group) {
@@ -156,8 +156,89 @@ class MapBake {
     budget_.take_memory(place(chart_of_samples), "the samples of its charts", most_of_samples);
   }
 
-  // number: of the batch, which does not depend on the part.
-  void bake_groups(std::span<const Group> groups, std::uint64_t number, SampleLight& light) {
+  std::size_t blocks_of(std::span<const Group> groups) const {
+    std::size_t blocks = 0;
+    for (const Group& group : groups) blocks += blocks_in(group);
+    return blocks;
+  }
+
+  // The batches of this part.
+  std::vector<Batch> batches_of(const std::vector<Group>& groups) const {
+    std::vector<Batch> batches;
+    std::uint64_t number = 0;
+    for (std::size_t first = 0; first < groups.size(); ++number) {
+      std::size_t last = first, blocks = 0;
+      while (last < groups.size() && (last == first || blocks + blocks_in(groups[last]) <= kMostBlocks))
+        blocks += blocks_in(groups[last++]);
+      if (number % options_.parts == options_.part - 1) batches.push_back({number, std::span(groups).subspan(first, last - first)});
+      first = last;
+    }
+    return batches;
+  }
+
+  // The number of a batch among those of all maps of a run.
+  std::uint64_t key_of(const Batch& batch) const { return std::uint64_t{options_.run} << 32 | batch.number; }
+
+  // A batch in the file of an unfinished run: the sums of each group, its texels and their errors.
+  static void keep(std::string& bytes, const GroupSums& sums, const std::vector<Vec3d>& values, const std::vector<Vec3d>& errors) {
+    const auto put = [&](const auto& number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); };
+    put(sums);
+    for (const std::vector<Vec3d>* list : {&values, &errors})
+      for (const Vec3d v : *list) put(static_cast<Vec3f>(v));
+  }
+
+  // Takes a batch that an earlier run has finished. Returns false where there is none.
+  bool take_up(const Batch& batch) {
+    const auto bytes = options_.unfinished != nullptr ? options_.unfinished->find(key_of(batch)) : std::nullopt;
+    if (!bytes) return false;
+    std::uint64_t wanted = 0;
+    for (const Group& group : batch.groups) wanted += sizeof(GroupSums) + 2 * sizeof(Vec3f) * space_of(group)->count();
+    if (bytes->size() != wanted) return false;
+    const char* from = bytes->data();
+    const auto take = [&](auto& number) {
+      std::memcpy(&number, from, sizeof number);
+      from += sizeof number;
+    };
+    for (const Group& group : batch.groups) {
+      const std::unique_ptr<const FitSpace> space = space_of(group);
+      GroupSums sums;
+      take(sums);
+      std::array<std::vector<Vec3d>, 2> lists;
+      for (std::vector<Vec3d>& list : lists)
+        for (std::size_t n = 0; n < space->count(); ++n) {
+          Vec3f v;
+          take(v);
+          list.push_back(static_cast<Vec3d>(v));
+        }
+      space->store(lists[0], lists[1]);
+      sums_of_[batch.number].push_back(sums);
+    }
+    return true;
+  }
+
+  // Bakes the batches that no earlier run has finished.
+  //
+  //   blocks  of their samples, at most
+  void bake_batches(const std::vector<Batch>& batches, std::size_t blocks) {
+    // A tile of samples gathers the light of all patches, which takes a few times as long as its direct light.
+    const auto solve = static_cast<double>(SurfaceLight::solve_tiles(scene_, options_.light));
+    const double samples = static_cast<double>(blocks) / SampleLight::kBlocksPerTile;
+    const double solved = kCharts + (1 - kCharts) * solve / (solve + samples);
+    const auto start = Clock::now();
+    SampleLight light(scene_, options_.light, options_.direct == BakedDirect::on ? SurfaceLight::Direct::on : SurfaceLight::Direct::off,
+                      part(kCharts, solved));
+    stats_.solve_ms = ms_since(start);
+    WorkSteps steps(part(solved, 1), blocks);
+    for (const Batch& batch : batches) {
+      if (stopped()) return;
+      if (sums_of_.count(batch.number) == 0) bake_batch(batch, light, steps);
+    }
+    stats_.patches = light.surfaces().patches();
+    stats_.shadow_fallback = light.surfaces().shadow_fallback();
+  }
+
+  void bake_batch(const Batch& batch, SampleLight& light, WorkSteps& steps) {
+    const std::span<const Group> groups = batch.groups;
     std::vector<PlacedBlock> blocks;
     std::vector<std::size_t> first_of(groups.size() + 1, 0);
     std::vector<std::uint32_t> chart_of;  // by block
@@ -173,34 +254,31 @@ class MapBake {
       first_of[g + 1] = blocks.size();
     }
     const auto start = Clock::now();
-    const std::vector<LitBlock> lit = light.of(blocks, number << 32);
+    const std::vector<LitBlock> lit = light.of(blocks, batch.number << 32, [&] { steps.advance(); });
     stats_.sample_ms += ms_since(start);
     if (stopped()) return;
     const auto fit_start = Clock::now();
-    std::vector<GroupSums> sums(groups.size());
+    std::vector<GroupSums>& sums = sums_of_[batch.number];
+    sums.resize(groups.size());
+    std::vector<std::string> kept(groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
       const std::size_t first = first_of[g], count = first_of[g + 1] - first;
       sums[g] = fit(groups[g], std::span(blocks).subspan(first, count), std::span(lit).subspan(first, count),
-                    std::span(chart_of).subspan(first, count));
-      advance(1);
+                    std::span(chart_of).subspan(first, count), kept[g]);
     });
-    for (const GroupSums& s : sums) {
-      total_.area += s.area;
-      total_.light += s.light;
-      total_.residual += s.residual;
-      total_.error += s.error;
-      stats_.samples += s.samples;
+    if (options_.unfinished != nullptr) {
+      std::string bytes;
+      for (const std::string& k : kept) bytes += k;
+      options_.unfinished->add(key_of(batch), bytes);
     }
+    // The charts' bounding boxes hold places without a sample.
+    const std::size_t expected = blocks_of(groups);
+    if (expected > blocks.size()) steps.advance(expected - blocks.size());
     stats_.fit_ms += ms_since(fit_start);
   }
 
-  struct GroupSums {
-    double area = 0, light = 0, residual = 0, error = 0;  // squares of the last two, all times area
-    std::size_t samples = 0;
-  };
-
   GroupSums fit(const Group& group, std::span<const PlacedBlock> blocks, std::span<const LitBlock> lit,
-                std::span<const std::uint32_t> chart_of) {
+                std::span<const std::uint32_t> chart_of, std::string& kept) {
     GroupSums sums;
     const std::unique_ptr<const FitSpace> space = space_of(group);
     HatFit equations(space->count());
@@ -237,19 +315,27 @@ class MapBake {
       squares[n] = {std::sqrt(mean.x), std::sqrt(mean.y), std::sqrt(mean.z)};
     }
     space->store(values, squares);
+    if (options_.unfinished != nullptr) keep(kept, sums, values, squares);
     return sums;
   }
 
-  void finish(const SampleLight& light) {
+  void finish() {
     if (stopped()) return;
-    advance(steps_ > done_ ? steps_ - done_ : 0);
-    const double mean = total_.area > 0 ? total_.light / total_.area : 0;
+    GroupSums total;
+    for (const auto& [number, sums] : sums_of_)
+      for (const GroupSums& s : sums) {
+        total.area += s.area;
+        total.light += s.light;
+        total.residual += s.residual;
+        total.error += s.error;
+        total.samples += s.samples;
+      }
+    const double mean = total.area > 0 ? total.light / total.area : 0;
     stats_.mean = mean;
-    const auto relative = [&](double sum) { return mean > 0 ? std::sqrt(sum / total_.area) / mean : 0; };
-    stats_.rms_residual = relative(total_.residual);
-    stats_.rms_error = relative(total_.error);
-    stats_.patches = light.surfaces().patches();
-    stats_.shadow_fallback = light.surfaces().shadow_fallback();
+    const auto relative = [&](double sum) { return mean > 0 ? std::sqrt(sum / total.area) / mean : 0; };
+    stats_.rms_residual = relative(total.residual);
+    stats_.rms_error = relative(total.error);
+    stats_.samples = total.samples;
     if (options_.target == BakeTarget::texture)
       for (const Chart& chart : map_.charts)
         stats_.texels += static_cast<std::size_t>(chart.width) * static_cast<std::size_t>(chart.height);
@@ -275,10 +361,8 @@ class MapBake {
   BakeStats& stats_;
   LightMap map_;
   std::vector<Seam> seams_;
-  std::vector<std::vector<const Seam*>> seams_of_;  // by their first chart
-  GroupSums total_;
-  std::uint64_t steps_ = 0;
-  std::atomic<std::uint64_t> done_{0};
+  std::vector<std::vector<const Seam*>> seams_of_;           // by their first chart
+  std::map<std::uint64_t, std::vector<GroupSums>> sums_of_;  // by batch
 };
 
 }  // namespace

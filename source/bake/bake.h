@@ -8,6 +8,8 @@
 #include "bake/charts/contacts.h"
 #include "bake/fit_space.h"
 #include "core/budget.h"
+#include "core/progress.h"
+#include "core/unfinished_file.h"
 #include "steradian/render.h"
 #include "steradian/scene.h"
 
@@ -24,7 +26,10 @@ struct BakeOptions {
   BakedDirect direct = BakedDirect::on;
   BakeTarget target = BakeTarget::texture;
   std::size_t part = 1, parts = 1;  // of a run on several machines: the other parts' texels stay zero
-  RenderOptions light;              // bounces, quality, shadows, threads, progress and stop
+  RenderOptions light;              // bounces, quality, shadows, threads and stop
+  WorkFraction progress{};
+  UnfinishedFile* unfinished = nullptr;  // keeps what is finished, and has what an earlier run has finished; null: nothing is kept
+  std::uint32_t run = 0;                 // number of this map among those that `unfinished` holds
 };
 
 struct BakeStats {

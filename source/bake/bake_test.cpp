@@ -160,9 +160,10 @@ TEST(BakeSamples, StandForTheArea) {
   EXPECT_NEAR(area / truth, 1, 2e-3);
 }
 
-// A ball in the light of a lamp: two bilinear fits of one smooth light differ by at most the errors of both. Each is within h^2 / 4 of the
-// light's second derivative along an axis, for texels of side h.
-TEST(Bake, SeamsOfABallCloseWithTheSquareOfTheTexels) {
+// A ball in the light of a lamp. Two bilinear fits of one smooth light differ by at most the errors of both. Each is within h^2 / 4 of the
+// light's second derivative along an axis, for texels of side h. Texels at the same places of an edge can agree far better: a
+// ten-thousandth is a fortieth of a step of eight bits.
+TEST(Bake, SeamsOfABallClose) {
   Scene scene;
   scene.materials = {grey(0.5f)};
   scene.meshes = {ball_mesh({0, 0, 0}, 1, 0, 48, 24)};
@@ -184,7 +185,7 @@ TEST(Bake, SeamsOfABallCloseWithTheSquareOfTheTexels) {
     const double bound = 2 * bend / (4 * texels * texels) / stats.mean;
     std::printf("%.0f texels a metre: %zu charts, %zu seams, at most %.2e of the mean apart (%.2e), residual %.2e\n", texels, stats.charts,
                 stats.seams, stats.largest_seam, bound, stats.rms_residual);
-    EXPECT_LT(stats.largest_seam, bound);
+    EXPECT_LT(stats.largest_seam, std::min(bound, 1e-4));
   }
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 
-#include "bake/encoding.h"
 #include "image/codecs.h"
 #include "scene/gltf/gltf_accessor.h"
 #include "scene/gltf/gltf_meshes.h"
@@ -253,13 +252,18 @@ class AttributeWriter {
 };
 
 // The map as a picture in the file, and the texture that shows it.
-std::size_t add_texture(Json& json, NewData& data, const LightMap& map, const std::vector<Vec3f>& texels, float range) {
-  const std::string png = image::encode_png_rgba(map.width, map.height, [&](int y, std::uint8_t* row) {
-    for (int x = 0; x < map.width; ++x)
-      for (const std::uint8_t byte :
-           rgbm_of(texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)], range))
-        *row++ = byte;
-  });
+std::size_t add_texture(Json& json, NewData& data, const LightMap& map, const std::vector<Vec3f>& texels, float range,
+                        MapEncoding encoding) {
+  const auto fill = [&](auto encoded) {
+    return [&texels, &map, range, encoded](int y, std::uint8_t* row) {
+      for (int x = 0; x < map.width; ++x)
+        for (const std::uint8_t byte :
+             encoded(texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)], range))
+          *row++ = byte;
+    };
+  };
+  const std::string png = encoding == MapEncoding::rgbm ? image::encode_png_rgba(map.width, map.height, fill(rgbm_of))
+                                                        : image::encode_png_rgb16(map.width, map.height, fill(rgb16_of));
   const std::size_t view = data.add_view(png.data(), png.size());
   Json& images = array_of(json, "images");
   images.push_back({{"name", "light map"}, {"bufferView", view}, {"mimeType", "image/png"}});
@@ -270,6 +274,8 @@ std::size_t add_texture(Json& json, NewData& data, const LightMap& map, const st
   textures.push_back({{"name", "light map"}, {"source", images.size() - 1}, {"sampler", samplers.size() - 1}});
   return textures.size() - 1;
 }
+
+const char* key_of(MapEncoding encoding) { return encoding == MapEncoding::rgbm ? "RGBM" : "RGB16"; }
 
 Json& extras_of(Json& object) {
   if (!object.contains("extras") || !object["extras"].is_object()) object["extras"] = Json::object();
@@ -291,7 +297,8 @@ std::size_t own_mesh(Json& json, int node, int mesh) {
 
 }  // namespace
 
-void add_light_map(GltfFile& file, const LoadedScene& loaded, const LightMap& map, const std::string& exr, const Limits& limits) {
+void add_light_map(GltfFile& file, const LoadedScene& loaded, const LightMap& map, const std::string& exr, const Limits& limits,
+                   MapEncoding encoding) {
   const GltfFile before = file;
   Budget budget(limits);
   const GltfDocument document = scene::document_of(before, budget);
@@ -301,13 +308,14 @@ void add_light_map(GltfFile& file, const LoadedScene& loaded, const LightMap& ma
   if (!at_vertices) {
     Json maps = Json::array();
     const auto add = [&](const std::string& group, const std::vector<Vec3f>& texels) {
-      const float range = rgbm_range(texels);
-      maps.push_back({{"group", group}, {"texture", add_texture(file.json, data, map, texels, range)}, {"range", range}, {"intensity", 1}});
+      const float range = range_of(texels);
+      maps.push_back(
+          {{"group", group}, {"texture", add_texture(file.json, data, map, texels, range, encoding)}, {"range", range}, {"intensity", 1}});
     };
     if (map.groups.empty()) add("all", map.irradiance);
     for (const GroupTexels& group : map.groups) add(group.name, group.irradiance);
     extras_of(file.json)["lightMap"] = {
-        {"exr", exr}, {"width", map.width}, {"height", map.height}, {"encoding", "RGBM"}, {"maps", std::move(maps)}};
+        {"exr", exr}, {"width", map.width}, {"height", map.height}, {"encoding", key_of(encoding)}, {"maps", std::move(maps)}};
   }
   std::map<int, std::size_t> meshes;  // by node
   for (const MapPrimitive& p : primitives_of(document, loaded, map)) {

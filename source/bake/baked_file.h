@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bake/bake.h"
+#include "bake/encoding.h"
 #include "scene/gltf/gltf_file.h"
 #include "steradian/load_scene.h"
 #include "steradian/picture.h"
@@ -17,7 +18,8 @@ namespace steradian::bake {
 // loaded: the scene that was read from the file, before it was baked. exr: name of the map's file beside the scene, for its extras.
 //
 // Light at vertices becomes the attribute _IRRADIANCE of three floats, and extras.steradian.irradiance = "_IRRADIANCE".
-void add_light_map(scene::GltfFile& file, const LoadedScene& loaded, const LightMap& map, const std::string& exr, const Limits& limits);
+void add_light_map(scene::GltfFile& file, const LoadedScene& loaded, const LightMap& map, const std::string& exr, const Limits& limits,
+                   MapEncoding encoding = MapEncoding::rgbm);
 
 // The map as a picture: irradiance, and layers for its error and its groups of lights.
 Picture picture_of(const LightMap& map);

@@ -67,10 +67,14 @@ LightMap bake_light_groups(const Scene& scene, const std::vector<NamedLights>& g
                            Budget& budget, BakeStats& stats) {
   LightMap all;
   double mean = 0, residual = 0, error = 0;  // the last two are squares
+  BakeOptions of_group = options;
+  const auto count = static_cast<double>(groups.size());
   for (const NamedLights& group : groups) {
     BakeStats own;
     Budget left = budget;
-    LightMap map = bake_map(in_light_of(scene, group), options, place, left, &own);
+    of_group.progress = part_of(options.progress, of_group.run / count, (of_group.run + 1) / count);
+    LightMap map = bake_map(in_light_of(scene, group), of_group, place, left, &own);
+    ++of_group.run;
     mean += own.mean;
     residual += std::pow(own.rms_residual * own.mean, 2);
     error += std::pow(own.rms_error * own.mean, 2);

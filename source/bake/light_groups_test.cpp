@@ -38,8 +38,19 @@ TEST(LightGroups, MapsAddUpToThatOfAllLights) {
     bake::BakeStats stats;
     const bake::LightMap all = bake::bake_map(scene, options, "scene", budget, &stats);
     bake::BakeStats sum_stats;
+    options.light.threads = 1;
+    double last = 0;
+    std::size_t first_half = 0, second_half = 0;
+    options.progress = [&](double fraction) {
+      EXPECT_GE(fraction, last - 1e-12);
+      EXPECT_LE(fraction, 1 + 1e-12);
+      last = fraction;
+      ++(fraction <= 0.5 ? first_half : second_half);
+    };
     const bake::LightMap sum = bake::bake_light_groups(scene, groups, options, "scene", budget, sum_stats);
     ASSERT_EQ(sum.groups.size(), 2u);
+    EXPECT_NEAR(last, 1, 1e-12);
+    EXPECT_NEAR(static_cast<double>(first_half) / static_cast<double>(second_half), 1, 0.2) << "each group has half of the progress";
     ASSERT_EQ(sum.irradiance.size(), all.irradiance.size());
     double worst = 0, squares = 0, errors = 0;
     for (std::size_t i = 0; i < all.irradiance.size(); ++i) {

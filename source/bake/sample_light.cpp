@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "core/float_mode.h"
@@ -30,7 +31,8 @@ Surface surface_at_sample(const Mesh& mesh, const Sample& sample, Terminator ter
 
 }  // namespace
 
-std::vector<LitBlock> SampleLight::of(std::span<const PlacedBlock> blocks, std::uint64_t first_tile) {
+std::vector<LitBlock> SampleLight::of(std::span<const PlacedBlock> blocks, std::uint64_t first_tile,
+                                      const std::function<void()>& advanced) {
   std::vector<LitBlock> result(blocks.size());
   const std::size_t tiles = (blocks.size() + kBlocksPerTile - 1) / kBlocksPerTile;
   tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t number) {
@@ -52,7 +54,7 @@ std::vector<LitBlock> SampleLight::of(std::span<const PlacedBlock> blocks, std::
     light_.find(*tile, direct_, *light);
     for (std::size_t i = 0; i < kTilePixels && first + i / 16 < blocks.size(); ++i)
       result[first + i / 16][i % 16] = {get(light->value, i), get(light->error, i)};
-    if (advanced_) advanced_();
+    for (std::size_t b = first; b < std::min(first + kBlocksPerTile, blocks.size()); ++b) advanced();
   });
   return result;
 }

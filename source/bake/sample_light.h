@@ -26,11 +26,16 @@ class SampleLight {
   static constexpr std::size_t kBlocksPerTile = kTilePixels / 16;
 
   // As SurfaceLight, and on the threads of the caller's arena.
-  SampleLight(const Scene& scene, const RenderOptions& options, SurfaceLight::Direct direct, const std::function<void()>& advanced)
-      : scene_(scene), options_(options), direct_(direct), advanced_(advanced), light_(scene, options, advanced) {}
+  //
+  //   solved  takes the fraction of the light between surfaces that is solved
+  SampleLight(const Scene& scene, const RenderOptions& options, SurfaceLight::Direct direct, const WorkFraction& solved)
+      : scene_(scene), options_(options), direct_(direct), light_(scene, options, solved) {}
 
-  // The light of each sample with an area. first_tile: number of the first tile, which seeds its random decisions.
-  std::vector<LitBlock> of(std::span<const PlacedBlock> blocks, std::uint64_t first_tile);
+  // The light of each sample with an area.
+  //
+  //   first_tile  number of the first tile, which seeds its random decisions
+  //   advanced    called for each block
+  std::vector<LitBlock> of(std::span<const PlacedBlock> blocks, std::uint64_t first_tile, const std::function<void()>& advanced);
 
   const SurfaceLight& surfaces() const { return light_; }
 
@@ -38,7 +43,6 @@ class SampleLight {
   const Scene& scene_;
   const RenderOptions& options_;
   const SurfaceLight::Direct direct_;
-  const std::function<void()> advanced_;
   SurfaceLight light_;
 };
 

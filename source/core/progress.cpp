@@ -29,6 +29,16 @@ ProgressOutput progress_on_stderr() {
   return output;
 }
 
+WorkFraction part_of(const WorkFraction& whole, double first, double last) {
+  if (!whole) return {};
+  return [whole, first, last](double fraction) { whole(first + (last - first) * fraction); };
+}
+
+void WorkSteps::advance(std::uint64_t steps) {
+  const std::uint64_t done = done_.fetch_add(steps, std::memory_order_relaxed) + steps;
+  if (report_ && total_ > 0) report_(std::min(1.0, static_cast<double>(done) / static_cast<double>(total_)));
+}
+
 Progress::Progress(std::string label, std::uint64_t total, ProgressOutput output)
     : label_(std::move(label)),
       total_(total),
@@ -48,6 +58,18 @@ void Progress::wipe() {
 
 void Progress::add(std::uint64_t steps) {
   count_.fetch_add(steps, std::memory_order_relaxed);
+  show_if_due();
+}
+
+void Progress::reach(double fraction) {
+  const auto wanted = static_cast<std::uint64_t>(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(total_));
+  std::uint64_t before = count();
+  while (before < wanted && !count_.compare_exchange_weak(before, wanted, std::memory_order_relaxed)) {
+  }
+  show_if_due();
+}
+
+void Progress::show_if_due() {
   if (output_.form == ProgressForm::none) return;
   const double now = output_.seconds();
   if (now < output_.next->load(std::memory_order_relaxed)) return;

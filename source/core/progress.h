@@ -23,6 +23,25 @@ struct ProgressOutput {
 };
 ProgressOutput progress_on_stderr();
 
+// Takes the fraction of a work that is done, from 0 to 1. Any thread may call it. Null: nobody asks.
+using WorkFraction = std::function<void(double)>;
+
+// The fractions of a part of a work, which takes from `first` to `last` of the whole. The shares are estimates of its time.
+WorkFraction part_of(const WorkFraction& whole, double first, double last);
+
+// Counts the steps of a work, or of a part of it. Any number of threads may advance it.
+class WorkSteps {
+ public:
+  WorkSteps(WorkFraction report, std::uint64_t total) : report_(std::move(report)), total_(total) {}
+
+  void advance(std::uint64_t steps = 1);
+
+ private:
+  const WorkFraction report_;
+  const std::uint64_t total_;
+  std::atomic<std::uint64_t> done_{0};
+};
+
 // Shows nothing in the first second. On a terminal it then shows at most ten lines a second, and wipes the last at the end. Elsewhere it
 // shows at most one line a second, and none that tells the same percentage again. Any number of threads may advance it.
 class Progress {
@@ -34,10 +53,13 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void add(std::uint64_t steps = 1);
+  // Raises the count to a fraction of the total. A smaller fraction than before changes nothing.
+  void reach(double fraction);
   void wipe();  // before other text on the terminal
   std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }
 
  private:
+  void show_if_due();
   void show(double now);
 
   const std::string label_;

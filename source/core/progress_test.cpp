@@ -101,6 +101,28 @@ TEST(Progress, IsWipedBeforeOtherText) {
   EXPECT_EQ(r.lines.size(), 2u);  // there is nothing to wipe
 }
 
+TEST(Progress, NeverFalls) {
+  Recorder r;
+  Progress progress("work", 1000, r.output(ProgressForm::none));
+  for (const double fraction : {0.1, 0.3, 0.2, -1.0}) progress.reach(fraction);
+  EXPECT_EQ(progress.count(), 300u);
+  progress.reach(7);
+  EXPECT_EQ(progress.count(), 1000u);
+}
+
+// A part of a part of a work takes its share of the whole.
+TEST(WorkSteps, FillTheirPartOfTheWork) {
+  std::vector<double> told;
+  const WorkFraction whole = [&](double fraction) { told.push_back(fraction); };
+  WorkSteps steps(part_of(part_of(whole, 0.5, 1), 0, 0.5), 4);
+  for (int i = 0; i < 3; ++i) steps.advance();
+  steps.advance(2);  // more than expected
+  EXPECT_EQ(told, (std::vector<double>{0.5625, 0.625, 0.6875, 0.75}));
+  WorkSteps(part_of({}, 0, 1), 1).advance();
+  WorkSteps(whole, 0).advance();
+  EXPECT_EQ(told.size(), 4u);
+}
+
 TEST(Progress, CountsEveryStepOfEveryThread) {
   Recorder r;
   Progress progress("work", 0, r.output(ProgressForm::none));

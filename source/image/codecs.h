@@ -42,7 +42,8 @@ std::string encode_png(const Picture& picture, float exposure_stops, ToneCurve c
 // Fills the bytes of row y, three a pixel. Must not throw.
 using RowOfBytes = std::function<void(int y, std::uint8_t* row)>;
 std::string encode_png_bytes(int width, int height, const RowOfBytes& fill);
-std::string encode_png_rgba(int width, int height, const RowOfBytes& fill);  // four bytes a pixel
+std::string encode_png_rgba(int width, int height, const RowOfBytes& fill);   // four bytes a pixel
+std::string encode_png_rgb16(int width, int height, const RowOfBytes& fill);  // six: each channel in 16 bits, the high byte first
 
 // Reads every kind of PNG as RGBA, 8 bits a channel. The file's statements about colour spaces are ignored, as glTF asks. Throws
 // Error(place, ...) for bytes that are not a whole picture, and for more than max_texels, before any memory is allocated.

@@ -96,7 +96,7 @@ bool read_pixels(Codec& codec, std::uint8_t* rgba, std::size_t width, std::size_
 
 using Metadata = std::map<std::string, std::string>;
 
-enum class Channels { rgb = 3, rgba = 4 };
+enum class Channels { rgb = 3, rgba = 4, rgb16 = 6 };  // bytes a pixel
 
 bool write_rows(Codec& codec, int width, int height, Channels channels, const Metadata& metadata, const RowOfBytes& fill,
                 std::uint8_t* row) {
@@ -106,9 +106,9 @@ bool write_rows(Codec& codec, int width, int height, Channels channels, const Me
   codec.info = png_create_info_struct(codec.png);
   if (codec.info == nullptr) return false;
   png_set_write_fn(codec.png, &codec, give_bytes, nullptr);
-  png_set_IHDR(codec.png, codec.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
-               channels == Channels::rgb ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(codec.png, codec.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
+               channels == Channels::rgb16 ? 16 : 8, channels == Channels::rgba ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   for (const auto& [key, value] : metadata) {
     png_text text{};
     text.compression = PNG_TEXT_COMPRESSION_NONE;
@@ -159,6 +159,8 @@ std::string encode_png(const Picture& picture, float exposure_stops, ToneCurve c
 std::string encode_png_bytes(int width, int height, const RowOfBytes& fill) { return encode(width, height, Channels::rgb, {}, fill); }
 
 std::string encode_png_rgba(int width, int height, const RowOfBytes& fill) { return encode(width, height, Channels::rgba, {}, fill); }
+
+std::string encode_png_rgb16(int width, int height, const RowOfBytes& fill) { return encode(width, height, Channels::rgb16, {}, fill); }
 
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& place, std::size_t max_texels, Budget& budget) {
   OpenPng open;

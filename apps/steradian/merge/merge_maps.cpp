@@ -7,6 +7,7 @@
 
 #include "bake/bake.h"
 #include "bake/baked_file.h"
+#include "bake/encoding.h"
 #include "bake/scene_to_bake.h"
 #include "merge/joined_parts.h"
 #include "steradian/error.h"
@@ -49,8 +50,10 @@ void merge_maps(const std::vector<std::string>& parts, const std::string& output
   map.irradiance = all.pixels;
   map.error = all.layers.at("error");
   const std::string exr = bake::map_beside(output);
+  const auto encoding = all.metadata.find("steradian.encoding");
   scene::GltfFile file = scene::read_gltf_file(scene_path, limits);
-  bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), limits);
+  bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), limits,
+                      bake::encoding_of(encoding == all.metadata.end() ? "" : encoding->second));
   write_picture(all, exr);
   scene::write_gltf_file(file, output);
   fmt::print("map         {} x {} texels of {} parts\n", map.width, map.height, parts.size());

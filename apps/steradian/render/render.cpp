@@ -285,11 +285,9 @@ void run(const Verb& verb, RenderArguments& options) {
     verb.refuse_without_effect({{option, loaded.scene.environment != nullptr, "--environment, or a file with one"}});
   loaded.scene.multiple_scattering = options.multiple_scattering;
 
-  std::unique_ptr<Progress> progress;
-  render_options.progress = [&](std::uint64_t, std::uint64_t total) {
-    static std::once_flag once;
-    std::call_once(once, [&] { progress = std::make_unique<Progress>("render", total); });
-    progress->add();
+  std::optional<Progress> progress(std::in_place, "render", 1000);
+  render_options.progress = [&](std::uint64_t done, std::uint64_t total) {
+    progress->reach(static_cast<double>(done) / static_cast<double>(total));
   };
   RenderStats stats;
   std::optional<StopSignals> signals;

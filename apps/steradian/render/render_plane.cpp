@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -73,11 +72,9 @@ void render_plane_scene(const PlaneRender& job) {
     options.bounce_error = job.output.ends_with(".exr");
   }
 
-  std::unique_ptr<Progress> progress;
-  std::once_flag once;
-  options.progress = [&](std::uint64_t, std::uint64_t total) {
-    std::call_once(once, [&] { progress = std::make_unique<Progress>("render", total); });
-    progress->add();
+  std::optional<Progress> progress(std::in_place, "render", 1000);
+  options.progress = [&](std::uint64_t done, std::uint64_t total) {
+    progress->reach(static_cast<double>(done) / static_cast<double>(total));
   };
   PlaneFrameStats stats;
   std::optional<PlaneDevice> device;

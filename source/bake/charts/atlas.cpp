@@ -9,10 +9,21 @@
 namespace steradian::bake {
 namespace {
 
-// Distance of a chart's border from the first texel's centre [texels]: four steps of a graphics card, which rounds places to 1/256.
-constexpr double kInside = 1.0 / 64;
-
 int cells_for(double texels) { return static_cast<int>(std::clamp(std::ceil(texels - 1e-6), 1.0, 2.0 * kLargestMap)); }
+
+// The texels around a box of a plane that is divided into texels as a whole. Charts of one plane with doors between them have the same
+// texels beside a door, so that both sides can show the same light there.
+struct PlaneTexels {
+  double x = 0, y = 0;  // centre of the first
+  int width = 0, height = 0;
+};
+PlaneTexels texels_of(const Box2d& box, double texels) {
+  const auto first = [&](double low) { return std::floor(low * texels - kInside); };
+  const auto number = [&](double low, double high) {
+    return static_cast<int>(std::clamp(std::ceil(high * texels + kInside) - first(low), 1.0, 2.0 * kLargestMap)) + 1;
+  };
+  return {first(box.low.x), first(box.low.y), number(box.low.x, box.high.x), number(box.low.y, box.high.y)};
+}
 
 template <class Moved>
 void move(Chart& chart, Moved moved) {
@@ -36,16 +47,27 @@ MapSize place_charts(const Scene& scene, std::vector<Chart>& charts, double texe
   double area = 0;
   int widest = 0;
   std::uint32_t of_widest = 0;  // its mesh
+  const auto count = [&](const Chart& chart) {
+    area += static_cast<double>(chart.width) * chart.height;
+    if (chart.width > widest) widest = chart.width, of_widest = chart.mesh;
+  };
   for (Chart& chart : charts) {
-    Vec2d size = chart.box().size();
+    const Box2d box = chart.box();
+    Vec2d size = box.size();
+    if (!chart.doors.empty()) {
+      const PlaneTexels all = texels_of(box, texels);
+      chart.width = all.width;
+      chart.height = all.height;
+      count(chart);
+      continue;
+    }
     if (size.y > size.x) {  // lying charts pack better
       move(chart, [](Vec2d p) { return Vec2d{p.y, -p.x}; });
       std::swap(size.x, size.y);
     }
     chart.width = (chart.is_covered ? 1 : cells_for(size.x * texels)) + 1;
     chart.height = (chart.is_covered ? 1 : cells_for(size.y * texels)) + 1;
-    area += static_cast<double>(chart.width) * chart.height;
-    if (chart.width > widest) widest = chart.width, of_widest = chart.mesh;
+    count(chart);
   }
   if (widest > kLargestMap)
     refuse(place + ": " + name_of(scene.meshes[of_widest], of_widest), std::max<double>(widest, std::sqrt(area)), std::sqrt(area));
@@ -72,6 +94,11 @@ MapSize place_charts(const Scene& scene, std::vector<Chart>& charts, double texe
   if (map.height > kLargestMap) refuse(place, map.width, map.height);
   for (Chart& chart : charts) {
     const Box2d box = chart.box();
+    if (!chart.doors.empty()) {
+      const PlaneTexels all = texels_of(box, texels);
+      move(chart, [&](Vec2d p) { return Vec2d{chart.x + 0.5 + p.x * texels - all.x, chart.y + 0.5 + p.y * texels - all.y}; });
+      continue;
+    }
     const auto scale = [](int cells, double size) { return size > 0 ? (cells - 2 * kInside) / size : 1; };
     const double sx = scale(chart.width - 1, box.size().x), sy = scale(chart.height - 1, box.size().y);
     const Vec2d at{chart.x + 0.5 + kInside, chart.y + 0.5 + kInside};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bake/charts/grid_charts.h"
 #include "bake/charts/overlaps.h"
 #include "bake/charts/welded.h"
 #include "render/surface/surface.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double kSameWay = 0.999;           // cosine: plane triangles face within 2.6 degrees, since thin ones are uncertain
 constexpr double kCone = 0.76604444;         // cosine of 40 degrees
+constexpr float kStraight = 1 - 1e-6f;       // cosine between vertex normals that agree: they differ by rounding alone
+constexpr double kMostOfTexels = 3;          // texels of charts with grids over those without: powers of two alone cost up to 2^1.6 = 3
 constexpr double kThinnest = 1e-7;           // of the longest edge's square: a smaller doubled area is rounding
 constexpr double kRounding = 0x1p-21;        // of coordinates in single precision, over a few operations
 constexpr std::size_t kManyCharts = 10'000;  // of one mesh, from which a warning names it
@@ -72,11 +75,32 @@ class MeshCharts {
 
   std::size_t without_area() const { return mesh_.triangle_count() - order_.size(); }
 
-  // Plane parts and cones.
-  std::vector<Chart> found() {
-    std::vector<Chart> charts;
+  // Grids of curved quadrilaterals, plane parts and cones.
+  std::vector<Chart> found(double texels) {
+    std::vector<std::uint8_t> curved(mesh_.triangle_count(), 0);
+    for (const std::uint32_t t : order_) curved[t] = is_curved(t);
+    std::vector<Chart> grids = grid_charts(mesh_, number_, neighbours_, curved, texels);
+    if (grids.empty()) return with_rest({});
+    std::vector<Chart> without = with_rest({}), all = with_rest(grids);
+    const auto texels_of = [&](const std::vector<Chart>& charts) {
+      double sum = 0;
+      for (const Chart& chart : charts) sum += texels_in(chart, texels);
+      return sum;
+    };
+    if (texels_of(all) <= kMostOfTexels * texels_of(without)) return all;
+    // Thin triangles around one vertex, and small ones without order, are left to cones.
+    std::erase_if(grids, [&](const Chart& c) { return texels_in(c, texels) > 2 * kMostOfTexels * area_of(c) * texels * texels; });
+    return with_rest(std::move(grids));
+  }
+
+  // Charts, and plane parts and cones for all other triangles.
+  std::vector<Chart> with_rest(std::vector<Chart> charts) {
+    const std::vector<std::uint8_t> before = taken_;
+    for (const Chart& chart : charts)
+      for (const ChartTriangle& t : chart.triangles) taken_[t.triangle] = 1;
     for (const std::uint32_t seed : order_)
       if (taken_[seed] == 0) charts.push_back(grown_from(seed));
+    taken_ = before;
     return charts;
   }
 
@@ -128,11 +152,20 @@ class MeshCharts {
     return {plane.at(corner_of(mesh_, t, 0)), plane.at(corner_of(mesh_, t, 1)), plane.at(corner_of(mesh_, t, 2))};
   }
 
-  bool is_smooth(std::uint32_t t, std::uint32_t k, std::uint32_t other, std::uint32_t l) const {
-    const auto normal = [&](std::uint32_t triangle, std::uint32_t corner) {
-      return mesh_.normals[mesh_.indices[3 * std::size_t{triangle} + corner % 3]];
-    };
-    return dot(normal(t, k), normal(other, l + 1)) > kSmoothEdge && dot(normal(t, k + 1), normal(other, l)) > kSmoothEdge;
+  static double texels_in(const Chart& chart, double texels) {
+    const Vec2d size = chart.box().size() * texels;
+    return (std::ceil(size.x) + 1) * (std::ceil(size.y) + 1);
+  }
+  double area_of(const Chart& chart) const {
+    double area = 0;
+    for (const ChartTriangle& t : chart.triangles) area += length(steradian::bake::across(mesh_, t.triangle)) / 2;
+    return area;
+  }
+
+  // True if the vertex normals turn along the triangle.
+  bool is_curved(std::uint32_t t) const {
+    const auto normal = [&](std::size_t k) { return mesh_.normals[mesh_.indices[3 * std::size_t{t} + k]]; };
+    return std::min({dot(normal(0), normal(1)), dot(normal(1), normal(2)), dot(normal(2), normal(0))}) < kStraight;
   }
 
   Chart grown_from(std::uint32_t seed) {
@@ -160,7 +193,7 @@ class MeshCharts {
         for (std::size_t c = 0; c < 3; ++c)
           off = std::max(off, std::fabs(dot(corner_of(mesh_, other, c) - chart.plane.origin, chart.plane.normal)));
         const bool plane = towards > kSameWay && off <= 5e-6 * length(box.size()) + kRounding * reach_;
-        if (!plane && !(towards > kCone && is_smooth(t, k, other, edge % 3))) continue;
+        if (!plane && !(towards > kCone && meet_smoothly(mesh_, 3 * t + k, edge))) continue;
         if (overlaps.meet(places_in(chart.plane, other))) continue;
         chart.is_flat &= plane;
         take(other);
@@ -224,7 +257,7 @@ bool takes_light(const Scene& scene, const Mesh& mesh) {
   return !mesh.is_light_shape && !scene.materials[static_cast<std::size_t>(mesh.material)].unlit && !light_passes(scene, mesh);
 }
 
-Charts charts_of(const Scene& scene, const std::string& place) {
+Charts charts_of(const Scene& scene, double texels, const std::string& place) {
   Charts result;
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
@@ -232,7 +265,7 @@ Charts charts_of(const Scene& scene, const std::string& place) {
     check_mesh(mesh, m, place);
     MeshCharts work(scene, m, place);
     result.without_area += work.without_area();
-    std::vector<Chart> charts = mesh.texcoords[1].empty() ? work.found() : work.given();
+    std::vector<Chart> charts = mesh.texcoords[1].empty() ? work.found(texels) : work.given();
     if (charts.empty()) result.warnings.push_back(name_of(mesh, m) + " has no triangle with an area: it gets no light map");
     if (charts.size() > kManyCharts)
       result.warnings.push_back(name_of(mesh, m) + " has " + std::to_string(mesh.triangle_count()) + " triangles in " +

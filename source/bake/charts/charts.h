@@ -1,7 +1,8 @@
 // Cuts the meshes of a scene into charts.
 //
 // A mesh with a second set of texture coordinates keeps the charts that these describe. Any other is cut where it bends: a chart is a plane
-// part, or a part of a smooth surface whose triangles face within 40 degrees of one direction, seen from there.
+// part, a grid of curved quadrilaterals (grid_charts.h), or a part of a finely divided smooth surface whose triangles face within 40
+// degrees of one direction, seen from there.
 #pragma once
 
 #include <string>
@@ -21,7 +22,7 @@ struct Charts {
 };
 
 // Throws Error(place, ...) with the mesh's name where its vertices are incomplete or not finite, and where its texture coordinates fold,
-// overlap in a chart, or have no area.
-Charts charts_of(const Scene& scene, const std::string& place);
+// overlap in a chart, or have no area. texels: a metre.
+Charts charts_of(const Scene& scene, double texels, const std::string& place);
 
 }  // namespace steradian::bake

@@ -332,14 +332,17 @@ class ChartCutter {
 
 }  // namespace
 
-CutScene cut_at_contacts(Scene scene, std::vector<Chart>& charts, double texels, std::uint64_t work) {
+CutScene cut_at_contacts(Scene scene, std::vector<Chart>& charts, double texels, std::uint64_t work, const WorkFraction& progress) {
   CutScene result;
   result.corners.resize(scene.meshes.size());
   std::vector<std::optional<Parted>> parted(charts.size());
   {
     ContactJudge judge(scene, texels, work);
-    for (std::size_t c = 0; c < charts.size(); ++c)
+    WorkSteps steps(progress, charts.size());
+    for (std::size_t c = 0; c < charts.size(); ++c) {
       if (charts[c].is_flat) parted[c] = judge.parted(charts[c], result.warnings);
+      steps.advance();
+    }
     judge.warn(result.warnings);
   }
   result.scene = std::move(scene);

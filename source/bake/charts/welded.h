@@ -39,6 +39,12 @@ struct EdgeOf {
   std::uint32_t triangle, k;
 };
 
+// True if the vertex normals of two triangles agree at their common edge. Edges are 3 triangle + k.
+inline bool meet_smoothly(const Mesh& mesh, std::uint32_t edge, std::uint32_t other) {
+  const auto normal = [&](std::uint32_t of, std::uint32_t end) { return mesh.normals[mesh.indices[of - of % 3 + (of % 3 + end) % 3]]; };
+  return dot(normal(edge, 0), normal(other, 1)) > kSmoothEdge && dot(normal(edge, 1), normal(other, 0)) > kSmoothEdge;
+}
+
 // The other triangle at each edge of a mesh, if exactly two triangles that wind the same way share it.
 class MeshNeighbours {
  public:

@@ -354,11 +354,19 @@ class Renderer {
   }
 
   std::shared_ptr<const radiosity::PatchLight> solve_patches() {
-    const radiosity::PatchOptions wanted{options_.bounces, radiosity::fineness_of(options_), options_.stop};
-    steps_ += radiosity::patch_tiles(scene_, wanted.fineness);
+    radiosity::PatchOptions wanted{options_.bounces, radiosity::fineness_of(options_), options_.stop};
+    const std::uint64_t solve_steps = radiosity::solve_tiles(scene_, wanted);
+    steps_ += solve_steps;
+    if (options_.progress)
+      wanted.progress = [this, solve_steps](double fraction) {
+        const auto wanted_steps = static_cast<std::uint64_t>(fraction * static_cast<double>(solve_steps));
+        std::uint64_t before = done_;
+        while (before < wanted_steps && !done_.compare_exchange_weak(before, wanted_steps)) {
+        }
+        if (before < wanted_steps) options_.progress(wanted_steps, steps_);
+      };
     const auto add_direct = [this](SurfaceTile& tile) {
       if (tile.any_surface) light_directly(tile, ReceiverKind::patch);
-      if (options_.progress) options_.progress(++done_, steps_);
     };
     const auto find_incident = [this](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
       find_incident_on_patch(*samplers_.local(), environment() != nullptr, surface, number, found);

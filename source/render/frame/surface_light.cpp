@@ -30,7 +30,7 @@ FaceLights::FaceLights(const Scene& scene, const RenderOptions& options, const D
       lighting(scene, options, method, lights, parts, nullptr),
       tinted(scene, options, method, lights, nullptr) {}
 
-SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, const std::function<void()>& solved)
+SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, const WorkFraction& solved)
     : options_(options),
       method_(choose_method(scene, options)),
       parts_(SceneParts::of(scene, options.shadows != Shadows::off ? Sorted::for_rays_and_edges : Sorted::for_rays)),
@@ -45,10 +45,9 @@ SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, con
   if (options.bounces == 0) return;
   const radiosity::Fineness fineness = radiosity::fineness_of(options);
   patches_ = std::make_unique<const radiosity::PatchLight>(radiosity::solve_patches(
-      scene, surfaces_.rays(), *parts_.maps, {options.bounces, fineness},
+      scene, surfaces_.rays(), *parts_.maps, {options.bounces, fineness, options.stop, solved},
       [&](SurfaceTile& tile) {
         if (tile.any_surface) add_direct(tile, ReceiverKind::patch);
-        if (solved) solved();
       },
       [&](const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found) {
         find_incident_on_patch(*samplers_.local(), surfaces_.environment() != nullptr, surface, number, found);
@@ -57,8 +56,8 @@ SurfaceLight::SurfaceLight(const Scene& scene, const RenderOptions& options, con
                                                       radiosity::Gather::Options{options.bounce_error, options.bounce_strict});
 }
 
-std::size_t SurfaceLight::solve_steps(const Scene& scene, const RenderOptions& options) {
-  return options.bounces == 0 ? 0 : radiosity::patch_tiles(scene, radiosity::fineness_of(options));
+std::size_t SurfaceLight::solve_tiles(const Scene& scene, const RenderOptions& options) {
+  return radiosity::solve_tiles(scene, {options.bounces, radiosity::fineness_of(options)});
 }
 
 void DirectLight::add(SurfaceTile& tile, ReceiverKind receiver, EstimatedShadows& scratch) const {

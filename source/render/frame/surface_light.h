@@ -52,9 +52,10 @@ struct FaceLights {
 class SurfaceLight {
  public:
   // Solves the light between surfaces if options.bounces asks for it, on the threads of the caller's arena. The scene and the options must
-  // outlive this object. solved: called for each step of that, of solve_steps; null: no call. The lights are always summed one by one.
-  SurfaceLight(const Scene& scene, const RenderOptions& options, const std::function<void()>& solved = {});
-  static std::size_t solve_steps(const Scene& scene, const RenderOptions& options);
+  // outlive this object. The lights are always summed one by one.
+  SurfaceLight(const Scene& scene, const RenderOptions& options, const WorkFraction& solved = {});
+  // The time of that in tiles that find() takes: an estimate.
+  static std::size_t solve_tiles(const Scene& scene, const RenderOptions& options);
 
   const RayScene& rays() const { return surfaces_.rays(); }
   const MipMaps& maps() const { return *parts_.maps; }

@@ -81,6 +81,27 @@ TEST(KeptPatches, HoldAPreviewToo) {
   EXPECT_LT(counted(scene, preview, cache).steps, first_preview);
 }
 
+// The light of patches and the tiles share one count, which never falls and is full at the end alone.
+TEST(KeptPatches, ProgressIsFullAtTheEndAlone) {
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/cornell.glb").scene;
+  for (const int bounces : {0, 1, kAllBounces}) {
+    RenderOptions options = tiny();
+    options.bounces = bounces;
+    options.threads = 1;
+    std::uint64_t last = 0, calls = 0, full = 0;
+    options.progress = [&](std::uint64_t done, std::uint64_t total) {
+      EXPECT_GE(done, last);
+      EXPECT_LE(done, total);
+      last = done;
+      full += done == total;
+      ++calls;
+    };
+    render(scene, options);
+    EXPECT_EQ(full, 1u) << bounces << " bounces";
+    EXPECT_GT(calls, bounces == 0 ? 1u : 20u);
+  }
+}
+
 // A picture that is stopped while its patches are lit leaves nothing unfinished behind.
 TEST(KeptPatches, HoldNothingOfAStoppedPicture) {
   const Scene scene = load_scene(test::kSourceDir + "/scenes/cornell.glb").scene;

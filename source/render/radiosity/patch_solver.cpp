@@ -70,6 +70,12 @@ Frame turned_frame(Vec3d normal, double angle) {
 }
 
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
+// Ends of the stages of a solve, as fractions of its time: estimates for progress, from the scenes cornell, room, gallery and furnished.
+struct SolveShares {
+  double direct, refined, glossy, links;
+};
+SolveShares shares_of(int bounces) { return bounces == 1 ? SolveShares{0.5, 0.9, 1, 1} : SolveShares{0.2, 0.35, 0.4, 0.9}; }
+
 std::size_t tiles_for(std::size_t patches) { return (patches + kTilePatches - 1) / kTilePatches; }
 
 }  // namespace
@@ -94,6 +100,7 @@ class PatchSolver {
   }
   Surface surface_of(std::uint32_t side) const;
   Surface surface_at_site(std::uint32_t side, const Patches::Site& at) const;
+  WorkFraction part(double first, double last) const { return part_of(options_.progress, first, last); }
   void find_direct(const AddDirect& add_direct);
   void refine_direct(const AddDirect& add_direct);
   void find_glossy(const FindIncident& find_incident);
@@ -108,6 +115,7 @@ class PatchSolver {
   const RayScene& rays_;
   const MipMaps& maps_;
   const PatchOptions options_;
+  const SolveShares shares_ = shares_of(options_.bounces);
   PatchLight light_;
   std::vector<Vec3f> reflectance_, direct_;  // by side
   std::vector<Vec3f> even_glossy_;           // by side: mean radiance of its glossy lobe
@@ -144,6 +152,7 @@ PatchLight PatchSolver::solve(const AddDirect& add_direct, const FindIncident& f
   }
   find_coarse();
   find_bright_sides();
+  if (options_.progress) options_.progress(1);
   return std::move(light_);
 }
 
@@ -152,8 +161,9 @@ PatchLight solve_patches(const Scene& scene, const RayScene& rays, const MipMaps
   return PatchSolver(scene, rays, maps, options).solve(add_direct, find_incident);
 }
 
-std::size_t patch_tiles(const Scene& scene, const Fineness& fineness) {
-  return tiles_for(Patches(scene, fineness.patches).side_count() / 2);
+std::size_t solve_tiles(const Scene& scene, const PatchOptions& options) {
+  const std::size_t tiles = tiles_for(Patches(scene, options.fineness.patches).side_count() / 2);
+  return options.bounces == 0 ? 0 : static_cast<std::size_t>(static_cast<double>(tiles) / shares_of(options.bounces).direct) + 1;
 }
 
 Surface PatchSolver::surface_of(std::uint32_t side) const { return surface_at_site(side, patches().site(side)); }
@@ -172,6 +182,7 @@ Surface PatchSolver::surface_at_site(std::uint32_t side, const Patches::Site& at
 // Finds the direct light of the sides, a tile of sides at a time: the fronts of its patches, and then their backs.
 void PatchSolver::find_direct(const AddDirect& add_direct) {
   const std::size_t count = patches().side_count() / 2;
+  WorkSteps steps(part(0, shares_.direct), tiles_for(count));
   each(tiles_for(count), [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
     clear_kinds(*tile);
@@ -193,6 +204,7 @@ void PatchSolver::find_direct(const AddDirect& add_direct) {
     add_direct(*tile);
     for (std::size_t i = 0; i < kTilePixels; ++i)
       if (const std::uint32_t side = side_of(i); side != kNoSide) direct_[side] = get(tile->radiance, i) * reflectance_[side];
+    steps.advance();
   });
 }
 
@@ -223,6 +235,7 @@ void PatchSolver::refine_direct(const AddDirect& add_direct) {
   light_.change_in_parts_.resize(refined.size());
   for (std::uint32_t k = 0; k < refined.size(); ++k) light_.sides_[refined[k]].parts = k & PatchLight::kNoParts;
   const std::size_t tiles = (refined.size() + kTileSides - 1) / kTileSides;
+  WorkSteps steps(part(shares_.direct, shares_.refined), tiles);
   each(tiles, [&](std::size_t number) {
     const auto tile = std::make_unique<SurfaceTile>();
     clear_kinds(*tile);
@@ -249,6 +262,7 @@ void PatchSolver::refine_direct(const AddDirect& add_direct) {
       direct_[side] = mean;
       for (std::uint32_t i = 0; i < kPatchParts; ++i) parts[i] = patches().holds({side, i}) ? parts[i] - mean : Vec3f{};
     }
+    steps.advance();
   });
 }
 
@@ -265,6 +279,7 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
   }
   if (!(area > 0)) return;
   const double least = kLeast * power / area;
+  WorkSteps steps(part(shares_.refined, shares_.glossy), sides);
   struct Found {
     Surface surface;
     Vec3f share;  // of the radiance
@@ -273,6 +288,7 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
   for (std::uint32_t first = 0; first < sides; first += kBatch) {
     std::vector<Found> found(std::min(kBatch, std::size_t{sides - first}));
     each(found.size(), [&](std::size_t k) {
+      steps.advance();
       const auto side = static_cast<std::uint32_t>(first + k);
       if (!weighs(direct_[side])) return;
       const Surface surface = surface_of(side);
@@ -307,7 +323,9 @@ void PatchSolver::find_links(std::size_t rays) {
   links_.resize(rays * patches().side_count());
   from_glossy_.resize(patches().side_count());
   const std::vector<Vec3d> directions = cosine_directions(rays);
+  WorkSteps steps(part(shares_.glossy, shares_.links), patches().side_count());
   each(patches().side_count(), [&](std::size_t side) {
+    steps.advance();
     const Surface surface = surface_of(static_cast<std::uint32_t>(side));
     // Each side turns the directions by its own angle.
     reference::Random random(side);

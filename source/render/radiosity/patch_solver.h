@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mip_maps.h"
+#include "core/progress.h"
 #include "render/radiosity/bounce_rays.h"
 #include "render/radiosity/fineness.h"
 #include "render/radiosity/patch_light.h"
@@ -17,6 +18,7 @@ struct PatchOptions {
   int bounces = kAllBounces;  // of the light in the picture: the last one is that of the gather
   Fineness fineness = fineness_of(Quality::normal);
   const std::atomic<bool>* stop = nullptr;  // once true, the result is unfinished
+  WorkFraction progress{};
 };
 
 // Stores a white diffuse surface in the place of another, so that the radiance that it reflects is its irradiance over pi.
@@ -32,7 +34,7 @@ using FindIncident = std::function<void(const Surface& surface, std::uint64_t nu
 PatchLight solve_patches(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
                          const AddDirect& add_direct, const FindIncident& find_incident);
 
-// Number of calls of add_direct, for progress.
-std::size_t patch_tiles(const Scene& scene, const Fineness& fineness);
+// The time of solve_patches, in tiles of a picture that are lit directly: an estimate, for progress.
+std::size_t solve_tiles(const Scene& scene, const PatchOptions& options);
 
 }  // namespace steradian::radiosity

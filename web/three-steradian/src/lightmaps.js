@@ -20,9 +20,9 @@ export class GLTFLightMaps {
 
 		const asked = this.parser.json.extras?.steradian?.lightMap;
 		if ( ! asked ) return;
-		if ( asked.encoding !== 'RGBM' ) throw new Error( `extras.steradian.lightMap.encoding is '${asked.encoding}': there is RGBM` );
+		if ( ! ( asked.encoding in DECODERS ) ) throw new Error( `extras.steradian.lightMap.encoding is '${asked.encoding}': there are ${Object.keys( DECODERS ).join( ', ' )}` );
 		const maps = new LightMaps();
-		for ( const map of asked.maps ?? [] ) maps.groups.push( await this.groupOf( map ) );
+		for ( const map of asked.maps ?? [] ) maps.groups.push( await this.groupOf( map, DECODERS[ asked.encoding ] ) );
 		if ( maps.groups.length === 0 ) throw new Error( 'extras.steradian.lightMap has no maps: bake the scene again' );
 		maps.blend();
 		result.userData.lightMaps = maps;
@@ -54,16 +54,22 @@ export class GLTFLightMaps {
 
 	}
 
-	async groupOf( { group, texture, range, intensity = 1 } ) {
+	async groupOf( { group, texture, range, intensity = 1 }, decoder ) {
 
 		const json = this.parser.json, image = json.images?.[ json.textures?.[ texture ]?.source ];
 		if ( image?.bufferView === undefined ) throw new Error( `extras.steradian.lightMap: textures[ ${texture} ] has no picture in the file` );
 		if ( ! ( range > 0 ) ) throw new Error( `extras.steradian.lightMap.range is ${range}: give a number above 0` );
-		return { name: group, range, intensity, ...await pixelsOf( await this.parser.getDependency( 'bufferView', image.bufferView ) ) };
+		return { name: group, range, intensity, decoder, ...await pixelsOf( await this.parser.getDependency( 'bufferView', image.bufferView ), decoder ) };
 
 	}
 
 }
+
+// Encodings: the bits and the colour type of the PNG, the bytes of a pixel, and a channel as a fraction of the range.
+const DECODERS = {
+	RGBM: { bits: 8, type: 6, pixel: 4, words: '8-bit RGBA', fraction: ( bytes, i, c ) => bytes[ 4 * i + c ] * bytes[ 4 * i + 3 ] / ( 255 * 255 ) },
+	RGB16: { bits: 16, type: 2, pixel: 6, words: '16-bit RGB', fraction: ( bytes, i, c ) => ( 256 * bytes[ 6 * i + 2 * c ] + bytes[ 6 * i + 2 * c + 1 ] ) / 65535 },
+};
 
 /** The maps of a file's groups of lights, and the texture that shows their sum. */
 export class LightMaps {
@@ -100,7 +106,7 @@ export class LightMaps {
 			for ( let c = 0; c < 3; ++ c ) {
 
 				let sum = 0;
-				for ( const { bytes, range, intensity } of this.groups ) sum += bytes[ i + c ] * bytes[ i + 3 ] * range * intensity / ( 255 * 255 );
+				for ( const { bytes, range, intensity, decoder } of this.groups ) sum += decoder.fraction( bytes, i / 4, c ) * range * intensity;
 				half[ i + c ] = DataUtils.toHalfFloat( Math.min( sum, 65504 ) );
 
 			}
@@ -121,8 +127,8 @@ function textureOf( width, height ) {
 
 }
 
-// The bytes of a PNG of 8-bit RGBA. A canvas would multiply them by their alpha, which is no alpha here.
-async function pixelsOf( file ) {
+// The bytes of a PNG. A canvas would multiply them by their alpha, which is no alpha here, and knows 8 bits alone.
+async function pixelsOf( file, { bits, type, pixel, words } ) {
 
 	const view = new DataView( file ), parts = [];
 	let width = 0, height = 0;
@@ -133,8 +139,8 @@ async function pixelsOf( file ) {
 
 			width = view.getUint32( at + 8 );
 			height = view.getUint32( at + 12 );
-			if ( view.getUint8( at + 16 ) !== 8 || view.getUint8( at + 17 ) !== 6 || view.getUint8( at + 20 ) !== 0 )
-				throw new Error( 'the light map is no PNG of 8-bit RGBA: bake the scene again' );
+			if ( view.getUint8( at + 16 ) !== bits || view.getUint8( at + 17 ) !== type || view.getUint8( at + 20 ) !== 0 )
+				throw new Error( `the light map is no PNG of ${words}: bake the scene again` );
 
 		}
 
@@ -143,19 +149,19 @@ async function pixelsOf( file ) {
 	}
 
 	const stream = new Blob( parts ).stream().pipeThrough( new DecompressionStream( 'deflate' ) );
-	const raw = new Uint8Array( await new Response( stream ).arrayBuffer() ), row = 4 * width, bytes = new Uint8Array( row * height );
+	const raw = new Uint8Array( await new Response( stream ).arrayBuffer() ), row = pixel * width, bytes = new Uint8Array( row * height );
 	if ( raw.length !== ( row + 1 ) * height ) throw new Error( 'the light map is cut off: bake the scene again' );
 	for ( let y = 0; y < height; ++ y ) {
 
 		const filter = raw[ y * ( row + 1 ) ];
 		for ( let i = 0; i < row; ++ i ) {
 
-			const at = y * row + i, left = i < 4 ? 0 : bytes[ at - 4 ], up = y === 0 ? 0 : bytes[ at - row ];
+			const at = y * row + i, left = i < pixel ? 0 : bytes[ at - pixel ], up = y === 0 ? 0 : bytes[ at - row ];
 			let guess = 0;
 			if ( filter === 1 ) guess = left;
 			if ( filter === 2 ) guess = up;
 			if ( filter === 3 ) guess = ( left + up ) >> 1;
-			if ( filter === 4 ) guess = paeth( left, up, i < 4 || y === 0 ? 0 : bytes[ at - row - 4 ] );
+			if ( filter === 4 ) guess = paeth( left, up, i < pixel || y === 0 ? 0 : bytes[ at - row - pixel ] );
 			bytes[ at ] = raw[ y * ( row + 1 ) + 1 + i ] + guess;
 
 		}

@@ -84,6 +84,13 @@ def srgb(linear):
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
 
 
+def drawn(program, encoding, scratch, chromium, address):
+    """The pixels that three.js draws of the room with a map of this encoding."""
+    subprocess.run([program, "bake", scratch / "room.gltf", "-o", scratch / "baked.glb", "--texels", "24", "--encoding", encoding], check=True)
+    words = common.page_words(chromium, f"{address}/test/lightmap.html")
+    return np.frombuffer(base64.b64decode(words), np.float32).reshape(HEIGHT, WIDTH, 4)[::-1, :, :3]
+
+
 def main():
     program = sys.argv[2]
     chromium = browser.find()
@@ -93,13 +100,13 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         scratch = Path(folder)
         (scratch / "room.gltf").write_text(json.dumps(room()))
-        subprocess.run([program, "bake", scratch / "room.gltf", "-o", scratch / "baked.glb", "--texels", "24"], check=True)
         subprocess.run([program, "render", scratch / "room.gltf", "-o", scratch / "want.png", "--size", f"{WIDTH}x{HEIGHT}", "--bounces", "all", "--quality", "high",
                         "--exposure", "0", "--tone", "clip"], check=True)
         server = ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, three=three, scratch=scratch))
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        words = common.page_words(chromium, f"http://127.0.0.1:{server.server_address[1]}/test/lightmap.html")
-        got = np.frombuffer(base64.b64decode(words), np.float32).reshape(HEIGHT, WIDTH, 4)[::-1, :, :3]
+        rgb16, got = (drawn(program, encoding, scratch, chromium, f"http://127.0.0.1:{server.server_address[1]}") for encoding in ("rgb16", "rgbm"))
+        apart = np.abs(rgb16 - got).max() / got.max()
+        assert 0 < apart < 1 / 255, f"maps of 8 and 16 bits differ by {apart:.5f} of the brightest pixel"
         want = np.array([np.frombuffer(row, np.uint8).reshape(-1, 3) for row in read_png(scratch / "want.png")]).astype(int)
         off = np.abs(np.round(255 * srgb(got)) - want).max(axis=-1)
         within = (off <= STEPS).mean()
