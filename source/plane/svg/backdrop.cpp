@@ -141,20 +141,17 @@ class BackdropJudge {
 
 struct Occluder {
   std::size_t body;
-  PlaneBody flat;
   Box2d box;
+  std::optional<PlaneBody> flat;  // found when a place lies in the box
 };
 
 class BurialJudge {
  public:
-  BurialJudge(const PlaneScene& scene, double tolerance) : tolerance_(tolerance) {
+  BurialJudge(const PlaneScene& scene, double tolerance) : scene_(scene), tolerance_(tolerance) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const PlaneBody& body = scene.bodies[i];
       const bool passes = body.transmittance.has_value() || body.light_depth > 0;
-      if (body.light || passes || body.shape == PlaneBody::Shape::polyline) continue;
-      PlaneBody flat = flattened(body, tolerance);
-      const Box2d box = flat_bounds(flat);
-      occluders_.push_back({i, std::move(flat), box});
+      if (!body.light && !passes && body.shape != PlaneBody::Shape::polyline) occluders_.push_back({i, bounds_of(body), std::nullopt});
     }
   }
 
@@ -182,17 +179,19 @@ class BurialJudge {
 
  private:
   const Occluder* holder_of(Vec2d place) {
-    if (last_ != nullptr && last_->box.contains(place) && holds_point(last_->flat, place)) return last_;
-    for (const Occluder& occluder : occluders_) {
+    if (last_ != nullptr && last_->box.contains(place) && holds_point(*last_->flat, place)) return last_;
+    for (Occluder& occluder : occluders_) {
       if (work_++ > kMostWork) return nullptr;
       if (!occluder.box.contains(place)) continue;
-      for (const auto& contour : occluder.flat.contours) work_ += contour.size();
-      if (holds_point(occluder.flat, place)) return last_ = &occluder;
+      if (!occluder.flat) occluder.flat = flattened(scene_.bodies[occluder.body], tolerance_);
+      for (const auto& contour : occluder.flat->contours) work_ += contour.size();
+      if (holds_point(*occluder.flat, place)) return last_ = &occluder;
     }
     return nullptr;
   }
 
   static constexpr std::uint64_t kMostWork = 20'000'000;  // about a tenth of a second
+  const PlaneScene& scene_;
   double tolerance_;
   std::vector<Occluder> occluders_;
   const Occluder* last_ = nullptr;  // a light's places lie in one occluder, as a rule
@@ -202,8 +201,9 @@ class BurialJudge {
 }  // namespace
 
 std::vector<BuriedLight> buried_lights(const PlaneScene& scene, double tolerance) {
-  BurialJudge judge(scene, tolerance);
   std::vector<BuriedLight> result;
+  if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const PlaneBody& body) { return body.light.has_value(); })) return result;
+  BurialJudge judge(scene, tolerance);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (scene.bodies[i].light)
       if (const auto occluder = judge.around(scene.bodies[i])) result.push_back({i, *occluder});
