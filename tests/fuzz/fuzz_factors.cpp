@@ -20,7 +20,8 @@ void factors(Input input) {
     ViewFactorOptions options;
     options.eps = 0.01;
     options.obstacles = faces.obstacles;
-    const ViewFactors f = view_factors(faces.faces, options);
+    ViewFactors f = view_factors(faces.faces, options);
+    if (!faces.masks.empty()) f = exchange::with_masks(grouped_view_factors(f, faces.groups, faces.group_names), faces.masks);
     for (const double sum : f.row_sums)
       if (!(sum >= 0)) std::abort();  // not a number, or negative
   } catch (const Error&) {

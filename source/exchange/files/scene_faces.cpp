@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/box.h"
@@ -86,8 +87,7 @@ std::vector<ViewFactorFace> divided_face(const ViewFactorFace& face, double size
     return part.is_empty() ? part : cut_element(part, e.centroid + axis * high, axis, -1);
   };
   const double far = 4 * e.radius;
-  const bool face_is_simple = is_simple(e);
-  std::vector<PlaneElement> triangles;
+  std::optional<std::vector<PlaneElement>> triangles;  // of the whole face
   for (int i = 0; i < k; ++i) {
     const auto step = [&](double low, double width, int at, int count) {
       return at == 0 ? -far : at == count ? far : low + width * at / count;
@@ -106,13 +106,14 @@ std::vector<ViewFactorFace> divided_face(const ViewFactorFace& face, double size
         if (!part.is_empty() && part.area > 1e-12 * size * size) result.push_back(face_of_element(part, name()));
       };
       const PlaneElement part = cell_of(strip);
-      if (part.is_empty() || !face_is_simple || is_simple(part)) {
+      if (part.is_empty() || is_simple(part)) {
         add(part);
         continue;
       }
       // The cut runs along a hole or through a notch: the triangles of the face have simple parts.
-      if (triangles.empty()) triangles = triangles_of_element(e, face.name);
-      for (const PlaneElement& triangle : triangles) {
+      if (!triangles) triangles = split_element(e).value_or(std::vector<PlaneElement>{});
+      if (triangles->empty()) add(part);
+      for (const PlaneElement& triangle : *triangles) {
         const PlaneElement of_triangle = strip_of(triangle);
         if (!of_triangle.is_empty()) add(cell_of(of_triangle));
       }

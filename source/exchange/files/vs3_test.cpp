@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "steradian/error.h"
 #include "support/gltf_test_file.h"
 
@@ -50,6 +52,39 @@ TEST(Vs3Masks, CoverTheirBaseAndKeepTheRoomClosed) {
   const ViewFactors without = view_factors(hole.faces, options);
   for (std::size_t i = 0; i < 11; ++i)
     for (std::size_t j = 0; j < i; ++j) EXPECT_NEAR(f.between(i, j), without.between(i, j), 1e-7) << f.names[i] << " " << f.names[j];
+}
+
+// A door touches the edge of its wall, and a cupboard stands at the wall, in its corner: subsurfaces and masks that touch their base.
+TEST(Vs3Subsurfaces, MayTouchTheEdgesOfTheirBase) {
+  std::string room = kRoom;
+  for (const auto& [from, to] : {std::pair{"V 11 1 2 0", "V 11 0 0 0"},
+                                 {"V 12 3 2 0", "V 12 2 0 0"},
+                                 {"V 13 3 3 0", "V 13 2 1 0"},
+                                 {"V 14 1 3 0", "V 14 0 1 0"},
+                                 {"V 15 1 2 1", "V 15 0 0 1"},
+                                 {"V 16 3 2 1", "V 16 2 0 1"},
+                                 {"V 17 3 3 1", "V 17 2 1 1"},
+                                 {"V 18 1 3 1", "V 18 0 1 1"}})
+    room.replace(room.find(from), std::string(from).size(), to);
+  // The cupboard's front and left side lie on walls: they and the floor have masks. The east wall has a door and a window above it.
+  for (const char* side : {"S 7 11 12 16 15 0 0 0.5 front\n", "S 10 14 11 15 18 0 0 0.5 left\n"})
+    room.erase(room.find(side), std::strlen(side));
+  room += "V 21 4 1 0\nV 22 4 2 0\nV 23 4 2 2\nV 24 4 1 2\nV 25 4 1 2.5\nV 26 4 2 2.5\n";
+  const std::string masks = "M 12 14 13 12 11 1 0 .5 bottom\nM 13 11 12 16 15 3 0 .5 front\nM 14 14 11 15 18 6 0 .5 left\n";
+  const std::string openings = "S 15 21 24 23 22 4 0 .5 door\nS 16 24 25 26 23 4 0 .5 window\n";
+  for (const double divide : {0.0, 2.0}) {
+    FaceOptions options;
+    options.by = divide > 0 ? FacesBy::node : FacesBy::face;
+    options.divide = divide;
+    const ViewFactors f = factors_of(read(room + masks + openings, options), 1e-7);
+    double area = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      EXPECT_NEAR(f.row_sums[i], 1, f.row_errors[i] + 1e-12) << f.names[i] << " divided by " << divide;
+      EXPECT_LT(f.row_errors[i], 1e-5) << f.names[i] << " divided by " << divide;
+      area += f.areas[i];
+    }
+    EXPECT_NEAR(area, 94 + 10, 1e-9) << "the room, and the cupboard twice where it touches";
+  }
 }
 
 // Combined surfaces, elements and backs with a mask keep its factors.

@@ -17,6 +17,10 @@ using Loop = std::vector<Vec3d>;
 constexpr double kHeightRounding = 0x1p-46;
 // Products of four lengths stay in the range of double.
 constexpr double kLargest = 1e50;
+// Slivers of rounding are no triangles. A cut moves corners by kHeightRounding of the size, so that a hundred cuts change less of the area
+// than kSplitArea; a hole that reaches beyond its outline changes more.
+constexpr double kSliver = 1e-12, kSplitArea = 1e-9;
+
 Vec3d area_vector_of(const Loop& loop) {
   Vec3d sum{};
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) sum += cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
@@ -220,25 +224,77 @@ bool is_simple(const PlaneElement& element) {
   return (element.contours.size() == 1 && element.contours[0].size() == 3) || triangles_of(flat_contours(element)).has_value();
 }
 
-std::vector<PlaneElement> triangles_of_element(const PlaneElement& element, const std::string& place) {
+namespace {
+
+PlaneElement element_of_loop(const Loop& loop, Vec3d normal) {
+  PlaneElement e;
+  e.normal = normal;
+  e.contours.push_back(loop);
+  measure(e);
+  return e;
+}
+
+// Triangles between contours that do not touch; none otherwise.
+std::optional<std::vector<PlaneElement>> simple_triangles(const PlaneElement& element) {
+  const auto triangles = triangles_of(flat_contours(element));
+  if (!triangles) return std::nullopt;
   std::vector<Vec3d> corners;
   for (const Loop& loop : element.contours) corners.insert(corners.end(), loop.begin(), loop.end());
   std::vector<PlaneElement> result;
-  const auto add = [&](const Loop& loop) {
-    PlaneElement t;
-    t.normal = element.normal;
-    t.contours.push_back(loop);
-    measure(t);
+  for (const auto& [a, b, c] : *triangles) {
+    PlaneElement t = element_of_loop({corners[a], corners[b], corners[c]}, element.normal);
     if (!t.is_empty()) result.push_back(std::move(t));
-  };
-  if (corners.size() == 3) {
-    add(corners);
-    return result;
   }
-  const auto triangles = triangles_of(flat_contours(element));
-  if (!triangles) throw Error(place, "its outline crosses or touches itself", "split the face into triangles");
-  for (const auto& [a, b, c] : *triangles) add({corners[a], corners[b], corners[c]});
   return result;
+}
+
+// Holes that touch the outline or each other, as a door touches the edge of its wall: the triangles of the outline, cut along the triangles
+// of each hole. None if the outline is not simple, or if a hole does not lie within it.
+std::optional<std::vector<PlaneElement>> triangles_around_holes(const PlaneElement& element) {
+  auto pieces = simple_triangles(element_of_loop(element.contours[0], element.normal));
+  for (std::size_t h = 1; pieces && h < element.contours.size(); ++h) {
+    const auto hole = simple_triangles(element_of_loop({element.contours[h].rbegin(), element.contours[h].rend()}, element.normal));
+    if (!hole) return std::nullopt;
+    for (const PlaneElement& triangle : *hole) {
+      std::vector<PlaneElement> outside;
+      for (PlaneElement inside : *pieces)
+        for (std::size_t k = 0; k < 3 && !inside.is_empty(); ++k) {
+          const Loop& corners = triangle.contours[0];
+          const Vec3d outwards = normalized(cross(corners[(k + 1) % 3] - corners[k], element.normal));
+          PlaneElement beyond = cut_element(inside, corners[k], outwards, 1);
+          if (!beyond.is_empty()) outside.push_back(std::move(beyond));
+          inside = cut_element(inside, corners[k], outwards, -1);
+        }
+      pieces = std::move(outside);
+    }
+  }
+  if (!pieces) return std::nullopt;
+  double area = 0;
+  std::vector<PlaneElement> result;
+  for (const PlaneElement& piece : *pieces) {
+    const Loop& loop = piece.contours[0];  // convex
+    area += piece.area;
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+      PlaneElement t = element_of_loop({loop[0], loop[k], loop[k + 1]}, element.normal);
+      if (t.area > kSliver * element.area) result.push_back(std::move(t));
+    }
+  }
+  if (!(std::fabs(area - element.area) <= kSplitArea * element.area)) return std::nullopt;
+  return result;
+}
+
+}  // namespace
+
+std::optional<std::vector<PlaneElement>> split_element(const PlaneElement& element) {
+  auto triangles = simple_triangles(element);
+  if (!triangles && element.contours.size() > 1) triangles = triangles_around_holes(element);
+  return triangles;
+}
+
+std::vector<PlaneElement> triangles_of_element(const PlaneElement& element, const std::string& place) {
+  auto triangles = split_element(element);
+  if (!triangles) throw Error(place, "its outline crosses or touches itself", "split the face into triangles");
+  return std::move(*triangles);
 }
 
 }  // namespace steradian::exchange

@@ -1,6 +1,7 @@
 // PlaneElement: a plane polygon with holes that exchanges radiation from its front.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,10 @@ PlaneElement turned_over(const PlaneElement& element);
 // True if no contour touches or crosses itself or another one.
 bool is_simple(const PlaneElement& element);
 
-// Triangles that cover the element. Throws Error at `place` if the contours touch or cross.
+// Triangles that cover the element. Holes may touch the outline and each other. None if contours cross, or if the outline touches itself.
+std::optional<std::vector<PlaneElement>> split_element(const PlaneElement& element);
+
+// The same. Throws Error at `place` if there are none.
 std::vector<PlaneElement> triangles_of_element(const PlaneElement& element, const std::string& place);
 
 }  // namespace steradian::exchange
