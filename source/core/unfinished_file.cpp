@@ -16,6 +16,12 @@ namespace {
 
 constexpr std::string_view kUnfinished = "steradpt";  // the file begins with it and the fingerprint of the identity
 
+#if defined(_WIN32)
+constexpr int kAppend = O_WRONLY | O_CREAT | O_BINARY | O_NOINHERIT;
+#else
+constexpr int kAppend = O_WRONLY | O_CREAT | O_CLOEXEC;
+#endif
+
 struct PieceHead {
   std::uint64_t number, bytes;
   Fingerprint contents;
@@ -59,7 +65,7 @@ UnfinishedFile::UnfinishedFile(const std::string& path, std::string_view identit
       }
     }
   }
-  descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  descriptor_ = open(path.c_str(), kAppend, 0644);
   if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(good)) != 0 || lseek(descriptor_, 0, SEEK_END) < 0)
     throw Error(path, std::string("cannot keep what is finished: ") + std::strerror(errno), "choose another folder, or leave out --resume");
   if (good == 0) write_all(descriptor_, std::string(kUnfinished) + std::string(bytes_in(mine)), path_);

@@ -1,14 +1,15 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -120,7 +121,7 @@ void say_last_words(int number) {
 // Rank 0: hands out the parts, and joins them.
 class HandOut {
  public:
-  HandOut(const SharedRun& run, int ranks) : run_(run), ranks_(ranks) {
+  HandOut(const SharedRun& run, int ranks) : run_(run) {
     count_ = std::min(run.most_parts, kPartsARank * ranks);
     left_.resize(static_cast<std::size_t>(count_));
     std::iota(left_.begin(), left_.end(), 1);
@@ -214,7 +215,7 @@ class HandOut {
   }
 
   const SharedRun& run_;
-  int ranks_, count_ = 1, in_flight_ = 0, status_ = 0;
+  int count_ = 1, in_flight_ = 0, status_ = 0;
   std::unique_ptr<PartsFolder> folder_;
   std::vector<int> left_, idle_;
   std::unique_ptr<CommandProcess> own_;
