@@ -38,7 +38,8 @@ TEST(MapEncoding, PngHoldsSixteenBits) {
   ASSERT_EQ(image.height, 2);
   for (int i = 0; i < 6; ++i)
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(image.rgba[static_cast<std::size_t>(4 * i + c)], 20 * (i / 3) + 6 * (i % 3) + 2 * c, 1) << "the high byte is the larger part";
+      EXPECT_NEAR(image.rgba[static_cast<std::size_t>(4 * i + c)], 20 * (i / 3) + 6 * (i % 3) + 2 * c, 1)
+          << "the high byte is the larger part";
 }
 
 }  // namespace steradian::bake_encoding_test
