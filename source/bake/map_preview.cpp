@@ -19,7 +19,7 @@ float white_of(const LightMap& map) {
   for (const Vec3f& e : map.irradiance)
     if (const float brightest = std::max({e.x, e.y, e.z}); brightest > 0) lit.push_back(brightest);
   if (lit.empty()) return 1;
-  const auto place = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 99 / 100);
+  const auto place = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 19 / 20);
   std::nth_element(lit.begin(), place, lit.end());
   return *place;
 }

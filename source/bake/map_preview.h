@@ -6,7 +6,7 @@
 
 namespace steradian::bake {
 
-// baked: the file with the map (add_light_map). The brightest hundredth of the texels is white. Surfaces that shine keep their materials.
+// baked: the file with the map (add_light_map). The brightest twentieth of the texels is white. Surfaces that shine keep their materials.
 scene::GltfFile map_preview(const scene::GltfFile& baked, const LightMap& map);
 
 }  // namespace steradian::bake
