@@ -79,6 +79,46 @@ TEST_F(Program, BakesAMapOfSixteenBits) {
   EXPECT_EQ(png[24], 16);  // bits a channel
 }
 
+// A picture of the preview shows the map: a plane floor of one colour has the light of its texels, up to white and the steps of 8 bits.
+TEST_F(Program, APreviewShowsItsMap) {
+  const std::string baked = folder / "baked.glb", preview = folder / "preview.glb", picture = folder / "preview.exr";
+  const std::vector<std::string> bake = {"bake", test::kSourceDir + "/scenes/cornell.glb", "-o", baked, "--texels", "4", "--bounces", "1"};
+  std::vector<std::string> with = bake;
+  with.insert(with.end(), {"--preview", preview});
+  ASSERT_EQ(run(with).status, 0);
+  const auto json = scene::read_gltf_file(preview).json;
+  std::size_t unlit = 0;
+  for (const auto& material : json["materials"])
+    unlit += material.contains("extensions") && material["extensions"].contains("KHR_materials_unlit");
+  EXPECT_EQ(unlit, 3u);
+  const Outcome r = run({"render", preview, "-o", picture, "--size", "64x64"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Outcome lit =
+      run({"render", test::kSourceDir + "/scenes/cornell.glb", "-o", folder / "lit.exr", "--size", "64x64", "--bounces", "1"});
+  ASSERT_EQ(lit.status, 0) << lit.err;
+  // Both pictures are alike up to one factor: white.
+  const Picture shown = read_picture(picture), truth = read_picture(folder / "lit.exr");
+  double both = 0, own = 0, squares = 0, light = 0;
+  const auto is_lamp = [&](std::size_t i) { return truth.pixels[i].x > 3; };
+  for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+    if (!is_lamp(i))
+      both += static_cast<double>(dot(shown.pixels[i], truth.pixels[i])), own += static_cast<double>(dot(shown.pixels[i], shown.pixels[i]));
+  for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+    if (is_lamp(i)) continue;
+    const Vec3f d = shown.pixels[i] * static_cast<float>(both / own) - truth.pixels[i];
+    squares += static_cast<double>(dot(d, d));
+    light += static_cast<double>(dot(truth.pixels[i], truth.pixels[i]));
+  }
+  std::printf("the preview is %.3f off, relative L2\n", std::sqrt(squares / light));
+  // Texels of a quarter of a metre blur the borders of shadows; without the map nothing would agree.
+  EXPECT_LT(std::sqrt(squares / light), 0.1);
+  with.back() = folder / "preview.png";
+  EXPECT_EQ(run(with).status, 2);
+  with.back() = preview;
+  with.insert(with.end(), {"--target", "vertex"});
+  EXPECT_EQ(run(with).status, 2);
+}
+
 // The baked scene is the scene: its surfaces stay where they were, with their materials.
 TEST_F(Program, ABakedSceneRendersAsBefore) {
   const std::string baked = folder / "baked.gltf", before = folder / "before.exr", after = folder / "after.exr";

@@ -11,6 +11,7 @@
 #include "bake/bake.h"
 #include "bake/baked_file.h"
 #include "bake/light_groups.h"
+#include "bake/map_preview.h"
 #include "bake/scene_to_bake.h"
 #include "core/files.h"
 #include "core/progress.h"
@@ -28,7 +29,7 @@ namespace steradian::app {
 namespace {
 
 struct BakeArguments {
-  std::string scene, output, bounces = "all", direct = "on", target = "texture", encoding = "rgbm", stats, part;
+  std::string scene, output, bounces = "all", direct = "on", target = "texture", encoding = "rgbm", preview, stats, part;
   std::vector<std::string> groups;
   bool resume = false;
   LoadOptions load;
@@ -125,7 +126,10 @@ void run(const Verb& verb, BakeArguments& options) {
   if (part ? !options.output.ends_with(".exr") : !options.output.ends_with(".glb") && !options.output.ends_with(".gltf"))
     throw WrongOption("-o", part ? "a part is written as .exr; steradian merge joins them" : "the baked scene is a .glb or .gltf file");
   if (!options.groups.empty() && bake.target == bake::BakeTarget::vertex) throw WrongOption("--group", "is for --target texture");
-  verb.refuse_without_effect({{"--bounce-error", bake.light.bounces != 0, "--bounces"},
+  if (!options.preview.empty() && !options.preview.ends_with(".glb") && !options.preview.ends_with(".gltf"))
+    throw WrongOption("--preview", "the scene that shows the map is a .glb or .gltf file");
+  verb.refuse_without_effect({{"--preview", bake.target == bake::BakeTarget::texture && !part, "--target texture, without --part"},
+                              {"--bounce-error", bake.light.bounces != 0, "--bounces"},
                               {"--bounce-strict", bake.light.bounces != 0, "--bounces"},
                               {"--encoding", bake.target == bake::BakeTarget::texture, "--target texture"},
                               {"--environment-rotation", !options.load.environment.empty(), "--environment"}});
@@ -155,6 +159,7 @@ void run(const Verb& verb, BakeArguments& options) {
     bake::add_light_map(file, loaded, map, std::filesystem::path(exr).filename().string(), load.limits,
                         bake::encoding_of(options.encoding));
     scene::write_gltf_file(file, options.output);
+    if (!options.preview.empty()) scene::write_gltf_file(bake::map_preview(file, map), options.preview);
   }
   if (unfinished) unfinished->remove();
   stats.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -176,6 +181,9 @@ void add_bake(CommandLine& line) {
   verb.add("--target", options->target, "a light map, or the attribute _IRRADIANCE").words({"texture", "vertex"}).group("Map");
   verb.add("--encoding", options->encoding, "the map in the scene: 8 bits with a multiplier, or 16 bits")
       .words({"rgbm", "rgb16"})
+      .group("Map");
+  verb.add("--preview", options->preview, "also write a scene (.glb, .gltf) that shows the map in any viewer: unlit, without textures")
+      .writes(Writes::file)
       .group("Map");
   verb.add("--texels", options->bake.texels, "texels a metre").range(bake::kLeastTexels, bake::kMostTexels).group("Map");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "bake/added_data.h"
 #include "image/codecs.h"
 #include "scene/gltf/gltf_accessor.h"
 #include "scene/gltf/gltf_meshes.h"
@@ -134,64 +135,6 @@ int free_set(const Json& json) {
   return last + 1;
 }
 
-constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
-
-Json& array_of(Json& json, const char* name) {
-  if (!json.contains(name)) json[name] = Json::array();
-  return json[name];
-}
-
-// Data for a file, in a buffer of its own or behind the binary chunk of a .glb.
-class NewData {
- public:
-  explicit NewData(GltfFile& file) : file_(file), joined_(file.binary != nullptr) {
-    if (joined_) bytes_ = *file.binary;
-    buffer_ = joined_ ? 0 : array_of(file.json, "buffers").size();
-  }
-
-  std::size_t add_view(const void* data, std::size_t size) {
-    bytes_.resize((bytes_.size() + 3) / 4 * 4);
-    const std::size_t first = bytes_.size();
-    const auto* from = static_cast<const std::uint8_t*>(data);
-    bytes_.insert(bytes_.end(), from, from + size);
-    Json& views = array_of(file_.json, "bufferViews");
-    views.push_back({{"buffer", buffer_}, {"byteOffset", first}, {"byteLength", size}});
-    return views.size() - 1;
-  }
-  std::size_t add_accessor(std::size_t view, int type_of_component, std::size_t count, const std::string& type, bool normalized = false) {
-    Json& accessors = array_of(file_.json, "accessors");
-    Json accessor = {{"bufferView", view}, {"componentType", type_of_component}, {"count", count}, {"type", type}};
-    if (normalized) accessor["normalized"] = true;
-    accessors.push_back(std::move(accessor));
-    return accessors.size() - 1;
-  }
-  void set_bounds(std::size_t accessor, const std::vector<float>& low, const std::vector<float>& high) {
-    file_.json["accessors"][accessor]["min"] = low;
-    file_.json["accessors"][accessor]["max"] = high;
-  }
-  std::size_t add_floats(const std::vector<float>& values, int components) {
-    const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const std::size_t view = add_view(values.data(), values.size() * sizeof(float));
-    return add_accessor(view, kFloat, values.size() / static_cast<std::size_t>(components), types[components - 1]);
-  }
-
-  void finish() {
-    if (joined_) {
-      file_.json["buffers"][0]["byteLength"] = bytes_.size();
-      file_.binary = std::make_shared<const Bytes>(std::move(bytes_));
-    } else {
-      array_of(file_.json, "buffers")
-          .push_back({{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + scene::base64(bytes_)}});
-    }
-  }
-
- private:
-  GltfFile& file_;
-  const bool joined_;
-  Bytes bytes_;
-  std::size_t buffer_ = 0;
-};
-
 // Writes the vertices of a primitive again, in the map's order.
 class AttributeWriter {
  public:
@@ -252,8 +195,7 @@ class AttributeWriter {
 };
 
 // The map as a picture in the file, and the texture that shows it.
-std::size_t add_texture(Json& json, NewData& data, const LightMap& map, const std::vector<Vec3f>& texels, float range,
-                        MapEncoding encoding) {
+std::size_t add_texture(NewData& data, const LightMap& map, const std::vector<Vec3f>& texels, float range, MapEncoding encoding) {
   const auto fill = [&](auto encoded) {
     return [&texels, &map, range, encoded](int y, std::uint8_t* row) {
       for (int x = 0; x < map.width; ++x)
@@ -264,15 +206,7 @@ std::size_t add_texture(Json& json, NewData& data, const LightMap& map, const st
   };
   const std::string png = encoding == MapEncoding::rgbm ? image::encode_png_rgba(map.width, map.height, fill(rgbm_of))
                                                         : image::encode_png_rgb16(map.width, map.height, fill(rgb16_of));
-  const std::size_t view = data.add_view(png.data(), png.size());
-  Json& images = array_of(json, "images");
-  images.push_back({{"name", "light map"}, {"bufferView", view}, {"mimeType", "image/png"}});
-  Json& samplers = array_of(json, "samplers");
-  constexpr int kLinear = 9729, kClamp = 33071;
-  samplers.push_back({{"magFilter", kLinear}, {"minFilter", kLinear}, {"wrapS", kClamp}, {"wrapT", kClamp}});
-  Json& textures = array_of(json, "textures");
-  textures.push_back({{"name", "light map"}, {"source", images.size() - 1}, {"sampler", samplers.size() - 1}});
-  return textures.size() - 1;
+  return data.add_picture("light map", png);
 }
 
 const char* key_of(MapEncoding encoding) { return encoding == MapEncoding::rgbm ? "RGBM" : "RGB16"; }
@@ -309,8 +243,7 @@ void add_light_map(GltfFile& file, const LoadedScene& loaded, const LightMap& ma
     Json maps = Json::array();
     const auto add = [&](const std::string& group, const std::vector<Vec3f>& texels) {
       const float range = range_of(texels);
-      maps.push_back(
-          {{"group", group}, {"texture", add_texture(file.json, data, map, texels, range, encoding)}, {"range", range}, {"intensity", 1}});
+      maps.push_back({{"group", group}, {"texture", add_texture(data, map, texels, range, encoding)}, {"range", range}, {"intensity", 1}});
     };
     if (map.groups.empty()) add("all", map.irradiance);
     for (const GroupTexels& group : map.groups) add(group.name, group.irradiance);

@@ -62,7 +62,7 @@ const std::vector<SharedVerb>& shared_verbs() {
        {},
        [](const SharedRun& run) { exchange::check_factors_name(run.output); }},
       {"render", ".exr", 1'000'000, false, {}, {}, {"--stats"}, [](const SharedRun& run) { image::check_picture_name(run.output); }},
-      {"bake", ".exr", 1'000'000, false, {}, {}, {"--stats"}, [](const SharedRun& run) { check_baked_name(run.output); }},
+      {"bake", ".exr", 1'000'000, true, {}, {}, {"--stats"}, [](const SharedRun& run) { check_baked_name(run.output); }},
       {"fit", ".json", 1024, true, {}, {}, {}, check_table},
   };
   return verbs;
