@@ -50,7 +50,8 @@ GltfFile map_preview(const GltfFile& baked, const LightMap& map) {
   const std::string png = image::encode_png_bytes(map.width, map.height, [&](int y, std::uint8_t* row) {
     const Vec3f* texels = map.irradiance.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width);
     for (int x = 0; x < map.width; ++x)
-      for (const float channel : {texels[x].x, texels[x].y, texels[x].z}) *row++ = image::srgb_byte(std::clamp(channel / white, 0.0f, 1.0f));
+      for (const float channel : {texels[x].x, texels[x].y, texels[x].z})
+        *row++ = image::srgb_byte(std::clamp(channel / white, 0.0f, 1.0f));
   });
   const std::size_t texture = data.add_picture("light map on the screen", png);
   std::map<std::size_t, std::size_t> unlit_of;  // by material
