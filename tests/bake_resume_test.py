@@ -11,7 +11,7 @@ from pathlib import Path
 from killed_runs import KilledRuns
 
 # Two maps of several batches of charts each.
-OPTIONS = ["--texels", "20", "--bounces", "1", "--quality", "draft", "--group", "star"]
+OPTIONS = ["--texels", "12", "--bounces", "0", "--group", "star"]
 
 
 def main():
@@ -30,7 +30,7 @@ def main():
 
         # Charts of another number of bounces are not those of this run.
         runs.kept.write_bytes(kept)
-        runs.command[runs.command.index("--bounces") + 1] = "0"
+        runs.command[runs.command.index("--bounces") + 1] = "1"
         assert runs.whole(runs.output, "--resume") == runs.whole(folder / "whole" / "map.glb"), "charts of other settings were taken up"
     print(f"{kills} kills, the same bytes")
     return 0

@@ -179,10 +179,8 @@ void add_bake(CommandLine& line) {
   verb.add("SCENE", options->scene, "scene file").required();
   verb.add("-o,--output", options->output, "baked scene: .glb or .gltf; its map is the .exr beside it").writes(Writes::file).required();
   verb.add("--target", options->target, "a light map, or the attribute _IRRADIANCE").words({"texture", "vertex"}).group("Map");
-  verb.add("--encoding", options->encoding, "the map in the scene: 8 bits with a multiplier, or 16 bits")
-      .words({"rgbm", "rgb16"})
-      .group("Map");
-  verb.add("--preview", options->preview, "also write a scene (.glb, .gltf) that shows the map in any viewer: unlit, without textures")
+  verb.add("--encoding", options->encoding, "PNG of the map: 8 bits a channel, or 16").words({"rgbm", "rgb16"}).group("Map");
+  verb.add("--preview", options->preview, "also write a scene that shows the map in any viewer (.glb, .gltf)")
       .writes(Writes::file)
       .group("Map");
   verb.add("--texels", options->bake.texels, "texels a metre").range(bake::kLeastTexels, bake::kMostTexels).group("Map");

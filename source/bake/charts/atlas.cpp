@@ -13,11 +13,11 @@ int cells_for(double texels) { return static_cast<int>(std::clamp(std::ceil(texe
 
 // The texels around a box of a plane that is divided into texels as a whole. Charts of one plane with doors between them have the same
 // texels beside a door, so that both sides can show the same light there.
-struct TexelBox {
+struct DoorTexels {
   double x = 0, y = 0;  // centre of the first
   int width = 0, height = 0;
 };
-TexelBox texels_of(const Box2d& box, double texels) {
+DoorTexels texels_of(const Box2d& box, double texels) {
   const auto first = [&](double low) { return std::floor(low * texels - kInside); };
   const auto number = [&](double low, double high) {
     return static_cast<int>(std::clamp(std::ceil(high * texels + kInside) - first(low), 1.0, 2.0 * kLargestMap)) + 1;
@@ -55,7 +55,7 @@ MapSize place_charts(const Scene& scene, std::vector<Chart>& charts, double texe
     const Box2d box = chart.box();
     Vec2d size = box.size();
     if (!chart.doors.empty()) {
-      const TexelBox all = texels_of(box, texels);
+      const DoorTexels all = texels_of(box, texels);
       chart.width = all.width;
       chart.height = all.height;
       count(chart);
@@ -95,7 +95,7 @@ MapSize place_charts(const Scene& scene, std::vector<Chart>& charts, double texe
   for (Chart& chart : charts) {
     const Box2d box = chart.box();
     if (!chart.doors.empty()) {
-      const TexelBox all = texels_of(box, texels);
+      const DoorTexels all = texels_of(box, texels);
       move(chart, [&](Vec2d p) { return Vec2d{chart.x + 0.5 + p.x * texels - all.x, chart.y + 0.5 + p.y * texels - all.y}; });
       continue;
     }
