@@ -17,6 +17,8 @@ namespace steradian::image {
 // EXR in memory: functions on the file's bytes, so that all disk access happens in one place.
 
 std::string encode_exr(const Picture& picture);
+// Number of threads that encode_exr takes from now on, in the whole process. The bytes are the same for any number.
+void encode_exr_with(int threads);
 
 // Throws Error(place, ...) for bytes that are not a whole picture. Memory is allocated after the header has been checked.
 Picture decode_exr(std::span<const std::uint8_t> bytes, const std::string& place, Budget& budget);

@@ -7,6 +7,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <ImfTileDescription.h>
 #include <ImfVersion.h>
 #include <ImfXdr.h>
@@ -191,6 +192,9 @@ Picture read_pixels(MemoryStream& stream, const Imath::Box2i& window, const std:
 }
 
 }  // namespace
+
+// OpenEXR counts the threads beside that of the caller, which waits for them.
+void encode_exr_with(int threads) { Imf::setGlobalThreadCount(threads > 1 ? threads : 0); }
 
 std::string encode_exr(const Picture& picture) {
   Imf::Header header(picture.width, picture.height);

@@ -1,5 +1,6 @@
 #include "steradian/picture.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -42,6 +43,16 @@ TEST(Picture, ExrKeepsEveryBitLayersAndMetadata) {
   EXPECT_EQ(a.layers, b.layers);
   EXPECT_EQ(b.metadata.at("steradian.method"), "exact");
   std::filesystem::remove(path);
+}
+
+TEST(Picture, ExrHasTheSameBytesWithAnyThreads) {
+  Picture picture(300, 200);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = {std::sin(0.1f * static_cast<float>(i)), 1, 2};
+  const std::string one = image::encode_exr(picture);
+  for (const int threads : {2, 3, 1}) {
+    image::encode_exr_with(threads);
+    EXPECT_EQ(image::encode_exr(picture), one) << threads;
+  }
 }
 
 TEST(Picture, ExrKeepsAlpha) {

@@ -15,6 +15,7 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/simd.h"
+#include "image/codecs.h"
 #include "part.h"
 #include "render/direct_only.h"
 #include "render/part_facts.h"
@@ -358,6 +359,7 @@ void run(const Verb& verb, RenderArguments& options) {
     picture.metadata[part_facts::kSettings] = settings_of(options, loaded.scene);
     if (!fixed_exposure) picture.metadata["steradian.exposure"] = part_facts::kAutoExposure;
   }
+  image::encode_exr_with(stats.threads);
   write_picture(picture, options.output, exposure, options.tone);
   stats.passes.insert(stats.passes.begin(), {{"load", load_ms - loaded.texture_ms}, {"textures", loaded.texture_ms}});
   stats.total_ms += load_ms;
