@@ -52,7 +52,8 @@ class Renderer {
         threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
         method_(choose_method(scene, options)),
         cache_(cache),
-        parts_(cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted())),
+        parts_(tbb::task_arena(threads_).execute(
+            [&] { return cache != nullptr ? cache->parts().follow(scene, sorted()) : SceneParts::of(scene, sorted()); })),
         surfaces_(scene, options, parts_, method_.table.get(), method_.estimates()),
         lights_(own_lights()),
         many_lights_(prepare_many_lights()),

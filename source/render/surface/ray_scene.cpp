@@ -5,6 +5,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <limits>
+#include <tbb/parallel_invoke.h>
 
 #include "render/surface/surface.h"
 #include "shadow/edges/bodies.h"
@@ -308,6 +309,10 @@ bool ShadowEdges::suit(const std::vector<AreaLight>& lights) const {
   if (now == bodies) return true;
   const bool cut = std::any_of(mesh.inside.begin(), mesh.inside.end(), [](const auto& list) { return !list.empty(); });
   return !cut && !shadow::may_enter(mesh, now);
+}
+
+ShadowEdges::Trees::Trees(const shadow::EdgeMesh& mesh) {
+  tbb::parallel_invoke([&] { edges.emplace(mesh); }, [&] { triangles.emplace(mesh); });
 }
 
 SceneParts SceneParts::of(const Scene& scene, Sorted sorted) {

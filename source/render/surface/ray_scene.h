@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <embree3/rtcore.h>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -115,14 +116,25 @@ class KeptPatches;
 // The edges that cast shadows, and the trees over them and their triangles.
 struct ShadowEdges {
   explicit ShadowEdges(const Scene& scene)
-      : bodies(shadow::bodies_of(scene.area_lights)), mesh(shadow::build_edges(scene)), edges(mesh), triangles(mesh) {}
+      : bodies(shadow::bodies_of(scene.area_lights)),
+        mesh(shadow::build_edges(scene)),
+        trees(mesh),
+        edges(*trees.edges),
+        triangles(*trees.triangles) {}
   ShadowEdges(const ShadowEdges&) = delete;
   // True for a scene of the same meshes if its round lights cut them as before.
   bool suit(const std::vector<AreaLight>& lights) const;
+  // Two threads sort them at the same time.
+  struct Trees {
+    explicit Trees(const shadow::EdgeMesh& mesh);
+    std::optional<shadow::EdgeTree> edges;
+    std::optional<shadow::TriangleTree> triangles;
+  };
   const std::vector<Body> bodies;  // of the round lights, which cut the triangles that enter them
   const shadow::EdgeMesh mesh;
-  const shadow::EdgeTree edges;
-  const shadow::TriangleTree triangles;
+  const Trees trees;
+  const shadow::EdgeTree& edges;
+  const shadow::TriangleTree& triangles;
 };
 
 // for_rays_and_edges: also for shadows without sampling.
