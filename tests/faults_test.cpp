@@ -222,8 +222,8 @@ TEST_F(Faults, ManyRendersInOneProcessKeepItsMemory) {
   };
   const double early = render_some(100), late = render_some(400);
   std::cout << "[ measured ] " << early << " MiB after 100 renders, " << late << " after 500\n";
-  // A leak of one picture per render would be 14 MB.
-  EXPECT_LT(late - early, 4);
+  // A leak of one picture per render would be 14 MB. Threads of other tests make the measure uncertain by some.
+  EXPECT_LT(late - early, 7);
 }
 
 }  // namespace
