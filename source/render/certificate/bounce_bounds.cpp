@@ -1,7 +1,6 @@
 #include "render/certificate/bounce_bounds.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <tbb/parallel_for.h>
@@ -38,7 +37,6 @@ double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
 // first.
 class BounceBounds::RowSum {
  public:
-  void clear() { terms_.clear(); }
   void add(double low, double high, const RadianceRange& radiance) { terms_.push_back({low, high, radiance}); }
 
   RadianceRange result() {

@@ -75,6 +75,7 @@ TEST(FactorRange, NoPointIsOutside) {
           if (!blocks(occluders.polygons[0], x, y)) seen += light;
         }
         factor = all > 0 ? whole * seen / all : 0;
+        // A border crosses some 120 of the 3,600 cells, and those near the point send up to three times the mean.
         rounding = seen == all || seen == 0 ? 1e-12 : 0.1 * whole;
       }
       EXPECT_GE(factor, range.low - rounding) << round;
