@@ -188,7 +188,7 @@ void add_bake(CommandLine& line) {
   verb.add("--group", options->groups, "lights whose names begin so get a map of their own; may be repeated").group("Light");
   verb.add("--direct", options->direct, "light of lamps and environment").words({"on", "off"}).group("Light");
   verb.add_word("--quality", r.quality, "patches and rays of --bounces").group("Light");
-  verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
+  verb.add("--bounce-error", r.bounce_error, "of --bounces: standard error to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
   verb.add_flag("--bounce-strict", r.bounce_strict, "of --bounces: each place by itself, in 16 times the directions").group("Light");
   verb.add_word("--shadows", r.shadows, "direct shadows; exact has no fallback to rays").group("Light");
   add_environment(verb, options->load);

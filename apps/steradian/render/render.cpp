@@ -393,7 +393,7 @@ void add_render(CommandLine& line) {
   verb.add_word("--terminator", r.terminator, "shadow edge of curved meshes on themselves").group("Light");
   verb.add_word("--indirect", r.indirect.mode, "one bounce of light").group("Light");
   verb.add("--bounces", options->bounces, "light between surfaces: number of bounces, or all").check(unknown_bounces).group("Light");
-  verb.add("--bounce-error", r.bounce_error, "of --bounces: estimate to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
+  verb.add("--bounce-error", r.bounce_error, "of --bounces: standard error to aim at; 0: by --quality").range(0.0, 1.0).group("Light");
   verb.add_flag("--bound", r.bound, "of --bounces: layers lower and upper, a proof for flat diffuse scenes").group("Light");
   verb.add_flag("--bounce-strict", r.bounce_strict, "of --bounces: each pixel by itself, in 16 times the directions").group("Light");
   verb.add("--reflections", r.reflections, "of --bounces: mirrors in a row").range(0, 16).group("Light");

@@ -30,7 +30,8 @@ AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, std::un
       eye_(surfaces.camera().origin()),
       patches_(std::move(patches)),
       bounds_(std::move(bounds)),
-      gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), {options.bounce_error, options.bounce_strict, options.aa}),
+      gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options),
+              {options.bounce_preview ? 0 : options.bounce_error, options.bounce_strict, options.aa}),
       mirror_images_(kMostLayers, radiosity::MirrorImage(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
                                                          kFar * static_cast<float>(surfaces.rays().reach()))),
       surfaces_(surfaces),
@@ -44,16 +45,22 @@ void AllLight::begin(Picture& picture, const RenderOptions& options) {
 
 // Adds the light that a tile's surfaces gather to `light`.
 void AllLight::gather(SurfaceTile& tile, int sample, TileVector& light, TileVector& error) const {
-  SixteenSurfaces some;
-  for (std::size_t first = 0; first < kTilePixels; first += SixteenSurfaces::kLanes) {
-    some.take(tile, first);
-    if (some.lit == 0) continue;
-    const radiosity::Gather::Result result = gather_.reflected(some, sample);
-    for (std::size_t i = 0; i < SixteenSurfaces::kLanes; ++i) {
-      steradian::add(light, first + i, result.radiance[i]);
-      steradian::add(error, first + i, result.error[i]);
+  constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
+  const auto blocks = std::make_unique<radiosity::FourBlocks>();
+  for (int y = 0; y < kTileSide; y += 8)
+    for (int x = 0; x < kTileSide; x += 8) {
+      std::array<std::size_t, 4> first;
+      for (std::size_t b = 0; b < 4; ++b) {
+        first[b] = tile_slot(x + static_cast<int>(b) % 2 * 4, y + static_cast<int>(b) / 2 * 4);
+        (*blocks)[b].take(tile, first[b]);
+      }
+      const std::array<radiosity::Gather::Result, 4> results = gather_.reflected(*blocks, sample);
+      for (std::size_t b = 0; b < 4; ++b)
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          steradian::add(light, first[b] + i, results[b].radiance[i]);
+          steradian::add(error, first[b] + i, results[b].error[i]);
+        }
     }
-  }
 }
 
 // Adds the light of the surfaces that mirrors show, which are lit like those that the camera sees. The lobes' integrals over the lamps

@@ -11,13 +11,13 @@ struct Fineness {
   std::size_t patches;      // of the whole scene, if its triangles are large
   std::size_t rays;         // of each side
   std::size_t shadow_rays;  // of each patch to each light; 0: exact shadows
-  int rows;                 // of a pixel's directions over the sphere; there are twice as many columns
+  int rows;                 // of a pixel's directions over the sphere, even; there are twice as many columns
   std::size_t lobe_rays;    // of a glossy lobe
 };
 
 inline Fineness fineness_of(Quality quality) {
   switch (quality) {
-    case Quality::draft: return {8'000, 64, 64, 11, 64};
+    case Quality::draft: return {8'000, 64, 64, 10, 64};
     case Quality::high: return {120'000, 256, 0, 32, 64};
     case Quality::normal: break;
   }

@@ -22,10 +22,14 @@ constexpr int kMostShifts = 16;  // of the grid; more primary samples repeat the
 // component along those of the pixel: the linear fit would keep it.
 constexpr std::array<int, 16> kPlaces = {1, 14, 10, 5, 15, 8, 0, 7, 4, 3, 11, 12, 6, 9, 13, 2};
 
-// Quarter of the directions that one of the grid belongs to: every other row and column.
-std::size_t quarter_of(std::size_t direction, std::size_t count) {
-  const auto columns = static_cast<std::size_t>(std::lround(std::sqrt(2.0 * static_cast<double>(count))));  // twice the rows
-  return direction / columns % 2 * 2 + direction % 2;
+constexpr std::uint32_t kAllLanes = (1u << SixteenSurfaces::kLanes) - 1;
+
+// The quarter of its directions that each pixel of a block takes first. Those of the same place in four blocks take all four. Neither bit
+// follows the place in 8 x 8 pixels.
+std::array<std::size_t, SixteenSurfaces::kLanes> first_quarters(std::size_t block) {
+  std::array<std::size_t, SixteenSurfaces::kLanes> quarters;
+  for (std::size_t i = 0; i < quarters.size(); ++i) quarters[i] = block ^ ((i ^ i >> 3) & 1) ^ ((i >> 1 ^ i >> 2) & 1) << 1;
+  return quarters;
 }
 
 Vec3f absolute(Vec3f v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
@@ -43,107 +47,18 @@ float gathered_fraction(const SurfaceLobe& lobe) {
   return m.brdf == Brdf::ggx ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y)) : 1;
 }
 
-// Joins the values of sixteen pixels, 4 x 4, by linear fits over those of one plane.
-class BlockFit {
- public:
-  static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
-  // strict: every pixel keeps its own value.
-  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked, bool strict) : surfaces_(surfaces), asked_(asked), strict_(strict) {}
+// Surfaces that have a diffuse lobe.
+std::uint32_t with_diffuse(const SixteenSurfaces& surfaces) {
+  std::uint32_t bits = 0;
+  SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) { bits |= std::uint32_t{weighs(surfaces.surface[i].albedo)} << i; });
+  return bits;
+}
 
-  // The value of the fit at a pixel, and an estimate of its error: two standard errors, and the distance from the pixel's own value. Few
-  // pixels keep their own.
-  //
-  //   errors  of the values, from their rays. keeps: the pixel's own value takes the place of the fit's where the values differ more than
-  //           that
-  struct Value {
-    Vec3f value, error;
-  };
-  enum class Keeps { nothing, own_values };
-  Value at(std::size_t lane, const std::array<Vec3f, kLanes>& values, const std::array<Vec3f, kLanes>& errors, Keeps keeps) const {
-    if (strict_) return {values[lane], errors[lane] * kDeviations};
-    std::uint32_t same = 0;
-    const Surface& here = surfaces_.surface[lane];
-    SixteenSurfaces::each(asked_, [&](std::size_t i) {
-      const Surface& there = surfaces_.surface[i];
-      const Vec3f way = there.position - here.position;
-      if (dot(here.normal, there.normal) > kSameDirection && std::fabs(dot(way, here.normal)) <= kFlat * length(way)) same |= 1u << i;
-    });
-    const int count = std::popcount(same);
-    if (count < kFewest) return {values[lane], errors[lane] * kDeviations};
-    // Least squares in coordinates about the mean: the two slopes and the mean are nearly independent.
-    float mean_x = 0, mean_y = 0;
-    Vec3f mean{};
-    SixteenSurfaces::each(same, [&](std::size_t i) {
-      mean_x += x_of(i);
-      mean_y += y_of(i);
-      mean += values[i];
-    });
-    const float over = 1 / static_cast<float>(count);
-    mean_x *= over;
-    mean_y *= over;
-    mean = mean * over;
-    float xx = 0, xy = 0, yy = 0;
-    Vec3f vx{}, vy{}, low = values[lane], high = values[lane];
-    SixteenSurfaces::each(same, [&](std::size_t i) {
-      const float x = x_of(i) - mean_x, y = y_of(i) - mean_y;
-      xx += x * x;
-      xy += x * y;
-      yy += y * y;
-      vx += values[i] * x;
-      vy += values[i] * y;
-      low = {std::min(low.x, values[i].x), std::min(low.y, values[i].y), std::min(low.z, values[i].z)};
-      high = {std::max(high.x, values[i].x), std::max(high.y, values[i].y), std::max(high.z, values[i].z)};
-    });
-    const float determinant = xx * yy - xy * xy;
-    Vec3f slope_x{}, slope_y{};
-    if (determinant > 1) {
-      slope_x = (vx * yy - vy * xy) * (1 / determinant);
-      slope_y = (vy * xx - vx * xy) * (1 / determinant);
-    }
-    const auto fit = [&](std::size_t i) { return mean + slope_x * (x_of(i) - mean_x) + slope_y * (y_of(i) - mean_y); };
-    Vec3f squares{}, of_rays{};
-    SixteenSurfaces::each(same, [&](std::size_t i) {
-      const Vec3f d = values[i] - fit(i);
-      squares += d * d;
-      of_rays += errors[i] * errors[i];
-    });
-    of_rays = of_rays * over;
-    const Vec3f variance = squares * (1 / static_cast<float>(count - 3));
-    // Slopes that the differences between the rays explain shrink to zero: they would show as steps from block to block.
-    const auto shrunk = [&](Vec3f slope, float moment) {
-      const auto kept = [&](float m, float v) { return m * m * moment > 0 ? std::max(1 - kDoubt * v / (m * m * moment), 0.0f) : 0.0f; };
-      return slope * Vec3f{kept(slope.x, variance.x), kept(slope.y, variance.y), kept(slope.z, variance.z)};
-    };
-    slope_x = shrunk(slope_x, xx);
-    slope_y = shrunk(slope_y, yy);
-    const Vec3f value = fit(lane);
-    const float share = 3 * over;  // of three parameters
-    const auto joined = [&](float own, float fitted, float ray_variance, float fit_variance) {
-      const bool keep = keeps == Keeps::own_values && fit_variance > kDoubt * ray_variance;
-      const float kept = keep ? 1 - kDoubt * ray_variance / fit_variance : 0;  // of the own value
-      const float deviation = std::sqrt((1 - kept) * (1 - kept) * share * fit_variance + kept * kept * kDoubt * ray_variance);
-      return std::pair{fitted + (own - fitted) * kept, kDeviations * deviation + (1 - kept) * std::fabs(own - fitted)};
-    };
-    const Vec3f own = values[lane];
-    const auto x = joined(own.x, std::clamp(value.x, low.x, high.x), of_rays.x, variance.x);
-    const auto y = joined(own.y, std::clamp(value.y, low.y, high.y), of_rays.y, variance.y);
-    const auto z = joined(own.z, std::clamp(value.z, low.z, high.z), of_rays.z, variance.z);
-    return {{x.first, y.first, z.first}, {x.second, y.second, z.second}};
-  }
-
- private:
-  static constexpr float kSameDirection = 0.98f;  // cosine
-  static constexpr float kFlat = 0.1f;            // distance from the plane over the distance
-  static constexpr int kFewest = 6;               // pixels of a fit
-  static constexpr float kDeviations = 2;         // standard errors of an error
-  static constexpr float kDoubt = 4;              // variances below which a slope counts as chance
-  static float x_of(std::size_t lane) { return static_cast<float>(lane % 4); }
-  static float y_of(std::size_t lane) { return static_cast<float>(lane / 4); }
-
-  const SixteenSurfaces& surfaces_;
-  const std::uint32_t asked_;
-  const bool strict_;
-};
+// Fraction of the light from all sides that comes through a surface's boundary to its diffuse base and back to the view.
+float passed_by_boundary(const Surface& s, Vec3f view) {
+  const double cosine = std::max(static_cast<double>(dot(s.normal, view)), 0.0);
+  return static_cast<float>(1 - static_cast<double>(s.fresnel_loss) * environment::mean_grazing(cosine));
+}
 
 }  // namespace
 
@@ -162,14 +77,15 @@ Gather::Gather(const PatchLight& light, const RayScene& rays, const Fineness& fi
 // Adds the grids of a level, one for each primary sample.
 void Gather::add_grids(int rows) {
   const int columns = 2 * rows;
-  std::vector<std::vector<Cell>>& grids = grids_.emplace_back();
+  std::vector<Grid>& grids = grids_.emplace_back();
   for (int s = 0; s < samples_; ++s) {
-    std::vector<Cell>& cells = grids.emplace_back();
+    Grid& cells = grids.emplace_back(static_cast<std::size_t>(rows * columns));
     // The pixels take the places of a 4 x 4 grid in each cell; the primary samples, places in a cell of that.
     const double in_x = (s + 0.5) / samples_, in_y = std::fmod(s * kGolden + 0.5, 1.0);
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
-        Cell& cell = cells.emplace_back();
+        const int quarter = row % 2 * 2 + column % 2, in_quarter = row / 2 * (columns / 2) + column / 2;
+        Cell& cell = cells[static_cast<std::size_t>(quarter * (rows * columns / 4) + in_quarter)];
         for (std::size_t i = 0; i < kLanes; ++i) {
           const double x = (kPlaces[i] % 4 + in_x) / 4, y = (kPlaces[i] / 4 + in_y) / 4;
           const double up = 1 - 2 * (row + y) / rows, phi = 2 * std::numbers::pi * (column + x) / columns, r = std::sqrt(1 - up * up);
@@ -205,80 +121,169 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       traced |= 1u << i;
     });
     const std::size_t quarter = first / every % 4;
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all),
+    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::and_lights),
                           [&](std::size_t i) { quarters[i][quarter] += light[i]; });
   }
 }
 
-// The mean radiance about each surface, weighted by the cosine, times its albedo.
-Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const {
-  Quarters<Vec3f> light{}, bright{};
-  Quarters<float> weight{};
-  std::array<Vec3f, kLanes> basis{};  // what the size of the patches changes
+// A result with its standard error.
+struct Gather::Lit {
+  Result result;
+  std::array<Vec3f, kLanes> standard{};
+  // Puts the diffuse light of a surface, whose mean radiance from all sides is given.
+  void put(std::size_t i, const SixteenSurfaces& surfaces, const FittedValue& mean) {
+    const Surface& s = surfaces.surface[i];
+    const Vec3f reflected = s.albedo * passed_by_boundary(s, surfaces.view[i]);
+    result.radiance[i] = reflected * mean.value;
+    result.error[i] = reflected * mean.error;
+    standard[i] = reflected * mean.standard;
+  }
+};
+
+bool Gather::is_within(const Lit& lit) const {
+  return tolerance_ == 0 || std::all_of(lit.standard.begin(), lit.standard.end(), [&](Vec3f error) {
+           return std::max({error.x, error.y, error.z}) <= tolerance_;
+         });
+}
+
+// What bright sides send to each surface.
+std::array<FittedValue, Gather::kLanes> Gather::bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample,
+                                                       std::size_t level) const {
+  std::array<FittedValue, kLanes> fitted{};
+  if (light_.bright_places().empty()) return fitted;
+  Quarters<Vec3f> light{};
+  add_bright(surfaces, asked, sample, level, light);
+  std::array<Gathered, kLanes> means{};
+  SixteenSurfaces::each(asked, [&](std::size_t i) {
+    std::array<Vec3f, 4> of_places;
+    for (std::size_t q = 0; q < 4; ++q) {
+      means[i].value += light[i][q];
+      of_places[q] = light[i][q] * 4;
+    }
+    means[i].error = error_of_quarters(of_places, means[i].value);
+  });
+  // The places of a pixel lie between those of its neighbours: its quarters are nearer to each other than to the truth.
+  const BlockFit fit(surfaces, asked, strict_);
+  SixteenSurfaces::each(asked, [&](std::size_t i) { fitted[i] = fit.at(i, means, BlockFit::Keeps::nothing); });
+  return fitted;
+}
+
+// Sums over a quarter of the directions of each surface, by quarters of that. quarters: of the surfaces.
+Gather::Sums Gather::quarter_sums(const SixteenSurfaces& surfaces, std::uint32_t asked, const Grid& cells,
+                                  const std::array<std::size_t, kLanes>& quarters) const {
+  Sums sums;
   BounceRays rays(rays_, light_.patches());
   SixteenSurfaces::each(asked, [&](std::size_t i) { rays.start(i, surfaces.surface[i]); });
-  const std::vector<Cell>& cells = grids_[level][static_cast<std::size_t>(sample % samples_)];
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const std::size_t quarter = quarter_of(k, cells.size());
+  const std::size_t count = cells.size() / 4;
+  const auto columns = static_cast<std::size_t>(std::lround(std::sqrt(2.0 * static_cast<double>(count))));  // twice the rows
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t part = k / columns % 2 * 2 + k % 2;
     std::array<float, kLanes> cosine{};
+    std::array<Vec3f, kLanes> to{};
     SixteenSurfaces::each(asked, [&](std::size_t i) {
-      const Vec3f to = cells[k].direction[i];
-      cosine[i] = dot(surfaces.surface[i].normal, to);
+      to[i] = cells[quarters[i] * count + k].direction[i];
+      cosine[i] = dot(surfaces.surface[i].normal, to[i]);
       if (!(cosine[i] > 0)) return;
-      weight[i][quarter] += cosine[i];
-      rays.set(i, to);
+      sums.weight[i][part] += cosine[i];
+      rays.set(i, to[i]);
     });
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
       if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
-      light[i][quarter] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
+      sums.light[i][part] += light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays) * cosine[i];
       const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
-      light[i][quarter] += radiance;
-      basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
+      sums.light[i][part] += radiance;
+      sums.basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
     }
   }
-  add_bright(surfaces, asked, sample, level, bright);
-  std::array<Vec3f, kLanes> mean{}, error{}, of_bright{}, error_of_bright{};
-  SixteenSurfaces::each(asked, [&](std::size_t i) {
-    const std::array<float, 4>& w = weight[i];
-    const float whole = w[0] + w[1] + w[2] + w[3];
-    const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
-    std::array<Vec3f, 4> of_rays, of_places;
-    for (std::size_t q = 0; q < 4; ++q) {
-      mean[i] += over(light[i][q], whole);
-      of_bright[i] += bright[i][q];
-      of_rays[q] = over(light[i][q], w[q]);
-      of_places[q] = bright[i][q] * 4;
-    }
-    error[i] = error_of_quarters(of_rays, mean[i]);
-    error_of_bright[i] = error_of_quarters(of_places, of_bright[i]);
-    basis[i] = absolute(over(basis[i], whole));
-  });
-  const BlockFit fit(surfaces, asked, strict_);
-  Result result;
-  SixteenSurfaces::each(asked, [&](std::size_t i) {
-    const Surface& s = surfaces.surface[i];
-    const double cos_view = std::max(static_cast<double>(dot(s.normal, surfaces.view[i])), 0.0);
-    const auto passed = static_cast<float>(1 - static_cast<double>(s.fresnel_loss) * environment::mean_grazing(cos_view));
-    const BlockFit::Value rays_value = fit.at(i, mean, error, BlockFit::Keeps::own_values);
-    // The places of a pixel lie between those of its neighbours: its quarters are nearer to each other than to the truth.
-    const BlockFit::Value bright_value = fit.at(i, of_bright, error_of_bright, BlockFit::Keeps::nothing);
-    result.radiance[i] = s.albedo * (rays_value.value + bright_value.value) * passed;
-    result.error[i] = s.albedo * (rays_value.error + bright_value.error + basis[i]) * passed;
-  });
+  return sums;
+}
+
+// The mean of a surface's sums, and its standard error from their quarters.
+Gathered Gather::mean_of(const Sums& sums, std::size_t lane) {
+  const std::array<float, 4>& weight = sums.weight[lane];
+  const float whole = weight[0] + weight[1] + weight[2] + weight[3];
+  const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
+  Gathered result{};
+  std::array<Vec3f, 4> means;
+  for (std::size_t q = 0; q < 4; ++q) {
+    result.value += over(sums.light[lane][q], whole);
+    means[q] = over(sums.light[lane][q], weight[q]);
+  }
+  result.error = error_of_quarters(means, result.value);
   return result;
 }
 
+// The mean radiance about each surface, weighted by the cosine, times its albedo. first: sums over the first quarters, or null; block: of
+// those.
+Gather::Lit Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, std::size_t block,
+                            const Sums* first) const {
+  Sums all;
+  for (std::size_t round = 0; round < 4; ++round) {
+    std::array<std::size_t, kLanes> quarters = first_quarters(block);
+    for (std::size_t& quarter : quarters) quarter ^= round;
+    const Sums sums = round == 0 && first != nullptr ? *first : quarter_sums(surfaces, asked, grid(level, sample), quarters);
+    SixteenSurfaces::each(asked, [&](std::size_t i) {
+      for (std::size_t q = 0; q < 4; ++q) {
+        all.light[i][quarters[i]] += sums.light[i][q];
+        all.weight[i][quarters[i]] += sums.weight[i][q];
+      }
+      all.basis[i] += sums.basis[i];
+    });
+  }
+  std::array<Gathered, kLanes> means{};
+  SixteenSurfaces::each(asked, [&](std::size_t i) { means[i] = mean_of(all, i); });
+  const BlockFit fit(surfaces, asked, strict_);
+  const std::array<FittedValue, kLanes> of_bright = bright(surfaces, asked, sample, level);
+  Lit lit;
+  SixteenSurfaces::each(asked, [&](std::size_t i) {
+    const FittedValue of_rays = fit.at(i, means, BlockFit::Keeps::own_values);
+    const float weight = all.weight[i][0] + all.weight[i][1] + all.weight[i][2] + all.weight[i][3];
+    const Vec3f basis = weight > 0 ? absolute(all.basis[i] * (1 / weight)) : Vec3f{};
+    lit.put(i, surfaces,
+            {of_rays.value + of_bright[i].value, of_rays.error + of_bright[i].error + basis, of_rays.standard + of_bright[i].standard});
+  });
+  return lit;
+}
+
+// The same for 8 x 8 pixels, by a quarter of the directions. False where their light is no plane, or its error is above the tolerance; then
+// `first` serves each block. Blocks whose bright sides need more directions are no matter of this.
+bool Gather::diffuse_of_square(const FourBlocks& blocks, int sample, std::array<Sums, 4>& first, std::array<Lit, 4>& lit) const {
+  std::array<std::array<Gathered, kLanes>, 4> means;
+  std::array<Vec3f, 4> basis{};
+  for (std::size_t b = 0; b < 4; ++b) {
+    first[b] = quarter_sums(blocks[b], kAllLanes, grid(0, sample), first_quarters(b));
+    float weight = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      means[b][i] = mean_of(first[b], i);
+      basis[b] += first[b].basis[i];
+      for (const float w : first[b].weight[i]) weight += w;
+    }
+    basis[b] = weight > 0 ? absolute(basis[b] * (1 / weight)) : Vec3f{};
+  }
+  std::array<std::array<FittedValue, kLanes>, 4> fitted;
+  if (!fit_square(means, fitted)) return false;
+  for (std::size_t b = 0; b < 4; ++b) {
+    const std::array<FittedValue, kLanes> of_bright = bright(blocks[b], kAllLanes, sample, 0);
+    for (std::size_t i = 0; i < kLanes; ++i)
+      lit[b].put(i, blocks[b],
+                 {fitted[b][i].value + of_bright[i].value, fitted[b][i].error + of_bright[i].error + basis[b],
+                  fitted[b][i].standard + of_bright[i].standard});
+    if (!is_within(lit[b])) return false;
+  }
+  return true;
+}
+
 // One glossy lobe of each surface that has one.
-Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
-                              std::size_t level) const {
+Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
+                           std::size_t level) const {
   const std::size_t count = lobe_rays_ << (2 * level);
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;
     double fraction;  // of the lobe that these directions gather
-    float wider;      // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss their highlights
+    float wider;      // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss narrow highlights
   };
   std::array<std::optional<Walker>, kLanes> walkers;
   BounceRays rays(rays_, light_.patches());
@@ -291,9 +296,11 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     if (!lobe.above_surface()) continue;
     rays.start(i, s);
     walkers[i] = Walker{frame, lobe, static_cast<double>(gathered_fraction(*of[i])),
-                        static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
+                        static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) *
+                                           std::exp2(1.0 - static_cast<double>(level)))};
   }
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
+  std::array<Vec3f, kLanes> widened{};  // change by the added width
   for (std::size_t k = 0; k < count; ++k) {
     const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
     std::array<Vec3f, kLanes> weight{}, to{};
@@ -309,56 +316,88 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
       rays.set(i, to[i]);
     }
     const auto met = rays.trace();
-    for (std::size_t i = 0; i < kLanes; ++i)
-      if (met[i].side != kNoSide)
-        halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider)) * weight[i];
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (met[i].side == kNoSide) continue;
+      halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
+      if (!light_.has_lobe(met[i].side)) continue;
+      const Vec3f of_lobe = light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider);
+      halves[i][k % 2] += of_lobe * weight[i];
+      widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * weight[i];
+    }
   }
-  Result result;
+  Lit lit;
   for (std::size_t i = 0; i < kLanes; ++i) {
-    result.radiance[i] = halves[i][0] + halves[i][1];
-    const Vec3f d = halves[i][0] - halves[i][1];  // each half stands for half of the light
-    result.error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+    lit.result.radiance[i] = halves[i][0] + halves[i][1];
+    // Each half stands for half of the light.
+    lit.result.error[i] = lit.standard[i] = absolute(halves[i][0] - halves[i][1]) + absolute(widened[i]);
   }
-  return result;
+  return lit;
 }
 
-// Adds the first result of of(level), from the coarsest level on, whose errors are all within the tolerance, or that of the finest level.
+// Adds the first result of of(level), from the coarsest level on, whose standard errors are all within the tolerance, or that of the finest
+// level.
 template <class Of>
 void Gather::refine(Of of, Result& sum) const {
-  Result result;
+  Lit lit;
   for (std::size_t level = strict_ ? grids_.size() - 1 : 0; level < grids_.size(); ++level) {
-    result = of(level);
-    const auto is_within = [&](Vec3f error) { return std::max({error.x, error.y, error.z}) <= tolerance_; };
-    if (std::all_of(result.error.begin(), result.error.end(), is_within)) break;
+    lit = of(level);
+    if (is_within(lit)) break;
   }
+  add(lit.result, sum);
+}
+
+void Gather::add(const Result& result, Result& sum) {
   for (std::size_t i = 0; i < kLanes; ++i) {
     sum.radiance[i] += result.radiance[i];
     sum.error[i] += result.error[i];
   }
 }
 
-Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample) const {
-  Result result;
+// Adds the diffuse light of the surfaces that have such a lobe.
+void Gather::add_diffuse(const SixteenSurfaces& surfaces, int sample, std::size_t block, const Sums* first, Result& sum) const {
+  const std::uint32_t asked = with_diffuse(surfaces);
+  if (asked == 0) return;
+  refine([&](std::size_t level) { return diffuse(surfaces, asked, sample, level, block, level == 0 ? first : nullptr); }, sum);
+}
+
+void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Result& sum) const {
   std::array<std::vector<SurfaceLobe>, kLanes> lobes;
-  std::uint32_t with_diffuse = 0;
   std::size_t most = 0;
   SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
-    for (SurfaceLobe& lobe : lobes_of(surfaces.surface[i])) {
-      if (lobe.material.brdf == Brdf::lambert)
-        with_diffuse |= 1u << i;
-      else if (gathered_fraction(lobe) > 0)
-        lobes[i].push_back(std::move(lobe));
-    }
+    for (SurfaceLobe& lobe : lobes_of(surfaces.surface[i]))
+      if (lobe.material.brdf != Brdf::lambert && gathered_fraction(lobe) > 0) lobes[i].push_back(std::move(lobe));
     most = std::max(most, lobes[i].size());
   });
-  if (with_diffuse != 0) refine([&](std::size_t level) { return diffuse(surfaces, with_diffuse, sample, level); }, result);
   for (std::size_t k = 0; k < most; ++k) {
     std::array<const SurfaceLobe*, kLanes> of{};
     for (std::size_t i = 0; i < kLanes; ++i)
       if (k < lobes[i].size()) of[i] = &lobes[i][k];
-    refine([&](std::size_t level) { return glossy(surfaces, of, sample, level); }, result);
+    refine([&](std::size_t level) { return glossy(surfaces, of, sample, level); }, sum);
   }
+}
+
+Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample) const {
+  Result result;
+  add_diffuse(surfaces, sample, 0, nullptr, result);
+  add_glossy(surfaces, sample, result);
   return result;
+}
+
+std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sample) const {
+  std::array<Result, 4> results;
+  std::array<Sums, 4> first;
+  std::array<Lit, 4> lit;
+  const auto is_diffuse = [](const SixteenSurfaces& block) { return with_diffuse(block) == kAllLanes; };
+  const bool may_join = !strict_ && std::all_of(blocks.begin(), blocks.end(), is_diffuse) && in_one_plane(blocks);
+  const bool joined = may_join && diffuse_of_square(blocks, sample, first, lit);
+  for (std::size_t b = 0; b < 4; ++b) {
+    if (joined)
+      add(lit[b].result, results[b]);
+    else
+      add_diffuse(blocks[b], sample, b, may_join ? &first[b] : nullptr, results[b]);
+    add_glossy(blocks[b], sample, results[b]);
+  }
+  return results;
 }
 
 }  // namespace steradian::radiosity

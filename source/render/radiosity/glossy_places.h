@@ -21,6 +21,11 @@ struct GlossyPlaces {
     red.push_back(light.x), green.push_back(light.y), blue.push_back(light.z);
     alpha_x.push_back(width_x), alpha_y.push_back(width_y);
   }
+  // Adds those of some places that have light once more.
+  void repeat(std::size_t begin, std::size_t count) {
+    for (std::size_t i = begin; i < begin + count; ++i)
+      if (red[i] > 0 || green[i] > 0 || blue[i] > 0) add({x[i], y[i], z[i]}, {red[i], green[i], blue[i]}, alpha_x[i], alpha_y[i]);
+  }
 };
 
 struct GlossyTable {

@@ -9,14 +9,18 @@
 namespace steradian::radiosity {
 namespace {
 
-constexpr float kNarrowest = 0.18f;  // alpha: few rays would meet the light of a narrower lobe
-constexpr float kSmall = 0.5f;       // half radius of a light over the lobe's width
+constexpr float kNarrowest = 0.05f;  // alpha: narrower lobes are those of mirrors
+constexpr float kSmall = 0.5f;       // half radius of a cone over the lobe's width, or over that of a lobe seen by few rays
+
+// Half vectors turn by half of the radius of a cone of directions.
+float half_radius(float solid_angle) { return 0.5f * std::sqrt(solid_angle / std::numbers::pi_v<float>); }
 
 }  // namespace
 
 bool GlossySides::has_lobe(const Surface& surface) { return !surface.material->unlit && weighs(surface.f0 + surface.f90); }
 
-std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn) {
+std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn,
+                                std::uint32_t besides) {
   const Frame frame = Frame::from_normal_and_tangent(normalized(static_cast<Vec3d>(surface.normal)), static_cast<Vec3d>(surface.tangent));
   Vec3f sum{};
   for (const IncidentLight& light : incident) sum += light.irradiance;
@@ -26,8 +30,8 @@ std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<Incide
   const float alpha_x = std::max(std::hypot(surface.alpha_x, turn), kNarrowest);
   const float alpha_y = std::max(std::hypot(surface.alpha_y, turn), kNarrowest);
   const std::size_t first = places_.x.size();
-  // Adds the light of some places as that of one, a cone of their solid angle. Half vectors turn by half of its radius.
-  const auto half_radius = [](float solid_angle) { return 0.5f * std::sqrt(solid_angle / std::numbers::pi_v<float>); };
+  if (besides != kNone) places_.repeat(lobes_[besides].first, lobes_[besides].count);
+  // Adds the light of some places as that of one, a cone of their solid angle.
   const auto add = [&](std::size_t begin, std::size_t end) {
     Vec3f light{}, direction{};
     float solid_angle = 0;
@@ -41,14 +45,14 @@ std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<Incide
     const float wider = half_radius(solid_angle);
     places_.add(l, light * (scale / l.z), std::hypot(alpha_x, wider), std::hypot(alpha_y, wider));
   };
-  for (std::size_t begin = 0; begin < incident.size();) {
-    std::size_t end = begin;
-    float solid_angle = 0;
-    for (; end < incident.size() && incident[end].light == incident[begin].light; ++end) solid_angle += incident[end].solid_angle;
-    const bool is_small = half_radius(solid_angle) <= kSmall * std::min(alpha_x, alpha_y);
-    for (std::size_t i = begin; i < end && !is_small; ++i) add(i, i + 1);
-    if (is_small) add(begin, end);
-    begin = end;
+  const float widest = kSmall * std::max(std::min(alpha_x, alpha_y), kFewRays);
+  for (std::size_t begin = 0, end; begin < incident.size(); begin = end) {
+    float solid_angle = incident[begin].solid_angle;
+    for (end = begin + 1; end < incident.size() && incident[end].light == incident[begin].light; ++end) {
+      solid_angle += incident[end].solid_angle;
+      if (half_radius(solid_angle) > widest || length(incident[end].direction - incident[begin].direction) > 4 * widest) break;
+    }
+    add(begin, end);
   }
   while ((places_.x.size() - first) % GlossyPlaces::kStep != 0) places_.add({0, 0, 1}, {}, 1, 1);
   lobes_.push_back({static_cast<Vec3f>(frame.x), static_cast<Vec3f>(frame.y), static_cast<Vec3f>(frame.z), surface.f0, surface.f90, first,

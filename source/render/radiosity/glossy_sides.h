@@ -1,7 +1,8 @@
-// GlossySides: the direct light that the glossy lobes of sides send on, by direction.
+// GlossySides: the light that the glossy lobes of sides send on, by direction.
 //
-// A side keeps its lobe and the places on the lights that its middle sees. Each place's light leaves along the lobe, which is widened by
-// the spacing of the places and by the turn of the normals within the side. The places of a light that is small beside the lobe become one.
+// A side keeps its lobe and the places, on lights and on other sides, that its middle sees. Each place's light leaves along the lobe, which
+// is widened by the spacing of the places and by the turn of the normals within the side. Neighbouring places of one light whose cone is
+// small beside the lobe become one.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +18,18 @@ namespace steradian::radiosity {
 class GlossySides {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
+  static constexpr float kFewRays = 0.17f;  // width to add to a lobe where the rays that see it cover all sides: few meet a narrower one
 
   // True if a surface's glossy lobe is one that these sides can keep.
   static bool has_lobe(const Surface& surface);
-  // Keeps the lobe of a side's surface and its light. irradiance: of all direct light on the surface; the light is scaled to it.
-  // turn: angle between the normals in the middle and at the border. Returns the lobe's number, or kNone if no light arrives.
-  std::uint32_t keep(const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn);
+  // Keeps the lobe of a side's surface and its light. irradiance: of all the incident light; it is scaled to that.
+  // turn: angle between the normals in the middle and at the border. besides: number of a lobe of the side whose light it has, too.
+  // Returns the lobe's number, or kNone if no light arrives.
+  std::uint32_t keep(const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn,
+                     std::uint32_t besides = kNone);
 
   // Radiance that a lobe sends in a direction of the scene. wider: width to add to the lobe, for few rays.
-  Vec3f radiance(std::uint32_t lobe, Vec3f to, float wider = 0) const { return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, wider); }
+  Vec3f radiance(std::uint32_t lobe, Vec3f to, float wider) const { return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, wider); }
 
  private:
   struct KeptLobe {

@@ -11,6 +11,7 @@
 #include "core/float_mode.h"
 #include "core/lattices.h"
 #include "core/random.h"
+#include "render/radiosity/even_reflectance.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/area_light.h"  // luminance
 
@@ -21,24 +22,12 @@ constexpr std::size_t kMostLinks = std::size_t{1} << 25;  // of all sides: 128 M
 constexpr float kSmallChange = 1e-4f;                     // of the largest radiance, at which the iterations end
 constexpr float kNoChange = 1e-6f;                        // the same where the factor from bounce to bounce is not yet below 1
 constexpr int kMostIterations = 500;
+constexpr std::uint32_t kFromSides = UINT32_MAX;  // in the place of a light's number: bounced light
 
 Patches patches_for(const Scene& scene, const RayScene& rays, std::size_t wanted) {
   Patches patches(scene, wanted);
   patches.split(scene, rays);
   return patches;
-}
-
-// Fractions of even light from above that a surface reflects: all, and by its glossy lobe.
-// The mean of Schlick's (1 - cos)^5 over the cosine is 1/21.
-struct Reflectance {
-  Vec3f all{}, glossy{};
-};
-Reflectance reflectance_of(const Surface& s) {
-  if (s.material->unlit) return {};
-  constexpr float kGrazing = 1.0f / 21;
-  const auto within = [](Vec3f c) { return Vec3f{std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)}; };
-  const Vec3f glossy = s.f0 + (s.f90 - s.f0) * kGrazing;
-  return {within(s.albedo * (1 - s.fresnel_loss * kGrazing) + glossy), within(glossy)};
 }
 
 // Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Those that are traced together are neighbours.
@@ -67,6 +56,12 @@ Frame turned_frame(Vec3d normal, double angle) {
   frame.x = x * std::cos(angle) + y * std::sin(angle);
   frame.y = y * std::cos(angle) - x * std::sin(angle);
   return frame;
+}
+
+// The frame of the directions of a side's rays. Each side turns them by its own angle.
+Frame frame_of_rays(const Surface& surface, std::size_t side) {
+  reference::Random random(side);
+  return turned_frame(normalized(static_cast<Vec3d>(surface.geometric_normal)), 2 * std::numbers::pi * random.uniform());
 }
 
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
@@ -106,6 +101,7 @@ class PatchSolver {
   void find_glossy(const FindIncident& find_incident);
   void find_links(std::size_t rays);
   void iterate();
+  void turn_bounces();
   void find_coarse();
   void find_bright_sides();
   float area_of(std::uint32_t side) const;
@@ -118,9 +114,10 @@ class PatchSolver {
   const SolveShares shares_ = shares_of(options_.bounces);
   PatchLight light_;
   std::vector<Vec3f> reflectance_, direct_;  // by side
-  std::vector<Vec3f> even_glossy_;           // by side: mean radiance of its glossy lobe
+  std::vector<Vec3f> even_glossy_;           // by side: mean radiance of its glossy lobe, where light_ keeps it by direction
   std::vector<Vec3f> from_glossy_;           // by side: mean radiance that glossy lobes of other sides send there
   std::size_t links_per_side_ = 0;
+  std::vector<Vec3d> directions_;     // of the rays of a side, before the turn of its frame
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
 };
 
@@ -149,6 +146,7 @@ PatchLight PatchSolver::solve(const AddDirect& add_direct, const FindIncident& f
     const std::size_t rays = std::clamp(kMostLinks / sides, std::size_t{16}, options_.fineness.rays);
     find_links(rays / BounceRays::kLanes * BounceRays::kLanes);
     iterate();
+    turn_bounces();
   }
   find_coarse();
   find_bright_sides();
@@ -197,7 +195,7 @@ void PatchSolver::find_direct(const AddDirect& add_direct) {
       put_nothing(*tile, i);
       if (side == kNoSide) continue;
       const Surface s = surface_of(side);
-      reflectance_[side] = reflectance_of(s).all;
+      reflectance_[side] = even_reflectance(s).all;
       if (!weighs(reflectance_[side])) continue;
       put_white(*tile, i, s);
     }
@@ -293,9 +291,7 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
       if (!weighs(direct_[side])) return;
       const Surface surface = surface_of(side);
       if (!GlossySides::has_lobe(surface)) return;
-      const Vec3f all = reflectance_[side], glossy = reflectance_of(surface).glossy;
-      const auto ratio = [](float a, float b) { return b > 0 ? std::min(a / b, 1.0f) : 0; };
-      const Vec3f share = {ratio(glossy.x, all.x), ratio(glossy.y, all.y), ratio(glossy.z, all.z)};
+      const Vec3f share = even_reflectance(surface).glossy_share();
       if (luminance(static_cast<Vec3d>(direct_[side] * share)) <= least) return;
       found[k] = {surface, share, {}};
       find_incident(surface, side, found[k].incident);
@@ -320,28 +316,27 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
 
 void PatchSolver::find_links(std::size_t rays) {
   links_per_side_ = rays;
+  directions_ = cosine_directions(rays);
   links_.resize(rays * patches().side_count());
   from_glossy_.resize(patches().side_count());
-  const std::vector<Vec3d> directions = cosine_directions(rays);
   WorkSteps steps(part(shares_.glossy, shares_.links), patches().side_count());
   each(patches().side_count(), [&](std::size_t side) {
     steps.advance();
     const Surface surface = surface_of(static_cast<std::uint32_t>(side));
-    // Each side turns the directions by its own angle.
-    reference::Random random(side);
-    const Frame frame = turned_frame(normalized(static_cast<Vec3d>(surface.geometric_normal)), 2 * std::numbers::pi * random.uniform());
+    const Frame frame = frame_of_rays(surface, side);
     BounceRays bounce(rays_, patches());
     for (std::size_t i = 0; i < BounceRays::kLanes; ++i) bounce.start(i, surface);
     for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
       std::array<Vec3f, BounceRays::kLanes> to;
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
-        to[i] = static_cast<Vec3f>(frame.to_world(directions[k + i]));
+        to[i] = static_cast<Vec3f>(frame.to_world(directions_[k + i]));
         bounce.set(i, to[i]);
       }
       const auto met = bounce.trace();
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
         links_[side * rays + k + i] = met[i].side;
-        if (met[i].side != kNoSide) from_glossy_[side] += light_.glossy_radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
+        if (met[i].side != kNoSide)
+          from_glossy_[side] += light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays) * (1 / static_cast<float>(rays));
       }
     }
   });
@@ -388,6 +383,67 @@ void PatchSolver::iterate() {
     const float decrease = std::min(light_.iterations_ > 1 ? factor : largest_reflectance, largest_reflectance);
     if (decrease < 1) light_.left_out_ = largest_bounce * decrease / (1 - decrease);
     if (largest_bounce <= kNoChange * largest || (light_.left_out_ && *light_.left_out_ <= kSmallChange * largest)) break;
+  }
+}
+
+// Takes the bounced light that glossy lobes of metals send on out of the sides' even radiance, and keeps it by direction: the gather sees
+// it so. From side to side it went evenly.
+void PatchSolver::turn_bounces() {
+  constexpr float kMetal = 0.25f;  // share of the light that the glossy lobe reflects
+  constexpr double kLeast = 0.02;  // of the mean radiance
+  constexpr std::size_t kBatch = 4096;
+  const auto sides = static_cast<std::uint32_t>(patches().side_count());
+  double power = 0, area = 0;
+  for (std::uint32_t side = 0; side < sides; ++side) {
+    power += luminance(static_cast<Vec3d>(light_.sides_[side].radiance)) * static_cast<double>(area_of(side));
+    area += weighs(light_.sides_[side].radiance) ? static_cast<double>(area_of(side)) : 0;
+  }
+  if (!(area > 0)) return;
+  const double least = kLeast * power / area;
+  struct Found {
+    Surface surface;
+    Vec3f turned, irradiance;
+    std::vector<IncidentLight> incident;
+  };
+  struct Turned {
+    std::uint32_t side, lobe;
+    Vec3f radiance;
+  };
+  std::vector<Turned> turned;
+  for (std::uint32_t first = 0; first < sides; first += kBatch) {
+    std::vector<Found> found(std::min(kBatch, std::size_t{sides - first}));
+    each(found.size(), [&](std::size_t k) {
+      const std::size_t side = first + k;
+      const Vec3f bounced = light_.sides_[side].radiance - direct_[side];
+      if (!weighs(bounced)) return;
+      const Surface surface = surface_of(static_cast<std::uint32_t>(side));
+      if (!GlossySides::has_lobe(surface)) return;
+      const Vec3f share = even_reflectance(surface).glossy_share();
+      if (std::max({share.x, share.y, share.z}) < kMetal || luminance(static_cast<Vec3d>(bounced * share)) <= least) return;
+      found[k] = {surface, bounced * share, {}, {}};
+      const Frame frame = frame_of_rays(surface, side);
+      const float per_ray = std::numbers::pi_v<float> / static_cast<float>(links_per_side_);
+      for (std::size_t i = 0; i < links_per_side_; ++i) {
+        const std::uint32_t met = links_[side * links_per_side_ + i];
+        if (met == kNoSide) continue;
+        const auto to = static_cast<Vec3f>(frame.to_world(directions_[i]));
+        const Vec3f irradiance = (light_.sides_[met].radiance + light_.glossy_radiance(met, -to, GlossySides::kFewRays)) * per_ray;
+        found[k].irradiance += irradiance;
+        if (weighs(irradiance)) found[k].incident.push_back({to, irradiance, per_ray / static_cast<float>(directions_[i].z), kFromSides});
+      }
+    });
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (found[k].incident.empty()) continue;
+      const auto side = static_cast<std::uint32_t>(first + k);
+      const std::uint32_t lobe =
+          light_.glossy_.keep(found[k].surface, found[k].incident, found[k].irradiance, turn_of(side), light_.sides_[side].glossy);
+      if (lobe != GlossySides::kNone) turned.push_back({side, lobe, found[k].turned});
+    }
+  }
+  for (const Turned& t : turned) {
+    light_.sides_[t.side].radiance -= t.radiance;
+    light_.sides_[t.side].glossy = t.lobe;
+    even_glossy_[t.side] += t.radiance;
   }
 }
 
