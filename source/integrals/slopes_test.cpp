@@ -102,11 +102,11 @@ TEST(Slopes, OfAngleOverSineAreTheDerivative) {
     x.v.d[0] = 1;
     const auto s2 = (1.0 - x) * (1.0 + x);
     const double judge = -k.trig_angle_over_sine(x, s2).v.d[0];
-    const double s2_value = (1 - c) * (1 + c), f = K().trig_angle_over_sine(c, s2_value).v;
-    EXPECT_NEAR(K().trig_angle_over_sine_slope(c, s2_value, f).v, judge, 1e-12 * judge) << c;
+    const auto both = K().trig_angle_over_sine_and_slope(c, (1 - c) * (1 + c));
+    EXPECT_EQ(both.x.v, K().trig_angle_over_sine(c, (1 - c) * (1 + c)).v) << c;
+    EXPECT_NEAR(both.y.v, judge, 1e-12 * judge) << c;
     const float cf = static_cast<float>(c), s2f = (1 - cf) * (1 + cf);
-    Kernels<float> kf;
-    const float g = kf.trig_angle_over_sine_slope(cf, s2f, kf.trig_angle_over_sine(cf, s2f)).v;
+    const float g = Kernels<float>().trig_angle_over_sine_and_slope(cf, s2f).y.v;
     EXPECT_NEAR(static_cast<double>(g), judge, 1e-5 * judge) << c;
   }
 }
@@ -146,8 +146,8 @@ TEST(Slopes, OfTransformedCosinesAreThoseOfDuals) {
     const auto m = lobe(K());
     const ByVertex got = by_vertices(corners, [&](V a, V b) {
       const auto d = K().ltc_edge_slopes(m, a, b);
-      return std::pair{world(K().ltc_edge_transform_back(m, d.normal * d.by_start)),
-                       world(K().ltc_edge_transform_back(m, d.normal * d.by_end))};
+      return std::pair{world(K().ltc_edge_transform_back(m, a, d.normal * d.by_start)),
+                       world(K().ltc_edge_transform_back(m, b, d.normal * d.by_end))};
     });
     worst = std::max(worst, error_of(got, judge, 1 / alpha));
   }

@@ -59,31 +59,6 @@ EdgeRule rule_of(Quality quality) {
   return {quality == Quality::draft ? 4 : quality == Quality::normal ? 6 : 8, quality == Quality::high ? 2 : 1};
 }
 
-// INT f (2 (N.h) h - N) ds along an edge, N its unit normal: with fixed half vectors, the view moves the light's directions by
-// 2 (h.dv) h - dv, and the region of half vectors the other way.
-void add_by_view(BothParts& sum, const K::GgxView& view, const K::EdgePart& part, const K::ConicArc& arc, double smith, EdgeRule rule) {
-  if (!(arc.end.v > arc.begin.v)) return;
-  K k;
-  const Vec3d n = normalized(cross(to_vector(part.start), to_vector(part.end - part.start)));
-  const Vec3d v = to_vector(view.v);
-  const double share = 1.0 / rule.pieces, total = arc.sweep.x.v + arc.sweep.y.v, unit = arc.scale.v;
-  for (int i = 0; i < rule.pieces; ++i)
-    for (int j = 0; j < rule.nodes; ++j) {
-      const auto at = k.gauss_legendre_node(rule.nodes, j);
-      const auto node = k.conic_node(arc, (at.x + static_cast<double>(i)) * share);
-      const V u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
-      const Vec3d p = {u.x.v * view.ax.v, u.y.v * view.ay.v, u.z.v};  // (l + v) times a positive factor
-      const Vec3d h = normalized(p);
-      const Vec3d l = h * (2 * dot(h, v)) - v;
-      const double t = node.tau.v * unit;
-      const double ds = at.y.v * share * total / std::max(node.density.v, 1e-300) * 2 * unit / (1 + t * t);
-      const auto f = k.ggx_lobe_and_fresnel(view, to_kernel<double>(l), smith);
-      const Vec3d across = h * (2 * dot(n, h)) - n;
-      sum.plain += across * (f.x.v * ds);
-      sum.fresnel += across * (f.y.v * ds);
-    }
-}
-
 }  // namespace
 
 GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const ShadingPoint& at, const Material& m, Quality quality) {
@@ -104,7 +79,7 @@ GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const Sha
     if (m.shadowing) {
       crosses = crosses || a.z.v < 0 || b.z.v < 0;
       inside.take(arc);
-      add_by_view(by_view, view, part, arc, smith, rule);
+      by_view = by_view + BothParts{to_vector(s.turn), to_vector(s.turn_of_fresnel)};
     }
     return EdgeDerivatives{{to_vector(s.normal * s.by_start.x), to_vector(s.normal * s.by_start.y)},
                            {to_vector(s.normal * s.by_end.x), to_vector(s.normal * s.by_end.y)}};
