@@ -10,7 +10,7 @@ using slopes::FrameSlopes;
 using slopes::PolygonHere;
 
 // Stores a derivative by a vertex in the world's frame.
-struct Planes {
+struct VertexPlanes {
   float* to;
   std::size_t count, first;
 
@@ -26,22 +26,31 @@ struct Planes {
   }
 };
 
-__attribute__((flatten)) void diffuse(const PackLight& light, const Points& points, const PackLobe&, const VertexSlopes& result) {
+// A function for each case: without a boundary above the lobe, the irradiance's other components are not computed.
+template <bool with_boundary>
+__attribute__((flatten, noinline)) void run_diffuse(const PackLight& light, const Points& points, const VertexSlopes& result) {
   for (std::size_t i = 0; i < points.count; i += kLanes) {
     const PackVec3 p = load(points.position, i);
     const SeenLight seen(light, p, i);
     const auto frame = PackKernels().frame_from_normal(load(points.normal, i));
-    const Planes planes = {result.plain, points.count, i};
+    const VertexPlanes planes = {result.plain, points.count, i};
     const PolygonHere here(seen, frame, p);
     const PackVec3 e = slopes::walk_irradiance(here, seen.reversed, [&](std::size_t v, const PackVec3& d) { planes.put(v, frame, d); });
-    const PackReal loss = fresnel_loss(points, i);
     PackReal below(1.0);
-    if (any_lane(loss > PackReal(0.0))) {
-      below = PackReal(1.0) - loss * PackKernels().lambert_grazing_of_light(e, transform_transposed(frame, load(points.view, i)));
+    if constexpr (with_boundary) {
+      const PackVec3 view = transform_transposed(frame, load(points.view, i));
+      below = PackReal(1.0) - fresnel_loss(points, i) * PackKernels().lambert_grazing_of_light(e, view);
       planes.multiply(here.polygon.vertices.size(), below);
     }
     store(result.value.plain + i, select(seen.lit, e.z * below, PackReal(0.0)));
   }
+}
+
+void diffuse(const PackLight& light, const Points& points, const PackLobe&, const VertexSlopes& result) {
+  if (points.fresnel_loss != nullptr)
+    run_diffuse<true>(light, points, result);
+  else
+    run_diffuse<false>(light, points, result);
 }
 
 template <class Decode>
@@ -52,7 +61,7 @@ __attribute__((flatten, noinline)) void run_ltc(const PackLight& light, const Po
     const SeenLight seen(light, p, i);
     const LobesHere here(points, i, tables, decode);
     const auto lobe = here.lobe();
-    const Planes plain = {result.plain, points.count, i}, fresnel = {result.fresnel, points.count, i};
+    const VertexPlanes plain = {result.plain, points.count, i}, fresnel = {result.fresnel, points.count, i};
     auto shows = seen;
     shows.lit = seen.lit && here.view.z > PackReal(0.0);
     const PackReal value =
@@ -89,7 +98,7 @@ __attribute__((flatten)) void closed_form(const PackLight& light, const Points& 
     store(result.value.fresnel + i, select(seen.lit, value.y, PackReal(0.0)));
     arcs.clear();
     integral.each_edge([&](const PackKernels::ConicArc& arc) { arcs.push_back(&arc); });
-    const Planes plain = {result.plain, points.count, i}, fresnel = {result.fresnel, points.count, i};
+    const VertexPlanes plain = {result.plain, points.count, i}, fresnel = {result.fresnel, points.count, i};
     std::size_t edge = 0;
     slopes::walk_ggx_slopes(
         PolygonHere(seen, frame, p), integral.view(), integral.smith, [&](const auto&) { return *arcs[edge++]; },
