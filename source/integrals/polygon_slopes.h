@@ -24,6 +24,7 @@ struct BothParts {
 struct PartSlopes {
   double plain = 0, fresnel = 0;
 
+  friend PartSlopes operator+(PartSlopes a, PartSlopes b) { return {a.plain + b.plain, a.fresnel + b.fresnel}; }
   friend PartSlopes operator-(PartSlopes a, PartSlopes b) { return {a.plain - b.plain, a.fresnel - b.fresnel}; }
   friend PartSlopes operator*(PartSlopes a, double s) { return {a.plain * s, a.fresnel * s}; }
 };
