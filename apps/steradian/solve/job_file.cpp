@@ -106,6 +106,25 @@ constexpr Field<FitKeys> kFitFields[] = {
     {"keep", [](Problems& p, const Place& at, Json v, FitKeys& k) { k.fit.keep = read_not_negative(p, at, v); }},
 };
 
+struct MaterialKeys {
+  std::string material;
+  MaterialFit fit;
+};
+constexpr Field<MaterialKeys> kMaterialFields[] = {
+    {"material", [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.material = read_string(p, at, v); }, true},
+    {"albedo",
+     [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+       k.fit.albedo = true;
+       k.fit.albedo_range = read_range(p, at, v);
+     }},
+    {"roughness",
+     [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+       k.fit.roughness = true;
+       k.fit.roughness_range = read_range(p, at, v);
+     }},
+    {"keep", [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.fit.keep = read_not_negative(p, at, v); }},
+};
+
 struct MirrorKeys {
   Vec3d point{}, normal{1, 0, 0};
 };
@@ -200,9 +219,17 @@ struct SolveJobReader::TargetKeys {
 };
 
 void SolveJobReader::read_fit(const Place& place, Json value) {
+  simdjson::dom::object object;
+  if (value.get(object) == simdjson::SUCCESS && object["material"].error() == simdjson::SUCCESS) return read_material_fit(place, value);
   FitKeys keys;
   read_fields(problems_, place, value, {}, std::span<const Field<FitKeys>>(kFitFields), keys);
   if (!keys.light.empty()) add_fits(keys.light, keys.fit, place.in("light"));
+}
+
+void SolveJobReader::read_material_fit(const Place& place, Json value) {
+  MaterialKeys keys;
+  read_fields(problems_, place, value, {}, std::span<const Field<MaterialKeys>>(kMaterialFields), keys);
+  if (!keys.material.empty()) add_materials(keys.material, keys.fit, place.in("material"));
 }
 
 void SolveJobReader::read_tie(const Place& place, Json value) {
