@@ -5163,11 +5163,11 @@ fn steradian_edge_irradiance_slopes(start: vec3f, end: vec3f) -> SteradianEdgeSl
     var slopes: SteradianEdgeSlopes;
     slopes.normal = cross(start, end - start);
     let c = dot(start, end);
-    let angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal));
-    let q = angle.y;
-    let p = angle.x - c * q;
-    slopes.by_start = -0.5 * (start.z * p + end.z * q);
-    slopes.by_end = -0.5 * (end.z * p + start.z * q);
+    let half_angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    let q = half_angle.y;
+    let p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
     return slopes;
 }
 

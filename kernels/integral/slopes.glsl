@@ -12,7 +12,7 @@
 // No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
 // Needs: constants.glsl inverse_trig.glsl polygon.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl ltc.glsl ggx_closed_form.glsl
-// Topics: edge, polygon_edge, ltc_edge, ggx_edge
+// Topics: edge, polygon_edge, polygon_part, ltc_edge, ltc_part, ggx_edge
 // Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
@@ -44,11 +44,11 @@ EdgeSlopes edge_irradiance_slopes(vec3 start, vec3 end) {
     EdgeSlopes slopes;
     slopes.normal = cross(start, end - start);
     real c = dot(start, end);
-    vec2 angle = trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal));
-    real q = angle.y;
-    real p = angle.x - c * q;
-    slopes.by_start = -0.5 * (start.z * p + end.z * q);
-    slopes.by_end = -0.5 * (end.z * p + start.z * q);
+    vec2 half_angle = trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    real q = half_angle.y;
+    real p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
     return slopes;
 }
 

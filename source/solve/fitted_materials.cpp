@@ -92,9 +92,8 @@ std::vector<SurfaceMaterial> FittedMaterials::at(const std::vector<double>& x) c
 std::vector<std::string> FittedMaterials::notes() const {
   std::vector<std::string> notes;
   for (const Fitted& fitted : fitted_) {
-    const auto meshes = std::count_if(scene_->meshes.begin(), scene_->meshes.end(), [&](const Mesh& mesh) {
-      return static_cast<std::size_t>(mesh.material) == fitted.start.material;
-    });
+    const auto meshes = std::count_if(scene_->meshes.begin(), scene_->meshes.end(),
+                                      [&](const Mesh& mesh) { return static_cast<std::size_t>(mesh.material) == fitted.start.material; });
     if (meshes > 1) notes.push_back("material '" + fitted.name + "' is that of " + std::to_string(meshes) + " meshes, which all change");
   }
   return notes;

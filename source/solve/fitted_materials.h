@@ -21,7 +21,7 @@ class FittedMaterials {
   const std::string& name_of(std::size_t material) const { return fitted_[material].name; }
   // All materials of the scene at some values of the fit's unknowns; none if none is fitted.
   std::vector<SurfaceMaterial> at(const std::vector<double>& x) const;
-  // Those that are fitted.
+  // The fitted ones.
   std::vector<MaterialChange> changes_at(const std::vector<double>& x) const;
   // Statements about materials that several meshes share.
   std::vector<std::string> notes() const;

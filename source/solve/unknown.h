@@ -36,7 +36,8 @@ struct Unknown {
   std::size_t fit = 0;  // number of its light in FittedLights, or of its material in FittedMaterials
   UnknownKind kind = UnknownKind::power;
   double start = 0, low = 0, high = 0;
-  double typical = 1;  // change that is felt: 1 in logarithms and of a material, the room's size in metres, 1 radian; a vertex: the light's size
+  double typical =
+      1;  // change that is felt: 1 in logarithms and of a material, the room's size in metres, 1 radian; a vertex: the light's size
   double keep = 0;
   std::size_t vertex = 0;  // of vertex_u and vertex_v: number among the outline's and the holes'
 };

@@ -22,8 +22,8 @@ using slopes::BothParts;
 
 constexpr std::size_t kPoints = 256, kVertices = 4;
 
-// Surface points about one quad: from a size of the quad to a thousand sizes away, at any slant. Views reach 88 degrees from the normal, and
-// widths go from 1e-4 to 1. All numbers are floats, so that the judge sees the same ones.
+// Surface points about one quad: from a size of the quad to a thousand sizes away, at any slant. Views reach 88 degrees from the normal,
+// and widths go from 1e-4 to 1. All numbers are floats, so that the judge sees the same ones.
 struct Quads {
   PreparedPolygon light;
   PackLight pack;
@@ -72,8 +72,8 @@ struct Errors {
   double at(double share) const { return all[static_cast<std::size_t>(share * static_cast<double>(all.size() - 1))]; }
   void print(const char* name) {
     std::sort(all.begin(), all.end());
-    std::printf("%s, %zu quads in float packs: 99 %% %.1e, 99.9 %% %.1e, worst %.1e of the largest derivative\n", name, all.size(), at(0.99),
-                at(0.999), all.back());
+    std::printf("%s, %zu quads in float packs: 99 %% %.1e, 99.9 %% %.1e, worst %.1e of the largest derivative\n", name, all.size(),
+                at(0.99), at(0.999), all.back());
   }
 };
 

@@ -2872,11 +2872,11 @@ SteradianEdgeSlopes steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
     SteradianEdgeSlopes slopes;
     slopes.normal = cross(start, end - start);
     float c = dot(start, end);
-    vec2 angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal));
-    float q = angle.y;
-    float p = angle.x - c * q;
-    slopes.by_start = -0.5 * (start.z * p + end.z * q);
-    slopes.by_end = -0.5 * (end.z * p + start.z * q);
+    vec2 half_angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    float q = half_angle.y;
+    float p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
     return slopes;
 }
 SteradianEdgeSlopes steradian_edge_slopes_of_whole(SteradianEdgePart part, SteradianEdgeSlopes of_part) {
