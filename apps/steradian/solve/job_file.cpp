@@ -164,6 +164,8 @@ LuxBand read_lux(Problems& problems, const Place& place, Json value) {
   return band;
 }
 
+constexpr std::int64_t kMostCells = 1000;  // of a zone, along each side
+
 struct ZoneKeys {
   Vec3d center, x, y;
   std::optional<Vec3d> normal;
@@ -178,8 +180,8 @@ constexpr Field<ZoneKeys> kZoneFields[] = {
      [](Problems& p, const Place& at, Json v, ZoneKeys& k) {
        simdjson::dom::array list;
        if (v.get(list) != simdjson::SUCCESS || list.size() != 2) return wrong_type(p, at, "a list of 2 numbers", v);
-       k.columns = read_integer(p, at.at(0), list.at(0).value_unsafe(), 1, 1000);
-       k.rows = read_integer(p, at.at(1), list.at(1).value_unsafe(), 1, 1000);
+       k.columns = read_integer(p, at.at(0), list.at(0).value_unsafe(), 1, kMostCells);
+       k.rows = read_integer(p, at.at(1), list.at(1).value_unsafe(), 1, kMostCells);
      }},
 };
 
@@ -192,6 +194,7 @@ void add_zone(Problems& problems, const Place& place, Json value, LuxTarget& tar
   else if (normal.y < -1e-9)
     normal = -normal;
   if (normal == Vec3d{}) return problems.add(place, "x and y are parallel", "give two directions");
+  if (zone.columns > kMostCells || zone.rows > kMostCells) return;  // read_integer has said so
   for (std::int64_t j = 0; j < zone.rows; ++j)
     for (std::int64_t i = 0; i < zone.columns; ++i) {
       const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(zone.columns) - 1,
