@@ -245,19 +245,28 @@ vec3 steradian_fan_place(vec3 centre, vec3 outward, float rim_cosine, float shar
 // bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
 
-// Degree 9, largest relative error 1.3e-08 before rounding.
-float steradian_trig_angle_over_sine_24_bits(float t) {
+// Degree 9, largest relative error 1.3e-08 before rounding; and its derivative, by the same steps.
+vec2 steradian_trig_angle_over_sine_24_bits(float t) {
     float p = 0.01116282422619877;
+    float d = p;
     p = p * t - 0.032591688733997218;
+    d = d * t + p;
     p = p * t + 0.05097575847577638;
+    d = d * t + p;
     p = p * t - 0.033552997791327491;
+    d = d * t + p;
     p = p * t + 0.030059175970996568;
+    d = d * t + p;
     p = p * t + 0.020163489805166888;
+    d = d * t + p;
     p = p * t + 0.057977801513775039;
+    d = d * t + p;
     p = p * t + 0.13326657225500885;
+    d = d * t + p;
     p = p * t + 0.33333538143391106;
+    d = d * t + p;
     p = p * t + 0.9999999897346874;
-    return p;
+    return vec2(p, d);
 }
 
 // Degree 8, largest relative error 1.8e-08 before rounding.
@@ -274,14 +283,21 @@ float steradian_trig_atan_over_argument_24_bits(float q) {
     return p;
 }
 
-// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c).
+// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c), and its derivative by t.
 //
 //   t        1 - c, in [0, 1]
-//   returns  1 at t = 0 to pi/2 at t = 1
+//   returns  vec2(1, 1/3) at t = 0 to vec2(pi/2, 1) at t = 1
 //
-// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
-float steradian_trig_angle_over_sine_acute(float t) {
+// Error: see docs/measured/accuracy.md, "angle over sine" and "slope of angle over sine". A series in 1 - c has positive terms: nothing
+// cancels.
+vec2 steradian_trig_angle_over_sine_acute_and_slope(float t) {
     return steradian_trig_angle_over_sine_24_bits(t);
+}
+
+// Angle over sine alone. Arguments: steradian_trig_angle_over_sine_acute_and_slope.
+float steradian_trig_angle_over_sine_acute(float t) {
+    vec2 both = steradian_trig_angle_over_sine_acute_and_slope(t);
+    return both.x;
 }
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
@@ -297,6 +313,21 @@ float steradian_trig_angle_over_sine(float c, float s2) {
         f = steradian_select(obtuse, steradian_pi() * inversesqrt(max(s2, steradian_smallest_divisor())) - f, f);
     }
     return f;
+}
+
+// Angle over sine, and minus its derivative by the cosine: 1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond. Arguments:
+// steradian_trig_angle_over_sine, whose value is x.
+//
+// Degenerate: the slope grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
+// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
+vec2 steradian_trig_angle_over_sine_and_slope(float c, float s2) {
+    vec2 both = steradian_trig_angle_over_sine_acute_and_slope(1.0 - abs(c));
+    bool obtuse = c < 0.0;
+    if (obtuse) {
+        float f = steradian_pi() * inversesqrt(max(s2, steradian_smallest_divisor())) - both.x;
+        both = steradian_select(obtuse, vec2(f, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12)), both);
+    }
+    return both;
 }
 
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
@@ -320,39 +351,6 @@ float steradian_trig_atan2(float y, float x) {
 float steradian_trig_atan2_unwrapped(float y, float x) {
     float angle = steradian_trig_atan2(y, x);
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
-}
-
-// Degree 8: the derivative of steradian_trig_angle_over_sine_24_bits.
-float steradian_trig_angle_over_sine_slope_24_bits(float t) {
-    float p = 0.10046541803578893;
-    p = p * t - 0.260733509871977744;
-    p = p * t + 0.35683030933043466;
-    p = p * t - 0.201317986747964946;
-    p = p * t + 0.15029587985498284;
-    p = p * t + 0.080653959220667552;
-    p = p * t + 0.173933404541325117;
-    p = p * t + 0.2665331445100177;
-    p = p * t + 0.33333538143391106;
-    return p;
-}
-
-// Minus the derivative of angle over sine by the cosine, of an angle in [0, pi].
-//
-//   c        cosine, in [-1, 1]
-//   s2       sine squared, computed on its own
-//   f        steradian_trig_angle_over_sine(c, s2)
-//   returns  1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond
-//
-// Degenerate: it grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
-// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
-float steradian_trig_angle_over_sine_slope(float c, float s2, float f) {
-    float t = 1.0 - abs(c);
-    float slope = steradian_trig_angle_over_sine_slope_24_bits(t);
-    bool obtuse = c < 0.0;
-    if (obtuse) {
-        slope = steradian_select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
-    }
-    return slope;
 }
 
 // ==== quartic ====
@@ -810,35 +808,87 @@ SteradianPolygonWalk steradian_polygon_begin() {
     return walk;
 }
 
-// Adds one edge, clipped to the horizon z = 0.
+// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
+//   start, end   unit directions; equal where nothing is above
+//   rises, sinks whether the part begins, or ends, on the horizon
+struct SteradianEdgePart {
+    vec3 start;
+    vec3 end;
+    float start_a;
+    float start_b;
+    float end_a;
+    float end_b;
+    bool rises;
+    bool sinks;
+};
+
+// An edge as a part of itself.
+SteradianEdgePart steradian_edge_whole(vec3 a, vec3 b) {
+    SteradianEdgePart part;
+    part.start = a;
+    part.end = b;
+    part.start_a = 1.0;
+    part.start_b = 0.0;
+    part.end_a = 0.0;
+    part.end_b = 1.0;
+    part.rises = steradian_mask_none();
+    part.sinks = steradian_mask_none();
+    return part;
+}
+
+// Clips an edge to the horizon z = 0.
 //
 //   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
+//
+// Degenerate: an edge below the horizon has equal ends.
+SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    SteradianEdgePart part = steradian_edge_whole(a, b);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
+        float wa = abs(b.z);
+        float wb = abs(a.z);
+        vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+        float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
+        vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
+        part.start = steradian_select(a_below, crossing, a);
+        part.end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
+        part.start_a = steradian_select(a_below, wa * scale, 1.0);
+        part.start_b = steradian_select(a_below, wb * scale, 0.0);
+        part.end_a = steradian_select(b_below, wa * scale, 0.0);
+        part.end_b = steradian_select(b_below, wb * scale, 1.0);
+    }
+    return part;
+}
+
+// Adds the part of an edge above the horizon (steradian_edge_above_horizon).
 //
 // What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
 // these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
 // counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
+SteradianPolygonWalk steradian_polygon_add_part(SteradianPolygonWalk walk, SteradianEdgePart part) {
+    SteradianPolygonWalk next = walk;
+    bool crosses = part.rises || part.sinks;
+    if (crosses) {
+        vec3 crossing = steradian_select(part.rises, part.start, part.end);
+        float y = steradian_select(part.rises, crossing.y, -crossing.y);  // coming up: the azimuth; going down: its conjugate
+        vec2 h = walk.horizon;
+        next.horizon = steradian_select(crosses, vec2(h.x * crossing.x - h.y * y, h.x * y + h.y * crossing.x), h);
+    }
+    next.edges = walk.edges + steradian_polygon_edge(part.start, part.end);
+    return next;
+}
+
+// Adds one edge, clipped to the horizon z = 0.
+//
+//   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
 SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, vec3 a, vec3 b) {
     SteradianPolygonWalk next = walk;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        vec3 start = a;
-        vec3 end = b;
-        if (a_below || b_below) {
-            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inversesqrt(max(dot(p, p), steradian_smallest_square()));
-            vec3 crossing = vec3(p.x, p.y, 0.0);
-            start = steradian_select(a_below, crossing, a);
-            end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float y = steradian_select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
-            vec2 h = walk.horizon;
-            next.horizon = steradian_select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
-        }
-        next.edges = walk.edges + steradian_polygon_edge(start, end);
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        next = steradian_polygon_add_part(walk, steradian_edge_above_horizon(a, b));
     }
     return next;
 }
@@ -3475,6 +3525,11 @@ vec3 steradian_ltc_transform(SteradianLtcMatrix m, vec3 v) {
     return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
 
+// The transpose of M^-1 times a vector.
+vec3 steradian_ltc_transform_transposed(SteradianLtcMatrix m, vec3 v) {
+    return vec3(m.xx * v.x + m.zx * v.z, m.yy * v.y, m.xz * v.x + m.zz * v.z);
+}
+
 // The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
 float steradian_ltc_lobe(SteradianLtcMatrix m, vec3 l) {
     vec3 w = steradian_ltc_transform(m, l);
@@ -3523,43 +3578,75 @@ vec3 steradian_ltc_direction(SteradianLtcMatrix m, vec3 v) {
     return steradian_polygon_direction(steradian_ltc_transform(m, v));
 }
 
-// Adds one edge, clipped to the real horizon, then to the lobe's.
+// The part of an edge above the real horizon, under M^-1.
 //
 //   a, b     ends in the shading frame, in walk order: steradian_polygon_direction of the vertices
 //   ta, tb   steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): a vertex is transformed once for its two edges
+//   returns  its ends are unit directions under M^-1, and its weights are those of ta and tb
 //
-// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
-// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
-// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
+// Degenerate: an edge below the horizon has ends of 0.
+SteradianEdgePart steradian_ltc_part(SteradianLtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    SteradianEdgePart part = steradian_edge_whole(ta, tb);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        float wa = abs(b.z);
+        float wb = abs(a.z);
+        vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+        vec3 under = steradian_ltc_transform(m, horizon);
+        vec3 crossing = steradian_select(part.rises || part.sinks, steradian_polygon_direction(under), vec3(0.0, 0.0, 0.0));
+        part.start = steradian_select(a_below, crossing, ta);
+        part.end = steradian_select(b_below, crossing, tb);
+        vec3 under_a = steradian_ltc_transform(m, a);
+        vec3 under_b = steradian_ltc_transform(m, b);
+        float scale = inversesqrt(max(dot(under, under), steradian_smallest_square()));
+        float of_a = wa * sqrt(dot(under_a, under_a)) * scale;
+        float of_b = wb * sqrt(dot(under_b, under_b)) * scale;
+        part.start_a = steradian_select(a_below, of_a, 1.0);
+        part.start_b = steradian_select(a_below, of_b, 0.0);
+        part.end_a = steradian_select(b_below, of_a, 0.0);
+        part.end_b = steradian_select(b_below, of_b, 1.0);
+    }
+    return part;
+}
+
+// Closes the gaps that a part's ends leave along the real horizon.
+//
+// They go from each crossing down to the next crossing up. They lie on one line of the light's plane, so that the way from one to the
+// other may go by any point of that line: a crossing down adds the edge to the first crossing of the walk, a crossing up the edge from
+// it, in whatever order they come.
+//
+//   part     of steradian_ltc_part
+SteradianLtcWalk steradian_ltc_close_gap(SteradianLtcWalk walk, SteradianEdgePart part) {
+    SteradianLtcWalk next = walk;
+    bool crosses = part.rises || part.sinks;
+    if (crosses) {
+        vec3 none = vec3(0.0, 0.0, 0.0);
+        vec3 crossing = steradian_select(part.rises, part.start, part.end);
+        // The first crossing is its own anchor: an edge of no length.
+        bool closes = crosses && walk.anchored;
+        if (closes) {
+            vec3 departure = steradian_select(part.rises, walk.anchor, crossing);
+            vec3 arrival = steradian_select(part.rises, crossing, walk.anchor);
+            next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
+        }
+        next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
+        next.anchored = walk.anchored || crosses;
+    }
+    return next;
+}
+
+// Adds one edge, clipped to the real horizon, then to the lobe's. Arguments: steradian_ltc_part.
 //
 // Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
 SteradianLtcWalk steradian_ltc_add_edge(SteradianLtcWalk walk, SteradianLtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
     SteradianLtcWalk next = walk;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        vec3 start = ta;
-        vec3 end = tb;
-        if (a_below || b_below) {
-            vec3 none = vec3(0.0, 0.0, 0.0);
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-            vec3 crossing = steradian_select(crosses, steradian_ltc_direction(m, horizon), none);
-            start = steradian_select(a_below, crossing, ta);
-            end = steradian_select(b_below, crossing, tb);
-            // The first crossing is its own anchor: an edge of no length.
-            if (crosses && walk.anchored) {
-                bool closes = crosses && walk.anchored;
-                vec3 departure = steradian_select(a_below, walk.anchor, crossing);
-                vec3 arrival = steradian_select(a_below, crossing, walk.anchor);
-                next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
-            }
-            next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
-            next.anchored = walk.anchored || crosses;
-        }
-        next.lobe = steradian_polygon_add_edge(next.lobe, start, end);
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        SteradianEdgePart part = steradian_ltc_part(m, a, b, ta, tb);
+        next = steradian_ltc_close_gap(walk, part);
+        next.lobe = steradian_polygon_add_edge(next.lobe, part.start, part.end);
     }
     return next;
 }
@@ -5053,17 +5140,6 @@ float steradian_half_vector_radiance(SteradianGgxView view, float sum, float fac
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
 // Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
 
-// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
-//   start, end  unit directions; equal where nothing is above
-struct SteradianEdgePart {
-    vec3 start;
-    vec3 end;
-    float start_a;
-    float start_b;
-    float end_a;
-    float end_b;
-};
-
 // Derivatives of one integral by an edge's ends.
 //   normal    of the edge's part, start cross end: not unit
 //   by_start, by_end  derivative by the end's unit direction, over the normal
@@ -5074,102 +5150,87 @@ struct SteradianEdgeSlopes {
 };
 
 // The same for two integrals: with F = 1, and with F = (1 - v.h)^5.
+//   turn, turn_of_fresnel  INT f (2 (N.h) h - N) ds, N the plane's unit normal: the edge's part of the derivative by the view
 struct SteradianEdgeSlopesOfBoth {
     vec3 normal;
     vec2 by_start;
     vec2 by_end;
+    vec3 turn;
+    vec3 turn_of_fresnel;
 };
-
-// Clips an edge to the horizon z = 0.
-//
-//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
-//
-// Degenerate: an edge below the horizon has equal ends.
-SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    // The weights are those of steradian_polygon_add_edge: of one sign, so that nothing cancels.
-    float wa = abs(b.z);
-    float wb = abs(a.z);
-    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
-    vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
-    SteradianEdgePart part;
-    part.start = steradian_select(a_below, crossing, a);
-    part.end = steradian_select(b_below, crossing, b);
-    part.start_a = steradian_select(a_below, wa * scale, 1.0);
-    part.start_b = steradian_select(a_below, wb * scale, 0.0);
-    part.end_a = steradian_select(b_below, wa * scale, 0.0);
-    part.end_b = steradian_select(b_below, wb * scale, 1.0);
-    return part;
-}
 
 // Irradiance of an edge's part by its own ends, which are not below the horizon.
 //
-//   returns  vec2(by the start, by the end), over start cross end
-//
 // INT l_z s ds over the arc, l = s start + t end, has the closed form |n| (start_z P + end_z Q) / 2 with F the angle over the sine,
 // Q its slope and P = F - c Q.
-vec2 steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
-    vec3 n = cross(start, end - start);
+// Error: opposite ends, where the point lies on the edge, give finite numbers.
+SteradianEdgeSlopes steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
+    SteradianEdgeSlopes slopes;
+    slopes.normal = cross(start, end - start);
     float c = dot(start, end);
-    float s2 = dot(n, n);
-    float f = steradian_trig_angle_over_sine(c, s2);
-    float q = steradian_trig_angle_over_sine_slope(c, s2, f);
-    float p = min(f, 1.0e12) - c * q;
-    return vec2(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+    vec2 half_angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    float q = half_angle.y;
+    float p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
+    return slopes;
 }
 
-// An edge's derivatives from those of its part.
-//
-//   g        vec2(by the part's start, by its end), over their cross product
-SteradianEdgeSlopes steradian_edge_slopes_of_part(SteradianEdgePart part, vec2 g) {
-    SteradianEdgeSlopes slopes;
-    slopes.normal = cross(part.start, part.end - part.start);
-    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
-    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+// The derivatives by an edge's ends from those by the ends of its part.
+SteradianEdgeSlopes steradian_edge_slopes_of_whole(SteradianEdgePart part, SteradianEdgeSlopes of_part) {
+    SteradianEdgeSlopes slopes = of_part;
+    if (part.rises || part.sinks) {
+        slopes.by_start = part.start_a * of_part.by_start + part.end_a * of_part.by_end;
+        slopes.by_end = part.start_b * of_part.by_start + part.end_b * of_part.by_end;
+    }
     return slopes;
 }
 
 // Derivatives of the irradiance for radiance 1 (steradian_polygon_irradiance) by the ends of one edge.
 //
-//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+//   part     of steradian_edge_above_horizon: a walk that computes the value has it already (steradian_polygon_add_part)
 //
 // Degenerate: an edge of no length, or below the horizon, has a normal of 0. Opposite ends, where the point lies on the edge, give
 // finite numbers.
 // Error: see docs/measured/accuracy.md, "polygon, edge slopes".
+SteradianEdgeSlopes steradian_polygon_part_slopes(SteradianEdgePart part) {
+    return steradian_edge_slopes_of_whole(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
 SteradianEdgeSlopes steradian_polygon_edge_slopes(vec3 a, vec3 b) {
-    SteradianEdgePart part = steradian_edge_above_horizon(a, b);
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+    return steradian_polygon_part_slopes(steradian_edge_above_horizon(a, b));
 }
 
 // Derivatives of the integral of a linearly transformed cosine (steradian_ltc_integral) by the ends of one edge.
 //
-//   a, b     unit directions of the ends in the shading frame, in walk order
-//   m        the lobe's inverse matrix
-//   returns  derivatives by M^-1 a and M^-1 b: the derivative by a is steradian_ltc_edge_transform_back(m, normal by_start)
+//   part       of steradian_ltc_part
+//   lobe_part  steradian_edge_above_horizon(part.start, part.end): above the lobe's own horizon
+//   returns    derivatives by steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): the derivative by a is steradian_ltc_edge_transform_back of it
 //
 // The edges that close the real horizon lie in its image and do not move.
-// Degenerate: as steradian_polygon_edge_slopes.
+// Degenerate: as steradian_polygon_part_slopes.
 // Error: see docs/measured/accuracy.md, "LTC, edge slopes".
-SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, vec3 a, vec3 b) {
-    SteradianEdgePart real_part = steradian_edge_above_horizon(a, b);
-    vec3 start = steradian_ltc_transform(m, real_part.start);
-    vec3 end = steradian_ltc_transform(m, real_part.end);
-    float start_scale = inversesqrt(max(dot(start, start), steradian_smallest_square()));
-    float end_scale = inversesqrt(max(dot(end, end), steradian_smallest_square()));
-    SteradianEdgePart lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
-    SteradianEdgePart part = lobe_part;
-    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
-    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
-    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
-    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+SteradianEdgeSlopes steradian_ltc_part_slopes(SteradianEdgePart part, SteradianEdgePart lobe_part) {
+    SteradianEdgeSlopes slopes = steradian_edge_slopes_of_whole(part, steradian_polygon_part_slopes(lobe_part));
+    slopes.normal = slopes.normal * steradian_inverse_pi();
+    return slopes;
 }
 
-// The transpose of M^-1 times a vector: takes derivatives by M^-1 v to derivatives by v.
-vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 g) {
-    return vec3(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+// The same from the ends.
+//
+//   a, b     unit directions of the ends in the shading frame, in walk order
+SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, vec3 a, vec3 b) {
+    SteradianEdgePart part = steradian_ltc_part(m, a, b, steradian_ltc_direction(m, a), steradian_ltc_direction(m, b));
+    return steradian_ltc_part_slopes(part, steradian_edge_above_horizon(part.start, part.end));
+}
+
+// The derivative by v from that by steradian_ltc_direction(m, v): M^-T over the length of M^-1 v.
+vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 v, vec3 g) {
+    vec3 under = steradian_ltc_transform(m, v);
+    return steradian_ltc_transform_transposed(m, g * inversesqrt(max(dot(under, under), steradian_smallest_square())));
 }
 
 // Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.
@@ -5193,8 +5254,12 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
     bool from_start = !(arc.begin < 0.0);
     bool from_end = !(arc.end > 0.0);
     vec2 base = vec2(steradian_select(from_start || from_end, half_cosine, 1.0), steradian_select(from_start, -half_sine, steradian_select(from_end, half_sine, 0.0)));
+    vec3 n = cross(part.start, chord);
+    vec3 across = n * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
     vec2 even = vec2(0.0, 0.0);
     vec2 odd = vec2(0.0, 0.0);
+    vec3 turn = vec3(0.0, 0.0, 0.0);
+    vec3 turn_of_fresnel = vec3(0.0, 0.0, 0.0);
     float total = arc.sweep.x + arc.sweep.y;
     float share = 1.0 / float(pieces);
     for (int i = 0; i < pieces; i++) {
@@ -5209,7 +5274,12 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
             vec3 l = p * (2.0 * along / p2) - view.v;
             float g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
             float w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
-            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inversesqrt(p2)));
+            float p_inverse = inversesqrt(p2);
+            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * p_inverse));
+            vec3 h = p * p_inverse;
+            vec3 moved = h * (2.0 * dot(across, h)) - across;
+            turn = turn + moved * both.x;
+            turn_of_fresnel = turn_of_fresnel + moved * both.y;
             // l = even (start + end) + odd (end - start), by its angle from the middle: from l itself, a short edge in float would lose
             // the digits of `odd`.
             float t = node.tau * arc.scale;
@@ -5219,15 +5289,17 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
             odd = odd + both * (angle.y * chord_inverse);
         }
     }
-    vec3 n = cross(part.start, chord);
-    float scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
-    scale = steradian_select(arc.end > arc.begin, scale, 0.0);
+    float density = arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z);
+    density = steradian_select(arc.end > arc.begin, density, 0.0);
+    float scale = -density * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
     vec2 by_part_start = (even - odd) * scale;
     vec2 by_part_end = (even + odd) * scale;
     SteradianEdgeSlopesOfBoth slopes;
     slopes.normal = n;
     slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
     slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    slopes.turn = turn * density;
+    slopes.turn_of_fresnel = turn_of_fresnel * density;
     return slopes;
 }
 

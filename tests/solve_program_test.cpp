@@ -60,6 +60,33 @@ const char* const kDesk = R"({"fit": [{"light": "panel*", "power": true}],
 
 }  // namespace
 
+TEST_F(Program, SolveFindsTheColorOfAMaterial) {
+  RoomFile truth({{0.5, 2.1, -0.4}});
+  truth.file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.2, 0.5, 0.3, 1};
+  const std::string scene = RoomFile({{0.5, 2.1, -0.4}}).write(folder / "scene.gltf");
+  const std::string target = folder / "target.exr", solved = folder / "solved.gltf";
+  ASSERT_EQ(run({"render", truth.write(folder / "truth.gltf"), "-o", target, "--size", "64x36"}).status, 0);
+  const Outcome made = run({"solve", scene, "--target", target, "--fit", "material:grey", "-o", solved, "--report", folder / "report"});
+  ASSERT_EQ(made.status, 0) << made.out << made.err;
+  EXPECT_NE(made.out.find("grey: albedo green"), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("material 'grey' is that of 2 meshes"), std::string::npos) << made.out;
+  json after = json::parse(contents(solved));
+  auto& color = after["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
+  EXPECT_NEAR(color[0].get<double>(), 0.2, 1e-5);
+  EXPECT_NEAR(color[1].get<double>(), 0.5, 1e-5);
+  EXPECT_NEAR(color[2].get<double>(), 0.3, 1e-5);
+  EXPECT_EQ(color[3].get<double>(), 1);
+  // Nothing else changes.
+  const json before = json::parse(contents(scene));
+  color = before["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
+  EXPECT_EQ(after, before);
+  const Outcome unknown = run({"solve", scene, "--target", target, "--fit", "material:gray:albedo,shine", "-o", solved});
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("'shine' is not a parameter"), std::string::npos) << unknown.err;
+  EXPECT_NE(unknown.err.find("albedo and roughness are"), std::string::npos) << unknown.err;
+  EXPECT_NE(unknown.err.find("did you mean 'grey'?"), std::string::npos) << unknown.err;
+}
+
 TEST_F(Program, SolveMovesALampToWhereItsPictureWasTaken) {
   const std::string truth = RoomFile({{0.5, 2.1, -0.4}}, 7, 0.9).write(folder / "truth.gltf");
   const std::string scene = RoomFile({{-0.2, 1.9, 0.3}}).write(folder / "scene.gltf");

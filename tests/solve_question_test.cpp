@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kQuestion =
     R"({"fit": [{"light": "lamp*", "position": {"min": [-3,2,-3], "max": [3,2.8,3]}, "rotation": {"max_degrees": 30}, "size": {"min": 0.1, "max": 1.2},
- "power": {"min": 0, "max": 8000}, "keep": 0.1}], "tie": [{"lights": ["lamp 1", "lamp 2"], "mirror": {"point": [0,0,0], "normal": [1,0,0]}}],
+ "power": {"min": 0, "max": 8000}, "keep": 0.1}, {"material": "wall", "albedo": {"max": 0.9}, "roughness": true}], "tie": [{"lights": ["lamp 1", "lamp 2"], "mirror": {"point": [0,0,0], "normal": [1,0,0]}}],
  "targets": [{"zone": {"center": [1,0.75,0], "x": [0.8,0,0], "y": [0,0,0.4], "grid": [8,4]}, "lux": {"min": 450, "max": 550}},
  {"mesh": "floor", "grid": 0.25, "lux": {"max": 100}, "weight": 0.3}, {"points": [[0,0.75,0]], "normal": [0,1,0], "lux": {"mean": 500, "uniformity": 0.6}}],
  "least": "power"})";
@@ -22,6 +22,7 @@ TEST(SolveQuestion, MistakesGiveErrors) {
   Scene scene = scene::closed_box(0.5f, true);
   for (AreaLight& light : scene.area_lights) light.name = "lamp", light.power = 4;
   for (Mesh& mesh : scene.meshes) mesh.name = "floor";
+  for (SurfaceMaterial& material : scene.materials) material.name = "wall";
   reference::Random random(3);
   int errors = 0, read = 0;
   for (int round = 0; round < 4000; ++round) {

@@ -63,22 +63,28 @@ std::string number(Quad x) {
   return s;
 }
 
-std::string function(const char* name, const char* variable, const std::function<Quad(Quad)>& f, int degree) {
+enum class Returns { value, value_and_slope };
+
+std::string function(const char* name, const char* variable, const std::function<Quad(Quad)>& f, int degree, Returns returns) {
   const std::vector<Quad> c = fit(f, degree);
+  const bool with_slope = returns == Returns::value_and_slope;
   std::ostringstream out;
   char error[64];
   std::snprintf(error, sizeof error, "%.1e", static_cast<double>(worst_relative_error(f, c)));
-  out << "// Degree " << degree << ", largest relative error " << error << " before rounding.\n";
-  out << "real " << name << "(real " << variable << ") {\n";
+  out << "// Degree " << degree << ", largest relative error " << error << " before rounding"
+      << (with_slope ? "; and its derivative, by the same steps.\n" : ".\n");
+  out << (with_slope ? "vec2 " : "real ") << name << "(real " << variable << ") {\n";
   out << "    real p = " << number(c.back()) << ";\n";
+  if (with_slope) out << "    real d = p;\n";
   for (int k = degree - 1; k >= 0; --k) {
+    if (with_slope && k < degree - 1) out << "    d = d * " << variable << " + p;\n";
     const std::string text = number(c[k]);
     if (text[0] == '-')
       out << "    p = p * " << variable << " - " << text.substr(1) << ";\n";
     else
       out << "    p = p * " << variable << " + " << text << ";\n";
   }
-  out << "    return p;\n}\n";
+  out << (with_slope ? "    return vec2(p, d);\n}\n" : "    return p;\n}\n");
   return out.str();
 }
 
@@ -99,10 +105,10 @@ Quad atan_over_argument(Quad q) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> functions = {
-      function("trig_angle_over_sine_24_bits", "t", angle_over_sine, 9),
-      function("trig_angle_over_sine_53_bits", "t", angle_over_sine, 22),
-      function("trig_atan_over_argument_24_bits", "q", atan_over_argument, 8),
-      function("trig_atan_over_argument_53_bits", "q", atan_over_argument, 22),
+      function("trig_angle_over_sine_24_bits", "t", angle_over_sine, 9, Returns::value_and_slope),
+      function("trig_angle_over_sine_53_bits", "t", angle_over_sine, 22, Returns::value_and_slope),
+      function("trig_atan_over_argument_24_bits", "q", atan_over_argument, 8, Returns::value),
+      function("trig_atan_over_argument_53_bits", "q", atan_over_argument, 22, Returns::value),
   };
   if (argc == 3 && std::strcmp(argv[1], "--check") == 0) {
     std::ifstream file(argv[2]);

@@ -1,5 +1,5 @@
 // kernel/closed-form/quad and its draft and high qualities, and the other methods for GGX, Beckmann and Blinn-Phong lobes: one quad on
-// 16,384 pixels of a floor viewed at a slant.
+// 16,384 pixels of a floor viewed at a slant. kernel/closed-form/quad/slopes: with the derivatives by all vertices.
 #include <cmath>
 #include <memory>
 #include <tuple>
@@ -7,7 +7,7 @@
 
 #include "benches.h"
 #include "integrals/methods.h"
-#include "render/direct/lobe_packs.h"
+#include "render/direct/vertex_slopes.h"
 
 namespace steradian::bench {
 namespace {
@@ -69,6 +69,18 @@ Bench ggx_packs(const std::string& name, Method method, Quality quality, const M
           }};
 }
 
+Bench ggx_slopes(const std::string& name, Simd simd) {
+  auto floor = ggx_make_floor();
+  const auto walk = vertex_slope_packs_for(simd).closed_form;
+  auto slopes = std::make_shared<std::vector<float>>(24 * floor->x.size());
+  return {name, floor->x.size(), name_of(simd), [=] {
+            GgxFloor& f = *floor;
+            float* fresnel = slopes->data() + 12 * f.x.size();
+            walk(f.light, f.points(), {{}, {Method::closed_form}}, {{f.plain.data(), f.fresnel.data()}, slopes->data(), fresnel});
+            keep(slopes->front());
+          }};
+}
+
 Material ggx() {
   Material m;
   m.brdf = Brdf::ggx;
@@ -110,6 +122,8 @@ void add_ggx(BenchList& list) {
       list.add(one, [=](const BenchOptions&) { return ggx_packs(one, method, quality, lobe, simd); });
     }
   }
+  const std::string slopes = "kernel/closed-form/quad/slopes";
+  list.add(slopes, [=](const BenchOptions& options) { return ggx_slopes(slopes, options.simd); });
 }
 
 }  // namespace steradian::bench

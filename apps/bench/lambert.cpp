@@ -1,5 +1,5 @@
-// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, all of which see the quad only in part. The same for a sphere
-// and a capsule.
+// kernel/lambert/quad: irradiance of one quad on 16,384 pixels of a floor, all of which see the quad only in part; .../slopes: with its
+// derivatives by all vertices. The same for a sphere and a capsule.
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benches.h"
-#include "render/direct/lobe_packs.h"
+#include "render/direct/vertex_slopes.h"
 
 namespace steradian::bench {
 namespace {
@@ -69,6 +69,16 @@ Bench lambert_packs(const std::string& name, Simd simd, std::optional<Shape> sha
           }};
 }
 
+Bench lambert_slopes(const std::string& name, Simd simd) {
+  auto floor = lambert_make_floor();
+  const auto walk = vertex_slope_packs_for(simd).diffuse;
+  auto slopes = std::make_shared<std::vector<float>>(12 * floor->x.size());
+  return {name, floor->x.size(), name_of(simd), [floor, walk, slopes] {
+            walk(floor->pack_light, floor->points(), {}, {{floor->result.data()}, slopes->data()});
+            keep(slopes->front());
+          }};
+}
+
 // The library's float function, one point after the other.
 Bench lambert_scalar(const std::string& name) {
   auto floor = lambert_make_floor();
@@ -94,6 +104,7 @@ void add_lambert(BenchList& list) {
     const std::string other = std::string("kernel/lambert/") + end;
     list.add(other, [other, kind = shape](const BenchOptions& options) { return lambert_packs(other, options.simd, kind); });
   }
+  list.add(name + "/slopes", [name](const BenchOptions& options) { return lambert_slopes(name + "/slopes", options.simd); });
   list.add(name + "/scalar", [name](const BenchOptions&) { return lambert_scalar(name + "/scalar"); });
 }
 

@@ -1,5 +1,6 @@
 // kernel/ltc/quad, kernel/ltc-high/quad (Fresnel by a separate lobe), kernel/ltc-compact/quad: both lobes of one quad on 16,384 pixels of a
-// floor that gets rougher away from the eye, decoding included. Most pixels see the whole quad. fit/ggx/64: the fitter.
+// floor that gets rougher away from the eye, decoding included. Most pixels see the whole quad. kernel/ltc/quad/specular: the glossy lobe
+// alone; .../slopes: the same with its derivatives by all vertices. fit/ggx/64: the fitter.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,7 +8,7 @@
 
 #include "benches.h"
 #include "fit/fit.h"
-#include "render/direct/lobe_packs.h"
+#include "render/direct/vertex_slopes.h"
 
 namespace steradian::bench {
 namespace {
@@ -60,6 +61,27 @@ Bench make(const std::string& name, Simd simd, Method method, Quality quality) {
           }};
 }
 
+Bench ltc_specular(const std::string& name, Simd simd) {
+  auto floor = ltc_make_floor(ltc_pack_tables(Method::ltc));
+  const auto ltc = lobe_packs_for(simd)[methods::Procedure::ltc];
+  return {name, floor->x.size(), name_of(simd), [=] {
+            GlossyFloor& f = *floor;
+            ltc(f.light, f.points(), {{}, {Method::ltc}, &f.tables}, {f.specular.data(), f.grazing.data()});
+            keep(f.specular.front());
+          }};
+}
+
+Bench ltc_slopes(const std::string& name, Simd simd) {
+  auto floor = ltc_make_floor(ltc_pack_tables(Method::ltc));
+  const auto walk = vertex_slope_packs_for(simd).ltc;
+  auto slopes = std::make_shared<std::vector<float>>(12 * floor->x.size());
+  return {name, floor->x.size(), name_of(simd), [=] {
+            GlossyFloor& f = *floor;
+            walk(f.light, f.points(), {{}, {Method::ltc}, &f.tables}, {{f.specular.data(), f.grazing.data()}, slopes->data()});
+            keep(slopes->front());
+          }};
+}
+
 void ltc_add(BenchList& list, const std::string& name, Method method, Quality quality) {
   list.add(name, [=](const BenchOptions& options) { return make(name, options.simd, method, quality); });
   for (const Simd simd : available_simd()) {
@@ -87,6 +109,8 @@ void add_ltc(BenchList& list) {
   ltc_add(list, "kernel/ltc/quad", Method::ltc, Quality::normal);
   ltc_add(list, "kernel/ltc-high/quad", Method::ltc, Quality::high);
   ltc_add(list, "kernel/ltc-compact/quad", Method::ltc_compact, Quality::normal);
+  list.add("kernel/ltc/quad/specular", [](const BenchOptions& o) { return ltc_specular("kernel/ltc/quad/specular", o.simd); });
+  list.add("kernel/ltc/quad/slopes", [](const BenchOptions& o) { return ltc_slopes("kernel/ltc/quad/slopes", o.simd); });
   list.add("fit/ggx/64", [](const BenchOptions&) { return make_fit(1); });
   list.add("fit/ggx/64/threads=all", [](const BenchOptions&) { return make_fit(0); });
 }

@@ -83,6 +83,7 @@ void run(SolveArguments& options, CommandLine& line) {
   if (!options.spec.empty()) reader.add_file(options.spec);
   const SolveJob job = reader.finish();
   options.solve.least_power = job.least_power;
+  options.solve.materials = job.materials;
 
   const StopSignals signals;
   StepLines lines;
@@ -118,12 +119,13 @@ void add_solve(CommandLine& line) {
   verb.group("Question");
   verb.footer(
       "Parameters: power (the default), color, position, rotation, size, vertices.\n"
+      "Parameters of a material: albedo (the default), roughness.\n"
       "Example: steradian solve room.glb --target wanted.exr --fit 'lamp*:position,power' -o solved.glb\n"
       "Exit status: 0 solved, 1 error, 3 the tolerance was not reached (the file is written).");
   verb.add("SCENE", options->scene, "scene file: .gltf, .glb").existing_file().required();
   verb.add("-o,--output", options->output, "the scene with the fitted lights: .gltf, .glb").writes(Writes::file).required();
   verb.add("--target", options->target, "wanted picture: .exr, .hdr, .png, .jpg").existing_file();
-  verb.add("--fit", options->fits, "LIGHT[:PARAMETER,...], * matches any name; again for more");
+  verb.add("--fit", options->fits, "LIGHT[:PARAMETER,...] or material:NAME[:...]; * matches any name");
   verb.add("--spec", options->spec, "JSON file of parameters, ties and targets (docs/solve-questions.md)").existing_file();
   verb.add("--mask", options->mask, "picture of weights for the target's pixels").existing_file().needs("--target");
   verb.add("--camera", options->picture.camera, "name of the target's camera; default: the file's first").group("Target");

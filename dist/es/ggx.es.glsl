@@ -762,17 +762,6 @@ float steradian_half_vector_radiance(SteradianGgxView view, float sum, float fac
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
 // Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
 
-// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
-//   start, end  unit directions; equal where nothing is above
-struct SteradianEdgePart {
-    vec3 start;
-    vec3 end;
-    float start_a;
-    float start_b;
-    float end_a;
-    float end_b;
-};
-
 // Derivatives of one integral by an edge's ends.
 //   normal    of the edge's part, start cross end: not unit
 //   by_start, by_end  derivative by the end's unit direction, over the normal
@@ -783,102 +772,87 @@ struct SteradianEdgeSlopes {
 };
 
 // The same for two integrals: with F = 1, and with F = (1 - v.h)^5.
+//   turn, turn_of_fresnel  INT f (2 (N.h) h - N) ds, N the plane's unit normal: the edge's part of the derivative by the view
 struct SteradianEdgeSlopesOfBoth {
     vec3 normal;
     vec2 by_start;
     vec2 by_end;
+    vec3 turn;
+    vec3 turn_of_fresnel;
 };
-
-// Clips an edge to the horizon z = 0.
-//
-//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
-//
-// Degenerate: an edge below the horizon has equal ends.
-SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    // The weights are those of steradian_polygon_add_edge: of one sign, so that nothing cancels.
-    float wa = abs(b.z);
-    float wb = abs(a.z);
-    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
-    vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
-    SteradianEdgePart part;
-    part.start = steradian_select(a_below, crossing, a);
-    part.end = steradian_select(b_below, crossing, b);
-    part.start_a = steradian_select(a_below, wa * scale, 1.0);
-    part.start_b = steradian_select(a_below, wb * scale, 0.0);
-    part.end_a = steradian_select(b_below, wa * scale, 0.0);
-    part.end_b = steradian_select(b_below, wb * scale, 1.0);
-    return part;
-}
 
 // Irradiance of an edge's part by its own ends, which are not below the horizon.
 //
-//   returns  vec2(by the start, by the end), over start cross end
-//
 // INT l_z s ds over the arc, l = s start + t end, has the closed form |n| (start_z P + end_z Q) / 2 with F the angle over the sine,
 // Q its slope and P = F - c Q.
-vec2 steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
-    vec3 n = cross(start, end - start);
+// Error: opposite ends, where the point lies on the edge, give finite numbers.
+SteradianEdgeSlopes steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
+    SteradianEdgeSlopes slopes;
+    slopes.normal = cross(start, end - start);
     float c = dot(start, end);
-    float s2 = dot(n, n);
-    float f = steradian_trig_angle_over_sine(c, s2);
-    float q = steradian_trig_angle_over_sine_slope(c, s2, f);
-    float p = min(f, 1.0e12) - c * q;
-    return vec2(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+    vec2 half_angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    float q = half_angle.y;
+    float p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
+    return slopes;
 }
 
-// An edge's derivatives from those of its part.
-//
-//   g        vec2(by the part's start, by its end), over their cross product
-SteradianEdgeSlopes steradian_edge_slopes_of_part(SteradianEdgePart part, vec2 g) {
-    SteradianEdgeSlopes slopes;
-    slopes.normal = cross(part.start, part.end - part.start);
-    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
-    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+// The derivatives by an edge's ends from those by the ends of its part.
+SteradianEdgeSlopes steradian_edge_slopes_of_whole(SteradianEdgePart part, SteradianEdgeSlopes of_part) {
+    SteradianEdgeSlopes slopes = of_part;
+    if (part.rises || part.sinks) {
+        slopes.by_start = part.start_a * of_part.by_start + part.end_a * of_part.by_end;
+        slopes.by_end = part.start_b * of_part.by_start + part.end_b * of_part.by_end;
+    }
     return slopes;
 }
 
 // Derivatives of the irradiance for radiance 1 (steradian_polygon_irradiance) by the ends of one edge.
 //
-//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+//   part     of steradian_edge_above_horizon: a walk that computes the value has it already (steradian_polygon_add_part)
 //
 // Degenerate: an edge of no length, or below the horizon, has a normal of 0. Opposite ends, where the point lies on the edge, give
 // finite numbers.
 // Error: see docs/measured/accuracy.md, "polygon, edge slopes".
+SteradianEdgeSlopes steradian_polygon_part_slopes(SteradianEdgePart part) {
+    return steradian_edge_slopes_of_whole(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
 SteradianEdgeSlopes steradian_polygon_edge_slopes(vec3 a, vec3 b) {
-    SteradianEdgePart part = steradian_edge_above_horizon(a, b);
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+    return steradian_polygon_part_slopes(steradian_edge_above_horizon(a, b));
 }
 
 // Derivatives of the integral of a linearly transformed cosine (steradian_ltc_integral) by the ends of one edge.
 //
-//   a, b     unit directions of the ends in the shading frame, in walk order
-//   m        the lobe's inverse matrix
-//   returns  derivatives by M^-1 a and M^-1 b: the derivative by a is steradian_ltc_edge_transform_back(m, normal by_start)
+//   part       of steradian_ltc_part
+//   lobe_part  steradian_edge_above_horizon(part.start, part.end): above the lobe's own horizon
+//   returns    derivatives by steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): the derivative by a is steradian_ltc_edge_transform_back of it
 //
 // The edges that close the real horizon lie in its image and do not move.
-// Degenerate: as steradian_polygon_edge_slopes.
+// Degenerate: as steradian_polygon_part_slopes.
 // Error: see docs/measured/accuracy.md, "LTC, edge slopes".
-SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, vec3 a, vec3 b) {
-    SteradianEdgePart real_part = steradian_edge_above_horizon(a, b);
-    vec3 start = steradian_ltc_transform(m, real_part.start);
-    vec3 end = steradian_ltc_transform(m, real_part.end);
-    float start_scale = inversesqrt(max(dot(start, start), steradian_smallest_square()));
-    float end_scale = inversesqrt(max(dot(end, end), steradian_smallest_square()));
-    SteradianEdgePart lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
-    SteradianEdgePart part = lobe_part;
-    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
-    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
-    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
-    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+SteradianEdgeSlopes steradian_ltc_part_slopes(SteradianEdgePart part, SteradianEdgePart lobe_part) {
+    SteradianEdgeSlopes slopes = steradian_edge_slopes_of_whole(part, steradian_polygon_part_slopes(lobe_part));
+    slopes.normal = slopes.normal * steradian_inverse_pi();
+    return slopes;
 }
 
-// The transpose of M^-1 times a vector: takes derivatives by M^-1 v to derivatives by v.
-vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 g) {
-    return vec3(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+// The same from the ends.
+//
+//   a, b     unit directions of the ends in the shading frame, in walk order
+SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, vec3 a, vec3 b) {
+    SteradianEdgePart part = steradian_ltc_part(m, a, b, steradian_ltc_direction(m, a), steradian_ltc_direction(m, b));
+    return steradian_ltc_part_slopes(part, steradian_edge_above_horizon(part.start, part.end));
+}
+
+// The derivative by v from that by steradian_ltc_direction(m, v): M^-T over the length of M^-1 v.
+vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 v, vec3 g) {
+    vec3 under = steradian_ltc_transform(m, v);
+    return steradian_ltc_transform_transposed(m, g * inversesqrt(max(dot(under, under), steradian_smallest_square())));
 }
 
 // Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.
@@ -902,8 +876,12 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
     bool from_start = !(arc.begin < 0.0);
     bool from_end = !(arc.end > 0.0);
     vec2 base = vec2(steradian_select(from_start || from_end, half_cosine, 1.0), steradian_select(from_start, -half_sine, steradian_select(from_end, half_sine, 0.0)));
+    vec3 n = cross(part.start, chord);
+    vec3 across = n * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
     vec2 even = vec2(0.0, 0.0);
     vec2 odd = vec2(0.0, 0.0);
+    vec3 turn = vec3(0.0, 0.0, 0.0);
+    vec3 turn_of_fresnel = vec3(0.0, 0.0, 0.0);
     float total = arc.sweep.x + arc.sweep.y;
     float share = 1.0 / float(pieces);
     for (int i = 0; i < pieces; i++) {
@@ -918,7 +896,12 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
             vec3 l = p * (2.0 * along / p2) - view.v;
             float g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
             float w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
-            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inversesqrt(p2)));
+            float p_inverse = inversesqrt(p2);
+            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * p_inverse));
+            vec3 h = p * p_inverse;
+            vec3 moved = h * (2.0 * dot(across, h)) - across;
+            turn = turn + moved * both.x;
+            turn_of_fresnel = turn_of_fresnel + moved * both.y;
             // l = even (start + end) + odd (end - start), by its angle from the middle: from l itself, a short edge in float would lose
             // the digits of `odd`.
             float t = node.tau * arc.scale;
@@ -928,15 +911,17 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
             odd = odd + both * (angle.y * chord_inverse);
         }
     }
-    vec3 n = cross(part.start, chord);
-    float scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
-    scale = steradian_select(arc.end > arc.begin, scale, 0.0);
+    float density = arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z);
+    density = steradian_select(arc.end > arc.begin, density, 0.0);
+    float scale = -density * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
     vec2 by_part_start = (even - odd) * scale;
     vec2 by_part_end = (even + odd) * scale;
     SteradianEdgeSlopesOfBoth slopes;
     slopes.normal = n;
     slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
     slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    slopes.turn = turn * density;
+    slopes.turn_of_fresnel = turn_of_fresnel * density;
     return slopes;
 }
 

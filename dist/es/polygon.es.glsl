@@ -78,35 +78,87 @@ SteradianPolygonWalk steradian_polygon_begin() {
     return walk;
 }
 
-// Adds one edge, clipped to the horizon z = 0.
+// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
+//   start, end   unit directions; equal where nothing is above
+//   rises, sinks whether the part begins, or ends, on the horizon
+struct SteradianEdgePart {
+    vec3 start;
+    vec3 end;
+    float start_a;
+    float start_b;
+    float end_a;
+    float end_b;
+    bool rises;
+    bool sinks;
+};
+
+// An edge as a part of itself.
+SteradianEdgePart steradian_edge_whole(vec3 a, vec3 b) {
+    SteradianEdgePart part;
+    part.start = a;
+    part.end = b;
+    part.start_a = 1.0;
+    part.start_b = 0.0;
+    part.end_a = 0.0;
+    part.end_b = 1.0;
+    part.rises = steradian_mask_none();
+    part.sinks = steradian_mask_none();
+    return part;
+}
+
+// Clips an edge to the horizon z = 0.
 //
 //   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
+//
+// Degenerate: an edge below the horizon has equal ends.
+SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    SteradianEdgePart part = steradian_edge_whole(a, b);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
+        float wa = abs(b.z);
+        float wb = abs(a.z);
+        vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+        float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
+        vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
+        part.start = steradian_select(a_below, crossing, a);
+        part.end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
+        part.start_a = steradian_select(a_below, wa * scale, 1.0);
+        part.start_b = steradian_select(a_below, wb * scale, 0.0);
+        part.end_a = steradian_select(b_below, wa * scale, 0.0);
+        part.end_b = steradian_select(b_below, wb * scale, 1.0);
+    }
+    return part;
+}
+
+// Adds the part of an edge above the horizon (steradian_edge_above_horizon).
 //
 // What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
 // these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
 // counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
+SteradianPolygonWalk steradian_polygon_add_part(SteradianPolygonWalk walk, SteradianEdgePart part) {
+    SteradianPolygonWalk next = walk;
+    bool crosses = part.rises || part.sinks;
+    if (crosses) {
+        vec3 crossing = steradian_select(part.rises, part.start, part.end);
+        float y = steradian_select(part.rises, crossing.y, -crossing.y);  // coming up: the azimuth; going down: its conjugate
+        vec2 h = walk.horizon;
+        next.horizon = steradian_select(crosses, vec2(h.x * crossing.x - h.y * y, h.x * y + h.y * crossing.x), h);
+    }
+    next.edges = walk.edges + steradian_polygon_edge(part.start, part.end);
+    return next;
+}
+
+// Adds one edge, clipped to the horizon z = 0.
+//
+//   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
 SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, vec3 a, vec3 b) {
     SteradianPolygonWalk next = walk;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        vec3 start = a;
-        vec3 end = b;
-        if (a_below || b_below) {
-            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inversesqrt(max(dot(p, p), steradian_smallest_square()));
-            vec3 crossing = vec3(p.x, p.y, 0.0);
-            start = steradian_select(a_below, crossing, a);
-            end = steradian_select(b_below, crossing, b);  // both below: start = end, an edge of no length
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float y = steradian_select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
-            vec2 h = walk.horizon;
-            next.horizon = steradian_select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
-        }
-        next.edges = walk.edges + steradian_polygon_edge(start, end);
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        next = steradian_polygon_add_part(walk, steradian_edge_above_horizon(a, b));
     }
     return next;
 }

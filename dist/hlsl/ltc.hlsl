@@ -93,6 +93,11 @@ float3 steradian_ltc_transform(SteradianLtcMatrix m, float3 v) {
     return float3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
 
+// The transpose of M^-1 times a vector.
+float3 steradian_ltc_transform_transposed(SteradianLtcMatrix m, float3 v) {
+    return float3(m.xx * v.x + m.zx * v.z, m.yy * v.y, m.xz * v.x + m.zz * v.z);
+}
+
 // The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
 float steradian_ltc_lobe(SteradianLtcMatrix m, float3 l) {
     float3 w = steradian_ltc_transform(m, l);
@@ -141,43 +146,75 @@ float3 steradian_ltc_direction(SteradianLtcMatrix m, float3 v) {
     return steradian_polygon_direction(steradian_ltc_transform(m, v));
 }
 
-// Adds one edge, clipped to the real horizon, then to the lobe's.
+// The part of an edge above the real horizon, under M^-1.
 //
 //   a, b     ends in the shading frame, in walk order: steradian_polygon_direction of the vertices
 //   ta, tb   steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): a vertex is transformed once for its two edges
+//   returns  its ends are unit directions under M^-1, and its weights are those of ta and tb
 //
-// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
-// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
-// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
+// Degenerate: an edge below the horizon has ends of 0.
+SteradianEdgePart steradian_ltc_part(SteradianLtcMatrix m, float3 a, float3 b, float3 ta, float3 tb) {
+    bool a_below = a.z < 0.0;
+    bool b_below = b.z < 0.0;
+    SteradianEdgePart part = steradian_edge_whole(ta, tb);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        float wa = abs(b.z);
+        float wb = abs(a.z);
+        float3 horizon = float3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+        float3 under = steradian_ltc_transform(m, horizon);
+        float3 crossing = steradian_select(part.rises || part.sinks, steradian_polygon_direction(under), float3(0.0, 0.0, 0.0));
+        part.start = steradian_select(a_below, crossing, ta);
+        part.end = steradian_select(b_below, crossing, tb);
+        float3 under_a = steradian_ltc_transform(m, a);
+        float3 under_b = steradian_ltc_transform(m, b);
+        float scale = rsqrt(max(dot(under, under), steradian_smallest_square()));
+        float of_a = wa * sqrt(dot(under_a, under_a)) * scale;
+        float of_b = wb * sqrt(dot(under_b, under_b)) * scale;
+        part.start_a = steradian_select(a_below, of_a, 1.0);
+        part.start_b = steradian_select(a_below, of_b, 0.0);
+        part.end_a = steradian_select(b_below, of_a, 0.0);
+        part.end_b = steradian_select(b_below, of_b, 1.0);
+    }
+    return part;
+}
+
+// Closes the gaps that a part's ends leave along the real horizon.
+//
+// They go from each crossing down to the next crossing up. They lie on one line of the light's plane, so that the way from one to the
+// other may go by any point of that line: a crossing down adds the edge to the first crossing of the walk, a crossing up the edge from
+// it, in whatever order they come.
+//
+//   part     of steradian_ltc_part
+SteradianLtcWalk steradian_ltc_close_gap(SteradianLtcWalk walk, SteradianEdgePart part) {
+    SteradianLtcWalk next = walk;
+    bool crosses = part.rises || part.sinks;
+    if (crosses) {
+        float3 none = float3(0.0, 0.0, 0.0);
+        float3 crossing = steradian_select(part.rises, part.start, part.end);
+        // The first crossing is its own anchor: an edge of no length.
+        bool closes = crosses && walk.anchored;
+        if (closes) {
+            float3 departure = steradian_select(part.rises, walk.anchor, crossing);
+            float3 arrival = steradian_select(part.rises, crossing, walk.anchor);
+            next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
+        }
+        next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
+        next.anchored = walk.anchored || crosses;
+    }
+    return next;
+}
+
+// Adds one edge, clipped to the real horizon, then to the lobe's. Arguments: steradian_ltc_part.
 //
 // Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
 SteradianLtcWalk steradian_ltc_add_edge(SteradianLtcWalk walk, SteradianLtcMatrix m, float3 a, float3 b, float3 ta, float3 tb) {
     SteradianLtcWalk next = walk;
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        float3 start = ta;
-        float3 end = tb;
-        if (a_below || b_below) {
-            float3 none = float3(0.0, 0.0, 0.0);
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            float3 horizon = float3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-            float3 crossing = steradian_select(crosses, steradian_ltc_direction(m, horizon), none);
-            start = steradian_select(a_below, crossing, ta);
-            end = steradian_select(b_below, crossing, tb);
-            // The first crossing is its own anchor: an edge of no length.
-            if (crosses && walk.anchored) {
-                bool closes = crosses && walk.anchored;
-                float3 departure = steradian_select(a_below, walk.anchor, crossing);
-                float3 arrival = steradian_select(a_below, crossing, walk.anchor);
-                next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
-            }
-            next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
-            next.anchored = walk.anchored || crosses;
-        }
-        next.lobe = steradian_polygon_add_edge(next.lobe, start, end);
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        SteradianEdgePart part = steradian_ltc_part(m, a, b, ta, tb);
+        next = steradian_ltc_close_gap(walk, part);
+        next.lobe = steradian_polygon_add_edge(next.lobe, part.start, part.end);
     }
     return next;
 }

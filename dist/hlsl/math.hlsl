@@ -216,19 +216,28 @@ float3 steradian_fan_place(float3 centre, float3 outward, float rim_cosine, floa
 // bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
 
-// Degree 9, largest relative error 1.3e-08 before rounding.
-float steradian_trig_angle_over_sine_24_bits(float t) {
+// Degree 9, largest relative error 1.3e-08 before rounding; and its derivative, by the same steps.
+float2 steradian_trig_angle_over_sine_24_bits(float t) {
     float p = 0.01116282422619877;
+    float d = p;
     p = p * t - 0.032591688733997218;
+    d = d * t + p;
     p = p * t + 0.05097575847577638;
+    d = d * t + p;
     p = p * t - 0.033552997791327491;
+    d = d * t + p;
     p = p * t + 0.030059175970996568;
+    d = d * t + p;
     p = p * t + 0.020163489805166888;
+    d = d * t + p;
     p = p * t + 0.057977801513775039;
+    d = d * t + p;
     p = p * t + 0.13326657225500885;
+    d = d * t + p;
     p = p * t + 0.33333538143391106;
+    d = d * t + p;
     p = p * t + 0.9999999897346874;
-    return p;
+    return float2(p, d);
 }
 
 // Degree 8, largest relative error 1.8e-08 before rounding.
@@ -245,14 +254,21 @@ float steradian_trig_atan_over_argument_24_bits(float q) {
     return p;
 }
 
-// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c).
+// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c), and its derivative by t.
 //
 //   t        1 - c, in [0, 1]
-//   returns  1 at t = 0 to pi/2 at t = 1
+//   returns  vec2(1, 1/3) at t = 0 to vec2(pi/2, 1) at t = 1
 //
-// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
-float steradian_trig_angle_over_sine_acute(float t) {
+// Error: see docs/measured/accuracy.md, "angle over sine" and "slope of angle over sine". A series in 1 - c has positive terms: nothing
+// cancels.
+float2 steradian_trig_angle_over_sine_acute_and_slope(float t) {
     return steradian_trig_angle_over_sine_24_bits(t);
+}
+
+// Angle over sine alone. Arguments: steradian_trig_angle_over_sine_acute_and_slope.
+float steradian_trig_angle_over_sine_acute(float t) {
+    float2 both = steradian_trig_angle_over_sine_acute_and_slope(t);
+    return both.x;
 }
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
@@ -268,6 +284,21 @@ float steradian_trig_angle_over_sine(float c, float s2) {
         f = steradian_select(obtuse, steradian_pi() * rsqrt(max(s2, steradian_smallest_divisor())) - f, f);
     }
     return f;
+}
+
+// Angle over sine, and minus its derivative by the cosine: 1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond. Arguments:
+// steradian_trig_angle_over_sine, whose value is x.
+//
+// Degenerate: the slope grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
+// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
+float2 steradian_trig_angle_over_sine_and_slope(float c, float s2) {
+    float2 both = steradian_trig_angle_over_sine_acute_and_slope(1.0 - abs(c));
+    bool obtuse = c < 0.0;
+    if (obtuse) {
+        float f = steradian_pi() * rsqrt(max(s2, steradian_smallest_divisor())) - both.x;
+        both = steradian_select(obtuse, float2(f, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12)), both);
+    }
+    return both;
 }
 
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
@@ -291,39 +322,6 @@ float steradian_trig_atan2(float y, float x) {
 float steradian_trig_atan2_unwrapped(float y, float x) {
     float angle = steradian_trig_atan2(y, x);
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
-}
-
-// Degree 8: the derivative of steradian_trig_angle_over_sine_24_bits.
-float steradian_trig_angle_over_sine_slope_24_bits(float t) {
-    float p = 0.10046541803578893;
-    p = p * t - 0.260733509871977744;
-    p = p * t + 0.35683030933043466;
-    p = p * t - 0.201317986747964946;
-    p = p * t + 0.15029587985498284;
-    p = p * t + 0.080653959220667552;
-    p = p * t + 0.173933404541325117;
-    p = p * t + 0.2665331445100177;
-    p = p * t + 0.33333538143391106;
-    return p;
-}
-
-// Minus the derivative of angle over sine by the cosine, of an angle in [0, pi].
-//
-//   c        cosine, in [-1, 1]
-//   s2       sine squared, computed on its own
-//   f        steradian_trig_angle_over_sine(c, s2)
-//   returns  1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond
-//
-// Degenerate: it grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
-// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
-float steradian_trig_angle_over_sine_slope(float c, float s2, float f) {
-    float t = 1.0 - abs(c);
-    float slope = steradian_trig_angle_over_sine_slope_24_bits(t);
-    bool obtuse = c < 0.0;
-    if (obtuse) {
-        slope = steradian_select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
-    }
-    return slope;
 }
 
 // ==== quartic ====

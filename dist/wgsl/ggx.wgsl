@@ -762,17 +762,6 @@ fn steradian_half_vector_radiance(view: SteradianGgxView, sum: f32, facing: f32)
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
 // Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
 
-// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
-//   start, end  unit directions; equal where nothing is above
-struct SteradianEdgePart {
-    start: vec3f,
-    end: vec3f,
-    start_a: f32,
-    start_b: f32,
-    end_a: f32,
-    end_b: f32,
-}
-
 // Derivatives of one integral by an edge's ends.
 //   normal    of the edge's part, start cross end: not unit
 //   by_start, by_end  derivative by the end's unit direction, over the normal
@@ -783,102 +772,87 @@ struct SteradianEdgeSlopes {
 }
 
 // The same for two integrals: with F = 1, and with F = (1 - v.h)^5.
+//   turn, turn_of_fresnel  INT f (2 (N.h) h - N) ds, N the plane's unit normal: the edge's part of the derivative by the view
 struct SteradianEdgeSlopesOfBoth {
     normal: vec3f,
     by_start: vec2f,
     by_end: vec2f,
-}
-
-// Clips an edge to the horizon z = 0.
-//
-//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
-//
-// Degenerate: an edge below the horizon has equal ends.
-fn steradian_edge_above_horizon(a: vec3f, b: vec3f) -> SteradianEdgePart {
-    let a_below = a.z < 0.0;
-    let b_below = b.z < 0.0;
-    // The weights are those of steradian_polygon_add_edge: of one sign, so that nothing cancels.
-    let wa = abs(b.z);
-    let wb = abs(a.z);
-    let p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    let scale = inverseSqrt(max(dot(p, p), steradian_smallest_square()));
-    let crossing = vec3f(p.x * scale, p.y * scale, 0.0);
-    var part: SteradianEdgePart;
-    part.start = select(a, crossing, a_below);
-    part.end = select(b, crossing, b_below);
-    part.start_a = select(1.0, wa * scale, a_below);
-    part.start_b = select(0.0, wb * scale, a_below);
-    part.end_a = select(0.0, wa * scale, b_below);
-    part.end_b = select(1.0, wb * scale, b_below);
-    return part;
+    turn: vec3f,
+    turn_of_fresnel: vec3f,
 }
 
 // Irradiance of an edge's part by its own ends, which are not below the horizon.
 //
-//   returns  vec2(by the start, by the end), over start cross end
-//
 // INT l_z s ds over the arc, l = s start + t end, has the closed form |n| (start_z P + end_z Q) / 2 with F the angle over the sine,
 // Q its slope and P = F - c Q.
-fn steradian_edge_irradiance_slopes(start: vec3f, end: vec3f) -> vec2f {
-    let n = cross(start, end - start);
+// Error: opposite ends, where the point lies on the edge, give finite numbers.
+fn steradian_edge_irradiance_slopes(start: vec3f, end: vec3f) -> SteradianEdgeSlopes {
+    var slopes: SteradianEdgeSlopes;
+    slopes.normal = cross(start, end - start);
     let c = dot(start, end);
-    let s2 = dot(n, n);
-    let f = steradian_trig_angle_over_sine(c, s2);
-    let q = steradian_trig_angle_over_sine_slope(c, s2, f);
-    let p = min(f, 1.0e12) - c * q;
-    return vec2f(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+    let half_angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    let q = half_angle.y;
+    let p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
+    return slopes;
 }
 
-// An edge's derivatives from those of its part.
-//
-//   g        vec2(by the part's start, by its end), over their cross product
-fn steradian_edge_slopes_of_part(part: SteradianEdgePart, g: vec2f) -> SteradianEdgeSlopes {
-    var slopes: SteradianEdgeSlopes;
-    slopes.normal = cross(part.start, part.end - part.start);
-    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
-    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+// The derivatives by an edge's ends from those by the ends of its part.
+fn steradian_edge_slopes_of_whole(part: SteradianEdgePart, of_part: SteradianEdgeSlopes) -> SteradianEdgeSlopes {
+    var slopes = of_part;
+    if (part.rises || part.sinks) {
+        slopes.by_start = part.start_a * of_part.by_start + part.end_a * of_part.by_end;
+        slopes.by_end = part.start_b * of_part.by_start + part.end_b * of_part.by_end;
+    }
     return slopes;
 }
 
 // Derivatives of the irradiance for radiance 1 (steradian_polygon_irradiance) by the ends of one edge.
 //
-//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+//   part     of steradian_edge_above_horizon: a walk that computes the value has it already (steradian_polygon_add_part)
 //
 // Degenerate: an edge of no length, or below the horizon, has a normal of 0. Opposite ends, where the point lies on the edge, give
 // finite numbers.
 // Error: see docs/measured/accuracy.md, "polygon, edge slopes".
+fn steradian_polygon_part_slopes(part: SteradianEdgePart) -> SteradianEdgeSlopes {
+    return steradian_edge_slopes_of_whole(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
 fn steradian_polygon_edge_slopes(a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
-    let part = steradian_edge_above_horizon(a, b);
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+    return steradian_polygon_part_slopes(steradian_edge_above_horizon(a, b));
 }
 
 // Derivatives of the integral of a linearly transformed cosine (steradian_ltc_integral) by the ends of one edge.
 //
-//   a, b     unit directions of the ends in the shading frame, in walk order
-//   m        the lobe's inverse matrix
-//   returns  derivatives by M^-1 a and M^-1 b: the derivative by a is steradian_ltc_edge_transform_back(m, normal by_start)
+//   part       of steradian_ltc_part
+//   lobe_part  steradian_edge_above_horizon(part.start, part.end): above the lobe's own horizon
+//   returns    derivatives by steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): the derivative by a is steradian_ltc_edge_transform_back of it
 //
 // The edges that close the real horizon lie in its image and do not move.
-// Degenerate: as steradian_polygon_edge_slopes.
+// Degenerate: as steradian_polygon_part_slopes.
 // Error: see docs/measured/accuracy.md, "LTC, edge slopes".
-fn steradian_ltc_edge_slopes(m: SteradianLtcMatrix, a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
-    let real_part = steradian_edge_above_horizon(a, b);
-    let start = steradian_ltc_transform(m, real_part.start);
-    let end = steradian_ltc_transform(m, real_part.end);
-    let start_scale = inverseSqrt(max(dot(start, start), steradian_smallest_square()));
-    let end_scale = inverseSqrt(max(dot(end, end), steradian_smallest_square()));
-    let lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
-    var part = lobe_part;
-    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
-    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
-    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
-    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+fn steradian_ltc_part_slopes(part: SteradianEdgePart, lobe_part: SteradianEdgePart) -> SteradianEdgeSlopes {
+    var slopes = steradian_edge_slopes_of_whole(part, steradian_polygon_part_slopes(lobe_part));
+    slopes.normal = slopes.normal * steradian_inverse_pi();
+    return slopes;
 }
 
-// The transpose of M^-1 times a vector: takes derivatives by M^-1 v to derivatives by v.
-fn steradian_ltc_edge_transform_back(m: SteradianLtcMatrix, g: vec3f) -> vec3f {
-    return vec3f(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+// The same from the ends.
+//
+//   a, b     unit directions of the ends in the shading frame, in walk order
+fn steradian_ltc_edge_slopes(m: SteradianLtcMatrix, a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
+    let part = steradian_ltc_part(m, a, b, steradian_ltc_direction(m, a), steradian_ltc_direction(m, b));
+    return steradian_ltc_part_slopes(part, steradian_edge_above_horizon(part.start, part.end));
+}
+
+// The derivative by v from that by steradian_ltc_direction(m, v): M^-T over the length of M^-1 v.
+fn steradian_ltc_edge_transform_back(m: SteradianLtcMatrix, v: vec3f, g: vec3f) -> vec3f {
+    let under = steradian_ltc_transform(m, v);
+    return steradian_ltc_transform_transposed(m, g * inverseSqrt(max(dot(under, under), steradian_smallest_square())));
 }
 
 // Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.
@@ -902,8 +876,12 @@ fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdge
     let from_start = !(arc.begin < 0.0);
     let from_end = !(arc.end > 0.0);
     let base = vec2f(select(1.0, half_cosine, from_start || from_end), select(select(0.0, half_sine, from_end), -half_sine, from_start));
+    let n = cross(part.start, chord);
+    let across = n * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
     var even = vec2f(0.0, 0.0);
     var odd = vec2f(0.0, 0.0);
+    var turn = vec3f(0.0, 0.0, 0.0);
+    var turn_of_fresnel = vec3f(0.0, 0.0, 0.0);
     let total = arc.sweep.x + arc.sweep.y;
     let share = 1.0 / f32(pieces);
     for (var i: i32 = 0; i < pieces; i++) {
@@ -918,7 +896,12 @@ fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdge
             let l = p * (2.0 * along / p2) - view.v;
             let g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
             let w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
-            let both = vec2f(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inverseSqrt(p2)));
+            let p_inverse = inverseSqrt(p2);
+            let both = vec2f(w, w * steradian_fresnel_schlick(0.0, 1.0, along * p_inverse));
+            let h = p * p_inverse;
+            let moved = h * (2.0 * dot(across, h)) - across;
+            turn = turn + moved * both.x;
+            turn_of_fresnel = turn_of_fresnel + moved * both.y;
             // l = even (start + end) + odd (end - start), by its angle from the middle: from l itself, a short edge in float would lose
             // the digits of `odd`.
             let t = node.tau * arc.scale;
@@ -928,15 +911,17 @@ fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdge
             odd = odd + both * (angle.y * chord_inverse);
         }
     }
-    let n = cross(part.start, chord);
-    var scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
-    scale = select(0.0, scale, arc.end > arc.begin);
+    var density = arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z);
+    density = select(0.0, density, arc.end > arc.begin);
+    let scale = -density * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
     let by_part_start = (even - odd) * scale;
     let by_part_end = (even + odd) * scale;
     var slopes: SteradianEdgeSlopesOfBoth;
     slopes.normal = n;
     slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
     slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    slopes.turn = turn * density;
+    slopes.turn_of_fresnel = turn_of_fresnel * density;
     return slopes;
 }
 

@@ -93,6 +93,11 @@ fn steradian_ltc_transform(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
     return vec3f(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
 
+// The transpose of M^-1 times a vector.
+fn steradian_ltc_transform_transposed(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
+    return vec3f(m.xx * v.x + m.zx * v.z, m.yy * v.y, m.xz * v.x + m.zz * v.z);
+}
+
 // The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
 fn steradian_ltc_lobe(m: SteradianLtcMatrix, l: vec3f) -> f32 {
     let w = steradian_ltc_transform(m, l);
@@ -141,43 +146,75 @@ fn steradian_ltc_direction(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
     return steradian_polygon_direction(steradian_ltc_transform(m, v));
 }
 
-// Adds one edge, clipped to the real horizon, then to the lobe's.
+// The part of an edge above the real horizon, under M^-1.
 //
 //   a, b     ends in the shading frame, in walk order: steradian_polygon_direction of the vertices
 //   ta, tb   steradian_ltc_direction(m, a) and steradian_ltc_direction(m, b): a vertex is transformed once for its two edges
+//   returns  its ends are unit directions under M^-1, and its weights are those of ta and tb
 //
-// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
-// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
-// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
+// Degenerate: an edge below the horizon has ends of 0.
+fn steradian_ltc_part(m: SteradianLtcMatrix, a: vec3f, b: vec3f, ta: vec3f, tb: vec3f) -> SteradianEdgePart {
+    let a_below = a.z < 0.0;
+    let b_below = b.z < 0.0;
+    var part = steradian_edge_whole(ta, tb);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        let wa = abs(b.z);
+        let wb = abs(a.z);
+        let horizon = vec3f(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+        let under = steradian_ltc_transform(m, horizon);
+        let crossing = select(vec3f(0.0, 0.0, 0.0), steradian_polygon_direction(under), part.rises || part.sinks);
+        part.start = select(ta, crossing, a_below);
+        part.end = select(tb, crossing, b_below);
+        let under_a = steradian_ltc_transform(m, a);
+        let under_b = steradian_ltc_transform(m, b);
+        let scale = inverseSqrt(max(dot(under, under), steradian_smallest_square()));
+        let of_a = wa * sqrt(dot(under_a, under_a)) * scale;
+        let of_b = wb * sqrt(dot(under_b, under_b)) * scale;
+        part.start_a = select(1.0, of_a, a_below);
+        part.start_b = select(0.0, of_b, a_below);
+        part.end_a = select(0.0, of_a, b_below);
+        part.end_b = select(1.0, of_b, b_below);
+    }
+    return part;
+}
+
+// Closes the gaps that a part's ends leave along the real horizon.
+//
+// They go from each crossing down to the next crossing up. They lie on one line of the light's plane, so that the way from one to the
+// other may go by any point of that line: a crossing down adds the edge to the first crossing of the walk, a crossing up the edge from
+// it, in whatever order they come.
+//
+//   part     of steradian_ltc_part
+fn steradian_ltc_close_gap(walk: SteradianLtcWalk, part: SteradianEdgePart) -> SteradianLtcWalk {
+    var next = walk;
+    let crosses = part.rises || part.sinks;
+    if (crosses) {
+        let none = vec3f(0.0, 0.0, 0.0);
+        let crossing = select(part.end, part.start, part.rises);
+        // The first crossing is its own anchor: an edge of no length.
+        let closes = crosses && walk.anchored;
+        if (closes) {
+            let departure = select(crossing, walk.anchor, part.rises);
+            let arrival = select(walk.anchor, crossing, part.rises);
+            next.lobe = steradian_polygon_add_edge(next.lobe, select(none, departure, closes), select(none, arrival, closes));
+        }
+        next.anchor = select(walk.anchor, crossing, crosses && !walk.anchored);
+        next.anchored = walk.anchored || crosses;
+    }
+    return next;
+}
+
+// Adds one edge, clipped to the real horizon, then to the lobe's. Arguments: steradian_ltc_part.
 //
 // Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
 fn steradian_ltc_add_edge(walk: SteradianLtcWalk, m: SteradianLtcMatrix, a: vec3f, b: vec3f, ta: vec3f, tb: vec3f) -> SteradianLtcWalk {
     var next = walk;
-    let a_below = a.z < 0.0;
-    let b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        var start = ta;
-        var end = tb;
-        if (a_below || b_below) {
-            let none = vec3f(0.0, 0.0, 0.0);
-            let crosses = (a_below && !b_below) || (b_below && !a_below);
-            let wa = abs(b.z);
-            let wb = abs(a.z);
-            let horizon = vec3f(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-            let crossing = select(none, steradian_ltc_direction(m, horizon), crosses);
-            start = select(ta, crossing, a_below);
-            end = select(tb, crossing, b_below);
-            // The first crossing is its own anchor: an edge of no length.
-            if (crosses && walk.anchored) {
-                let closes = crosses && walk.anchored;
-                let departure = select(crossing, walk.anchor, a_below);
-                let arrival = select(walk.anchor, crossing, a_below);
-                next.lobe = steradian_polygon_add_edge(next.lobe, select(none, departure, closes), select(none, arrival, closes));
-            }
-            next.anchor = select(walk.anchor, crossing, crosses && !walk.anchored);
-            next.anchored = walk.anchored || crosses;
-        }
-        next.lobe = steradian_polygon_add_edge(next.lobe, start, end);
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        let part = steradian_ltc_part(m, a, b, ta, tb);
+        next = steradian_ltc_close_gap(walk, part);
+        next.lobe = steradian_polygon_add_edge(next.lobe, part.start, part.end);
     }
     return next;
 }

@@ -212,19 +212,28 @@ fn steradian_fan_place(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f3
 // bits (float, GPU) and for 53 (double); real_digits() is a compile-time constant and picks one.
 // Coefficients: tools/fit_inverse_trig finds them; the test InverseTrig.PolynomialsAreTheFittedOnes compares.
 
-// Degree 9, largest relative error 1.3e-08 before rounding.
-fn steradian_trig_angle_over_sine_24_bits(t: f32) -> f32 {
+// Degree 9, largest relative error 1.3e-08 before rounding; and its derivative, by the same steps.
+fn steradian_trig_angle_over_sine_24_bits(t: f32) -> vec2f {
     var p = 0.01116282422619877;
+    var d = p;
     p = p * t - 0.032591688733997218;
+    d = d * t + p;
     p = p * t + 0.05097575847577638;
+    d = d * t + p;
     p = p * t - 0.033552997791327491;
+    d = d * t + p;
     p = p * t + 0.030059175970996568;
+    d = d * t + p;
     p = p * t + 0.020163489805166888;
+    d = d * t + p;
     p = p * t + 0.057977801513775039;
+    d = d * t + p;
     p = p * t + 0.13326657225500885;
+    d = d * t + p;
     p = p * t + 0.33333538143391106;
+    d = d * t + p;
     p = p * t + 0.9999999897346874;
-    return p;
+    return vec2f(p, d);
 }
 
 // Degree 8, largest relative error 1.8e-08 before rounding.
@@ -241,14 +250,21 @@ fn steradian_trig_atan_over_argument_24_bits(q: f32) -> f32 {
     return p;
 }
 
-// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c).
+// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c), and its derivative by t.
 //
 //   t        1 - c, in [0, 1]
-//   returns  1 at t = 0 to pi/2 at t = 1
+//   returns  vec2(1, 1/3) at t = 0 to vec2(pi/2, 1) at t = 1
 //
-// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
-fn steradian_trig_angle_over_sine_acute(t: f32) -> f32 {
+// Error: see docs/measured/accuracy.md, "angle over sine" and "slope of angle over sine". A series in 1 - c has positive terms: nothing
+// cancels.
+fn steradian_trig_angle_over_sine_acute_and_slope(t: f32) -> vec2f {
     return steradian_trig_angle_over_sine_24_bits(t);
+}
+
+// Angle over sine alone. Arguments: steradian_trig_angle_over_sine_acute_and_slope.
+fn steradian_trig_angle_over_sine_acute(t: f32) -> f32 {
+    let both = steradian_trig_angle_over_sine_acute_and_slope(t);
+    return both.x;
 }
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
@@ -264,6 +280,21 @@ fn steradian_trig_angle_over_sine(c: f32, s2: f32) -> f32 {
         f = select(f, steradian_pi() * inverseSqrt(max(s2, steradian_smallest_divisor())) - f, obtuse);
     }
     return f;
+}
+
+// Angle over sine, and minus its derivative by the cosine: 1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond. Arguments:
+// steradian_trig_angle_over_sine, whose value is x.
+//
+// Degenerate: the slope grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
+// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
+fn steradian_trig_angle_over_sine_and_slope(c: f32, s2: f32) -> vec2f {
+    var both = steradian_trig_angle_over_sine_acute_and_slope(1.0 - abs(c));
+    let obtuse = c < 0.0;
+    if (obtuse) {
+        let f = steradian_pi() * inverseSqrt(max(s2, steradian_smallest_divisor())) - both.x;
+        both = select(both, vec2f(f, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12)), obtuse);
+    }
+    return both;
 }
 
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
@@ -287,39 +318,6 @@ fn steradian_trig_atan2(y: f32, x: f32) -> f32 {
 fn steradian_trig_atan2_unwrapped(y: f32, x: f32) -> f32 {
     let angle = steradian_trig_atan2(y, x);
     return select(angle, angle + 2.0 * steradian_pi(), angle < -0.5 * steradian_pi());
-}
-
-// Degree 8: the derivative of steradian_trig_angle_over_sine_24_bits.
-fn steradian_trig_angle_over_sine_slope_24_bits(t: f32) -> f32 {
-    var p = 0.10046541803578893;
-    p = p * t - 0.260733509871977744;
-    p = p * t + 0.35683030933043466;
-    p = p * t - 0.201317986747964946;
-    p = p * t + 0.15029587985498284;
-    p = p * t + 0.080653959220667552;
-    p = p * t + 0.173933404541325117;
-    p = p * t + 0.2665331445100177;
-    p = p * t + 0.33333538143391106;
-    return p;
-}
-
-// Minus the derivative of angle over sine by the cosine, of an angle in [0, pi].
-//
-//   c        cosine, in [-1, 1]
-//   s2       sine squared, computed on its own
-//   f        steradian_trig_angle_over_sine(c, s2)
-//   returns  1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond
-//
-// Degenerate: it grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
-// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
-fn steradian_trig_angle_over_sine_slope(c: f32, s2: f32, f: f32) -> f32 {
-    let t = 1.0 - abs(c);
-    var slope = steradian_trig_angle_over_sine_slope_24_bits(t);
-    let obtuse = c < 0.0;
-    if (obtuse) {
-        slope = select(slope, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), obtuse);
-    }
-    return slope;
 }
 
 // ==== quartic ====

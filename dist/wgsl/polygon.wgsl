@@ -78,35 +78,87 @@ fn steradian_polygon_begin() -> SteradianPolygonWalk {
     return walk;
 }
 
-// Adds one edge, clipped to the horizon z = 0.
+// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
+//   start, end   unit directions; equal where nothing is above
+//   rises, sinks whether the part begins, or ends, on the horizon
+struct SteradianEdgePart {
+    start: vec3f,
+    end: vec3f,
+    start_a: f32,
+    start_b: f32,
+    end_a: f32,
+    end_b: f32,
+    rises: bool,
+    sinks: bool,
+}
+
+// An edge as a part of itself.
+fn steradian_edge_whole(a: vec3f, b: vec3f) -> SteradianEdgePart {
+    var part: SteradianEdgePart;
+    part.start = a;
+    part.end = b;
+    part.start_a = 1.0;
+    part.start_b = 0.0;
+    part.end_a = 0.0;
+    part.end_b = 1.0;
+    part.rises = steradian_mask_none();
+    part.sinks = steradian_mask_none();
+    return part;
+}
+
+// Clips an edge to the horizon z = 0.
 //
 //   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
+//
+// Degenerate: an edge below the horizon has equal ends.
+fn steradian_edge_above_horizon(a: vec3f, b: vec3f) -> SteradianEdgePart {
+    let a_below = a.z < 0.0;
+    let b_below = b.z < 0.0;
+    var part = steradian_edge_whole(a, b);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
+        let wa = abs(b.z);
+        let wb = abs(a.z);
+        let p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+        let scale = inverseSqrt(max(dot(p, p), steradian_smallest_square()));
+        let crossing = vec3f(p.x * scale, p.y * scale, 0.0);
+        part.start = select(a, crossing, a_below);
+        part.end = select(b, crossing, b_below);  // both below: start = end, an edge of no length
+        part.start_a = select(1.0, wa * scale, a_below);
+        part.start_b = select(0.0, wb * scale, a_below);
+        part.end_a = select(0.0, wa * scale, b_below);
+        part.end_b = select(1.0, wb * scale, b_below);
+    }
+    return part;
+}
+
+// Adds the part of an edge above the horizon (steradian_edge_above_horizon).
 //
 // What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
 // these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
 // counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
+fn steradian_polygon_add_part(walk: SteradianPolygonWalk, part: SteradianEdgePart) -> SteradianPolygonWalk {
+    var next = walk;
+    let crosses = part.rises || part.sinks;
+    if (crosses) {
+        let crossing = select(part.end, part.start, part.rises);
+        let y = select(-crossing.y, crossing.y, part.rises);  // coming up: the azimuth; going down: its conjugate
+        let h = walk.horizon;
+        next.horizon = select(h, vec2f(h.x * crossing.x - h.y * y, h.x * y + h.y * crossing.x), crosses);
+    }
+    next.edges = walk.edges + steradian_polygon_edge(part.start, part.end);
+    return next;
+}
+
+// Adds one edge, clipped to the horizon z = 0.
+//
+//   a, b     unit directions of the edge's ends (steradian_polygon_direction), in walk order
 fn steradian_polygon_add_edge(walk: SteradianPolygonWalk, a: vec3f, b: vec3f) -> SteradianPolygonWalk {
     var next = walk;
-    let a_below = a.z < 0.0;
-    let b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        var start = a;
-        var end = b;
-        if (a_below || b_below) {
-            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
-            let wa = abs(b.z);
-            let wb = abs(a.z);
-            var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inverseSqrt(max(dot(p, p), steradian_smallest_square()));
-            let crossing = vec3f(p.x, p.y, 0.0);
-            start = select(a, crossing, a_below);
-            end = select(b, crossing, b_below);  // both below: start = end, an edge of no length
-            let crosses = (a_below && !b_below) || (b_below && !a_below);
-            let y = select(-p.y, p.y, a_below);  // coming up: the azimuth; going down: its conjugate
-            let h = walk.horizon;
-            next.horizon = select(h, vec2f(h.x * p.x - h.y * y, h.x * y + h.y * p.x), crosses);
-        }
-        next.edges = walk.edges + steradian_polygon_edge(start, end);
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        next = steradian_polygon_add_part(walk, steradian_edge_above_horizon(a, b));
     }
     return next;
 }

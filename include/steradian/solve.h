@@ -1,4 +1,4 @@
-// solve: lights that fit themselves to a picture or to illuminances.
+// solve: lights and materials that fit themselves to a picture or to illuminances.
 //
 //   LightFit lamp;
 //   lamp.light = 0;                                            // Scene::area_lights[0]
@@ -57,6 +57,16 @@ struct LightTie {
   std::vector<std::size_t> lights;
   bool has_mirror = false;
   Vec3d mirror_point{}, mirror_normal{1, 0, 0};
+};
+
+// The parameters of one material that are free: of all meshes that have it.
+struct MaterialFit {
+  std::size_t material = 0;  // of Scene::materials
+  std::string name{};        // in the names of parameters and in messages; empty: the material's own
+  bool albedo = false;       // factor on the base colour, each channel by itself
+  bool roughness = false;    // factor on the perceptual roughness
+  FitRange albedo_range{0, 1}, roughness_range{0, 1};
+  double keep = 0;  // as LightFit::keep
 };
 
 // Function of a radiance or an illuminance v that residuals compare. root: sqrt(v / mean + 0.01), with the target's mean. linear: v / mean.
@@ -130,6 +140,14 @@ struct LightChange {
   Vec3d radiance{};               // intensity of a punctual light
 };
 
+// How a material has changed from the scene's.
+struct MaterialChange {
+  std::size_t material = 0;                        // as MaterialFit::material
+  bool has_albedo = false, has_roughness = false;  // what was fitted
+  Vec3d albedo{};                                  // factor on the base colour
+  double roughness = 0;                            // factor on the perceptual roughness
+};
+
 struct SolveOptions {
   RenderOptions render{};  // method, quality, shadows, bounces, threads; size and camera are the targets'
   int starts = 1;          // the scene's own, and random ones within the ranges
@@ -139,12 +157,14 @@ struct SolveOptions {
   bool least_power = false;                          // of all settings of powers that satisfy the illuminances, that of the least power
   std::function<bool(const SolveStep&)> progress{};  // returns false to stop; the best so far is the solution
   std::function<void(const std::vector<LightChange>&)> moved{};  // called with the lights of each accepted step, before `progress`
+  std::vector<MaterialFit> materials{};                          // fitted with the lights, or alone
 };
 
 struct Solution {
   std::vector<AreaLight> area_lights;          // all of the scene's, the fitted ones changed
   std::vector<PunctualLight> punctual_lights;  // likewise
   std::vector<LightChange> changes;            // of the fitted lights and of those tied to them
+  std::vector<MaterialChange> material_changes;
   std::vector<FittedParameter> parameters;
   std::vector<SolveStep> steps;
   std::vector<LuxResult> lux;  // by illuminance target

@@ -65,6 +65,11 @@ vec3 ltc_transform(LtcMatrix m, vec3 v) {
     return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
 
+// The transpose of M^-1 times a vector.
+vec3 ltc_transform_transposed(LtcMatrix m, vec3 v) {
+    return vec3(m.xx * v.x + m.zx * v.z, m.yy * v.y, m.xz * v.x + m.zz * v.z);
+}
+
 // The lobe's density per solid angle at the unit direction l: |M^-1| max(w_z, 0) / (pi |w|^4) with w = M^-1 l.
 real ltc_lobe(LtcMatrix m, vec3 l) {
     vec3 w = ltc_transform(m, l);
@@ -113,43 +118,75 @@ vec3 ltc_direction(LtcMatrix m, vec3 v) {
     return polygon_direction(ltc_transform(m, v));
 }
 
-// Adds one edge, clipped to the real horizon, then to the lobe's.
+// The part of an edge above the real horizon, under M^-1.
 //
 //   a, b     ends in the shading frame, in walk order: polygon_direction of the vertices
 //   ta, tb   ltc_direction(m, a) and ltc_direction(m, b): a vertex is transformed once for its two edges
+//   returns  its ends are unit directions under M^-1, and its weights are those of ta and tb
 //
-// Clipping to the real horizon leaves gaps along it, from each crossing down to the next crossing up. They lie on one
-// line of the light's plane, so that the way from one to the other may go by any point of that line: a crossing down
-// adds the edge to the first crossing of the walk, a crossing up the edge from it, in whatever order they come.
+// Degenerate: an edge below the horizon has ends of 0.
+EdgePart ltc_part(LtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
+    mask a_below = a.z < 0.0;
+    mask b_below = b.z < 0.0;
+    EdgePart part = edge_whole(ta, tb);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (any_lane(a_below || b_below)) {
+        real wa = abs(b.z);
+        real wb = abs(a.z);
+        vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+        vec3 under = ltc_transform(m, horizon);
+        vec3 crossing = select(part.rises || part.sinks, polygon_direction(under), vec3(0.0, 0.0, 0.0));
+        part.start = select(a_below, crossing, ta);
+        part.end = select(b_below, crossing, tb);
+        vec3 under_a = ltc_transform(m, a);
+        vec3 under_b = ltc_transform(m, b);
+        real scale = inversesqrt(max(dot(under, under), smallest_square()));
+        real of_a = wa * sqrt(dot(under_a, under_a)) * scale;
+        real of_b = wb * sqrt(dot(under_b, under_b)) * scale;
+        part.start_a = select(a_below, of_a, 1.0);
+        part.start_b = select(a_below, of_b, 0.0);
+        part.end_a = select(b_below, of_a, 0.0);
+        part.end_b = select(b_below, of_b, 1.0);
+    }
+    return part;
+}
+
+// Closes the gaps that a part's ends leave along the real horizon.
+//
+// They go from each crossing down to the next crossing up. They lie on one line of the light's plane, so that the way from one to the
+// other may go by any point of that line: a crossing down adds the edge to the first crossing of the walk, a crossing up the edge from
+// it, in whatever order they come.
+//
+//   part     of ltc_part
+LtcWalk ltc_close_gap(LtcWalk walk, EdgePart part) {
+    LtcWalk next = walk;
+    mask crosses = part.rises || part.sinks;
+    if (any_lane(crosses)) {
+        vec3 none = vec3(0.0, 0.0, 0.0);
+        vec3 crossing = select(part.rises, part.start, part.end);
+        // The first crossing is its own anchor: an edge of no length.
+        mask closes = crosses && walk.anchored;
+        if (any_lane(closes)) {
+            vec3 departure = select(part.rises, walk.anchor, crossing);
+            vec3 arrival = select(part.rises, crossing, walk.anchor);
+            next.lobe = polygon_add_edge(next.lobe, select(closes, departure, none), select(closes, arrival, none));
+        }
+        next.anchor = select(crosses && !walk.anchored, crossing, walk.anchor);
+        next.anchored = walk.anchored || crosses;
+    }
+    return next;
+}
+
+// Adds one edge, clipped to the real horizon, then to the lobe's. Arguments: ltc_part.
 //
 // Degenerate: an edge below the real horizon adds nothing, exactly: a light below it gives 0.
 LtcWalk ltc_add_edge(LtcWalk walk, LtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
     LtcWalk next = walk;
-    mask a_below = a.z < 0.0;
-    mask b_below = b.z < 0.0;
-    if (any_lane(!a_below || !b_below)) {
-        vec3 start = ta;
-        vec3 end = tb;
-        if (any_lane(a_below || b_below)) {
-            vec3 none = vec3(0.0, 0.0, 0.0);
-            mask crosses = (a_below && !b_below) || (b_below && !a_below);
-            real wa = abs(b.z);
-            real wb = abs(a.z);
-            vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-            vec3 crossing = select(crosses, ltc_direction(m, horizon), none);
-            start = select(a_below, crossing, ta);
-            end = select(b_below, crossing, tb);
-            // The first crossing is its own anchor: an edge of no length.
-            if (any_lane(crosses && walk.anchored)) {
-                mask closes = crosses && walk.anchored;
-                vec3 departure = select(a_below, walk.anchor, crossing);
-                vec3 arrival = select(a_below, crossing, walk.anchor);
-                next.lobe = polygon_add_edge(next.lobe, select(closes, departure, none), select(closes, arrival, none));
-            }
-            next.anchor = select(crosses && !walk.anchored, crossing, walk.anchor);
-            next.anchored = walk.anchored || crosses;
-        }
-        next.lobe = polygon_add_edge(next.lobe, start, end);
+    if (any_lane(!(a.z < 0.0) || !(b.z < 0.0))) {
+        EdgePart part = ltc_part(m, a, b, ta, tb);
+        next = ltc_close_gap(walk, part);
+        next.lobe = polygon_add_edge(next.lobe, part.start, part.end);
     }
     return next;
 }

@@ -12,20 +12,9 @@
 // No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
 // Needs: constants.glsl inverse_trig.glsl polygon.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl ltc.glsl ggx_closed_form.glsl
-// Topics: edge, polygon_edge, ltc_edge, ggx_edge
+// Topics: edge, polygon_edge, polygon_part, ltc_edge, ltc_part, ggx_edge
 // Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
-
-// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
-//   start, end  unit directions; equal where nothing is above
-struct EdgePart {
-    vec3 start;
-    vec3 end;
-    real start_a;
-    real start_b;
-    real end_a;
-    real end_b;
-};
 
 // Derivatives of one integral by an edge's ends.
 //   normal    of the edge's part, start cross end: not unit
@@ -37,102 +26,87 @@ struct EdgeSlopes {
 };
 
 // The same for two integrals: with F = 1, and with F = (1 - v.h)^5.
+//   turn, turn_of_fresnel  INT f (2 (N.h) h - N) ds, N the plane's unit normal: the edge's part of the derivative by the view
 struct EdgeSlopesOfBoth {
     vec3 normal;
     vec2 by_start;
     vec2 by_end;
+    vec3 turn;
+    vec3 turn_of_fresnel;
 };
-
-// Clips an edge to the horizon z = 0.
-//
-//   a, b     unit directions of the ends (polygon_direction), in walk order
-//
-// Degenerate: an edge below the horizon has equal ends.
-EdgePart edge_above_horizon(vec3 a, vec3 b) {
-    mask a_below = a.z < 0.0;
-    mask b_below = b.z < 0.0;
-    // The weights are those of polygon_add_edge: of one sign, so that nothing cancels.
-    real wa = abs(b.z);
-    real wb = abs(a.z);
-    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    real scale = inversesqrt(max(dot(p, p), smallest_square()));
-    vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
-    EdgePart part;
-    part.start = select(a_below, crossing, a);
-    part.end = select(b_below, crossing, b);
-    part.start_a = select(a_below, wa * scale, 1.0);
-    part.start_b = select(a_below, wb * scale, 0.0);
-    part.end_a = select(b_below, wa * scale, 0.0);
-    part.end_b = select(b_below, wb * scale, 1.0);
-    return part;
-}
 
 // Irradiance of an edge's part by its own ends, which are not below the horizon.
 //
-//   returns  vec2(by the start, by the end), over start cross end
-//
 // INT l_z s ds over the arc, l = s start + t end, has the closed form |n| (start_z P + end_z Q) / 2 with F the angle over the sine,
 // Q its slope and P = F - c Q.
-vec2 edge_irradiance_slopes(vec3 start, vec3 end) {
-    vec3 n = cross(start, end - start);
+// Error: opposite ends, where the point lies on the edge, give finite numbers.
+EdgeSlopes edge_irradiance_slopes(vec3 start, vec3 end) {
+    EdgeSlopes slopes;
+    slopes.normal = cross(start, end - start);
     real c = dot(start, end);
-    real s2 = dot(n, n);
-    real f = trig_angle_over_sine(c, s2);
-    real q = trig_angle_over_sine_slope(c, s2, f);
-    real p = min(f, 1.0e12) - c * q;
-    return vec2(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
+    vec2 half_angle = trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    real q = half_angle.y;
+    real p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
+    return slopes;
 }
 
-// An edge's derivatives from those of its part.
-//
-//   g        vec2(by the part's start, by its end), over their cross product
-EdgeSlopes edge_slopes_of_part(EdgePart part, vec2 g) {
-    EdgeSlopes slopes;
-    slopes.normal = cross(part.start, part.end - part.start);
-    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
-    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+// The derivatives by an edge's ends from those by the ends of its part.
+EdgeSlopes edge_slopes_of_whole(EdgePart part, EdgeSlopes of_part) {
+    EdgeSlopes slopes = of_part;
+    if (any_lane(part.rises || part.sinks)) {
+        slopes.by_start = part.start_a * of_part.by_start + part.end_a * of_part.by_end;
+        slopes.by_end = part.start_b * of_part.by_start + part.end_b * of_part.by_end;
+    }
     return slopes;
 }
 
 // Derivatives of the irradiance for radiance 1 (polygon_irradiance) by the ends of one edge.
 //
-//   a, b     unit directions of the ends (polygon_direction), in walk order
+//   part     of edge_above_horizon: a walk that computes the value has it already (polygon_add_part)
 //
 // Degenerate: an edge of no length, or below the horizon, has a normal of 0. Opposite ends, where the point lies on the edge, give
 // finite numbers.
 // Error: see docs/measured/accuracy.md, "polygon, edge slopes".
+EdgeSlopes polygon_part_slopes(EdgePart part) {
+    return edge_slopes_of_whole(part, edge_irradiance_slopes(part.start, part.end));
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (polygon_direction), in walk order
 EdgeSlopes polygon_edge_slopes(vec3 a, vec3 b) {
-    EdgePart part = edge_above_horizon(a, b);
-    return edge_slopes_of_part(part, edge_irradiance_slopes(part.start, part.end));
+    return polygon_part_slopes(edge_above_horizon(a, b));
 }
 
 // Derivatives of the integral of a linearly transformed cosine (ltc_integral) by the ends of one edge.
 //
-//   a, b     unit directions of the ends in the shading frame, in walk order
-//   m        the lobe's inverse matrix
-//   returns  derivatives by M^-1 a and M^-1 b: the derivative by a is ltc_edge_transform_back(m, normal by_start)
+//   part       of ltc_part
+//   lobe_part  edge_above_horizon(part.start, part.end): above the lobe's own horizon
+//   returns    derivatives by ltc_direction(m, a) and ltc_direction(m, b): the derivative by a is ltc_edge_transform_back of it
 //
 // The edges that close the real horizon lie in its image and do not move.
-// Degenerate: as polygon_edge_slopes.
+// Degenerate: as polygon_part_slopes.
 // Error: see docs/measured/accuracy.md, "LTC, edge slopes".
-EdgeSlopes ltc_edge_slopes(LtcMatrix m, vec3 a, vec3 b) {
-    EdgePart real_part = edge_above_horizon(a, b);
-    vec3 start = ltc_transform(m, real_part.start);
-    vec3 end = ltc_transform(m, real_part.end);
-    real start_scale = inversesqrt(max(dot(start, start), smallest_square()));
-    real end_scale = inversesqrt(max(dot(end, end), smallest_square()));
-    EdgePart lobe_part = edge_above_horizon(start * start_scale, end * end_scale);
-    EdgePart part = lobe_part;
-    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
-    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
-    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
-    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
-    return edge_slopes_of_part(part, edge_irradiance_slopes(part.start, part.end) * inverse_pi());
+EdgeSlopes ltc_part_slopes(EdgePart part, EdgePart lobe_part) {
+    EdgeSlopes slopes = edge_slopes_of_whole(part, polygon_part_slopes(lobe_part));
+    slopes.normal = slopes.normal * inverse_pi();
+    return slopes;
 }
 
-// The transpose of M^-1 times a vector: takes derivatives by M^-1 v to derivatives by v.
-vec3 ltc_edge_transform_back(LtcMatrix m, vec3 g) {
-    return vec3(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+// The same from the ends.
+//
+//   a, b     unit directions of the ends in the shading frame, in walk order
+EdgeSlopes ltc_edge_slopes(LtcMatrix m, vec3 a, vec3 b) {
+    EdgePart part = ltc_part(m, a, b, ltc_direction(m, a), ltc_direction(m, b));
+    return ltc_part_slopes(part, edge_above_horizon(part.start, part.end));
+}
+
+// The derivative by v from that by ltc_direction(m, v): M^-T over the length of M^-1 v.
+vec3 ltc_edge_transform_back(LtcMatrix m, vec3 v, vec3 g) {
+    vec3 under = ltc_transform(m, v);
+    return ltc_transform_transposed(m, g * inversesqrt(max(dot(under, under), smallest_square())));
 }
 
 // Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.
@@ -156,8 +130,12 @@ EdgeSlopesOfBoth ggx_edge_slopes_of_part(GgxView view, EdgePart part, ConicArc a
     mask from_start = !(arc.begin < 0.0);
     mask from_end = !(arc.end > 0.0);
     vec2 base = vec2(select(from_start || from_end, half_cosine, 1.0), select(from_start, -half_sine, select(from_end, half_sine, 0.0)));
+    vec3 n = cross(part.start, chord);
+    vec3 across = n * inversesqrt(max(dot(n, n), smallest_divisor()));
     vec2 even = vec2(0.0, 0.0);
     vec2 odd = vec2(0.0, 0.0);
+    vec3 turn = vec3(0.0, 0.0, 0.0);
+    vec3 turn_of_fresnel = vec3(0.0, 0.0, 0.0);
     real total = arc.sweep.x + arc.sweep.y;
     real share = 1.0 / real(pieces);
     for (int i = 0; i < pieces; i++) {
@@ -172,7 +150,12 @@ EdgeSlopesOfBoth ggx_edge_slopes_of_part(GgxView view, EdgePart part, ConicArc a
             vec3 l = p * (2.0 * along / p2) - view.v;
             real g = 1.0 + smith * (ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
             real w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, smallest_divisor());
-            vec2 both = vec2(w, w * fresnel_schlick(0.0, 1.0, along * inversesqrt(p2)));
+            real p_inverse = inversesqrt(p2);
+            vec2 both = vec2(w, w * fresnel_schlick(0.0, 1.0, along * p_inverse));
+            vec3 h = p * p_inverse;
+            vec3 moved = h * (2.0 * dot(across, h)) - across;
+            turn = turn + moved * both.x;
+            turn_of_fresnel = turn_of_fresnel + moved * both.y;
             // l = even (start + end) + odd (end - start), by its angle from the middle: from l itself, a short edge in float would lose
             // the digits of `odd`.
             real t = node.tau * arc.scale;
@@ -182,15 +165,17 @@ EdgeSlopesOfBoth ggx_edge_slopes_of_part(GgxView view, EdgePart part, ConicArc a
             odd = odd + both * (angle.y * chord_inverse);
         }
     }
-    vec3 n = cross(part.start, chord);
-    real scale = -arc.scale * inverse_pi() / (view.ax * view.ay * view.v.z) * inversesqrt(max(dot(n, n), smallest_divisor()));
-    scale = select(arc.end > arc.begin, scale, 0.0);
+    real density = arc.scale * inverse_pi() / (view.ax * view.ay * view.v.z);
+    density = select(arc.end > arc.begin, density, 0.0);
+    real scale = -density * inversesqrt(max(dot(n, n), smallest_divisor()));
     vec2 by_part_start = (even - odd) * scale;
     vec2 by_part_end = (even + odd) * scale;
     EdgeSlopesOfBoth slopes;
     slopes.normal = n;
     slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
     slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    slopes.turn = turn * density;
+    slopes.turn_of_fresnel = turn_of_fresnel * density;
     return slopes;
 }
 

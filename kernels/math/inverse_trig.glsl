@@ -7,47 +7,78 @@
 // Topics: trig
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Degree 9, largest relative error 1.3e-08 before rounding.
-real trig_angle_over_sine_24_bits(real t) {
+// Degree 9, largest relative error 1.3e-08 before rounding; and its derivative, by the same steps.
+vec2 trig_angle_over_sine_24_bits(real t) {
     real p = 0.01116282422619877;
+    real d = p;
     p = p * t - 0.032591688733997218;
+    d = d * t + p;
     p = p * t + 0.05097575847577638;
+    d = d * t + p;
     p = p * t - 0.033552997791327491;
+    d = d * t + p;
     p = p * t + 0.030059175970996568;
+    d = d * t + p;
     p = p * t + 0.020163489805166888;
+    d = d * t + p;
     p = p * t + 0.057977801513775039;
+    d = d * t + p;
     p = p * t + 0.13326657225500885;
+    d = d * t + p;
     p = p * t + 0.33333538143391106;
+    d = d * t + p;
     p = p * t + 0.9999999897346874;
-    return p;
+    return vec2(p, d);
 }
 
-// Degree 22, largest relative error 9.6e-19 before rounding.
-real trig_angle_over_sine_53_bits(real t) {
+// Degree 22, largest relative error 9.6e-19 before rounding; and its derivative, by the same steps.
+vec2 trig_angle_over_sine_53_bits(real t) {
     real p = 0.0000544854223807370529296;
+    real d = p;
     p = p * t - 0.00051584262216649147;
+    d = d * t + p;
     p = p * t + 0.0023195714097954288;
+    d = d * t + p;
     p = p * t - 0.0065257721900453007;
+    d = d * t + p;
     p = p * t + 0.012831171382518264;
+    d = d * t + p;
     p = p * t - 0.018665698304732546;
+    d = d * t + p;
     p = p * t + 0.020792441196777131;
+    d = d * t + p;
     p = p * t - 0.018085568996634216;
+    d = d * t + p;
     p = p * t + 0.01247298987576087;
+    d = d * t + p;
     p = p * t - 0.0068049923845819099;
+    d = d * t + p;
     p = p * t + 0.0030530252835647264;
+    d = d * t + p;
     p = p * t - 0.0009177286809174119;
+    d = d * t + p;
     p = p * t + 0.0005524402819890922;
+    d = d * t + p;
     p = p * t + 0.00049169516695552677;
+    d = d * t + p;
     p = p * t + 0.0011805559952202177;
+    d = d * t + p;
     p = p * t + 0.0024850713024891246;
+    d = d * t + p;
     p = p * t + 0.0053281297869745845;
+    d = d * t + p;
     p = p * t + 0.011544003308720685;
+    d = d * t + p;
     p = p * t + 0.025396825761030178;
+    d = d * t + p;
     p = p * t + 0.057142857132990513;
+    d = d * t + p;
     p = p * t + 0.13333333333347488;
+    d = d * t + p;
     p = p * t + 0.33333333333333254;
+    d = d * t + p;
     p = p * t + 1.0;
-    return p;
+    return vec2(p, d);
 }
 
 // Degree 8, largest relative error 1.8e-08 before rounding.
@@ -92,17 +123,24 @@ real trig_atan_over_argument_53_bits(real q) {
     return p;
 }
 
-// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c).
+// Angle over sine of an angle in [0, pi/2], from its cosine: acos(c) / sqrt(1 - c*c), and its derivative by t.
 //
 //   t        1 - c, in [0, 1]
-//   returns  1 at t = 0 to pi/2 at t = 1
+//   returns  vec2(1, 1/3) at t = 0 to vec2(pi/2, 1) at t = 1
 //
-// Error: see docs/measured/accuracy.md, "angle over sine". A series in 1 - c has positive terms: nothing cancels.
-real trig_angle_over_sine_acute(real t) {
+// Error: see docs/measured/accuracy.md, "angle over sine" and "slope of angle over sine". A series in 1 - c has positive terms: nothing
+// cancels.
+vec2 trig_angle_over_sine_acute_and_slope(real t) {
     if (real_digits() > 24) {
         return trig_angle_over_sine_53_bits(t);
     }
     return trig_angle_over_sine_24_bits(t);
+}
+
+// Angle over sine alone. Arguments: trig_angle_over_sine_acute_and_slope.
+real trig_angle_over_sine_acute(real t) {
+    vec2 both = trig_angle_over_sine_acute_and_slope(t);
+    return both.x;
 }
 
 // Angle over sine of an angle in [0, pi], from its cosine and the square of its sine.
@@ -118,6 +156,21 @@ real trig_angle_over_sine(real c, real s2) {
         f = select(obtuse, pi() * inversesqrt(max(s2, smallest_divisor())) - f, f);
     }
     return f;
+}
+
+// Angle over sine, and minus its derivative by the cosine: 1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond. Arguments:
+// trig_angle_over_sine, whose value is x.
+//
+// Degenerate: the slope grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
+// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
+vec2 trig_angle_over_sine_and_slope(real c, real s2) {
+    vec2 both = trig_angle_over_sine_acute_and_slope(1.0 - abs(c));
+    mask obtuse = c < 0.0;
+    if (any_lane(obtuse)) {
+        real f = pi() * inversesqrt(max(s2, smallest_divisor())) - both.x;
+        both = select(obtuse, vec2(f, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12)), both);
+    }
+    return both;
 }
 
 // The angle of the vector (x, y) from the x axis, in (-pi, pi] [rad].
@@ -144,67 +197,4 @@ real trig_atan2(real y, real x) {
 real trig_atan2_unwrapped(real y, real x) {
     real angle = trig_atan2(y, x);
     return select(angle < -0.5 * pi(), angle + 2.0 * pi(), angle);
-}
-
-// Degree 8: the derivative of trig_angle_over_sine_24_bits.
-real trig_angle_over_sine_slope_24_bits(real t) {
-    real p = 0.10046541803578893;
-    p = p * t - 0.260733509871977744;
-    p = p * t + 0.35683030933043466;
-    p = p * t - 0.201317986747964946;
-    p = p * t + 0.15029587985498284;
-    p = p * t + 0.080653959220667552;
-    p = p * t + 0.173933404541325117;
-    p = p * t + 0.2665331445100177;
-    p = p * t + 0.33333538143391106;
-    return p;
-}
-
-// Degree 21: the derivative of trig_angle_over_sine_53_bits.
-real trig_angle_over_sine_slope_53_bits(real t) {
-    real p = 0.00119867929237621516;
-    p = p * t - 0.0108326950654963209;
-    p = p * t + 0.046391428195908576;
-    p = p * t - 0.123989671610860713;
-    p = p * t + 0.230961084885328752;
-    p = p * t - 0.317316871180453282;
-    p = p * t + 0.332679059148434096;
-    p = p * t - 0.27128353494951324;
-    p = p * t + 0.17462185826065218;
-    p = p * t - 0.0884649009995648287;
-    p = p * t + 0.0366363034027767168;
-    p = p * t - 0.0100950154900915309;
-    p = p * t + 0.005524402819890922;
-    p = p * t + 0.00442525650259974093;
-    p = p * t + 0.0094444479617617416;
-    p = p * t + 0.0173954991174238722;
-    p = p * t + 0.031968778721847507;
-    p = p * t + 0.057720016543603425;
-    p = p * t + 0.101587303044120712;
-    p = p * t + 0.171428571398971539;
-    p = p * t + 0.26666666666694976;
-    p = p * t + 0.33333333333333254;
-    return p;
-}
-
-// Minus the derivative of angle over sine by the cosine, of an angle in [0, pi].
-//
-//   c        cosine, in [-1, 1]
-//   s2       sine squared, computed on its own
-//   f        trig_angle_over_sine(c, s2)
-//   returns  1/3 at c = 1, 1 at c = 0; (1 - c f) / s2 in between and beyond
-//
-// Degenerate: it grows like pi / s2^1.5 towards pi and stops at s2 = 1.0e-12.
-// Error: see docs/measured/accuracy.md, "slope of angle over sine". The quotient cancels for acute angles; the polynomial does not.
-real trig_angle_over_sine_slope(real c, real s2, real f) {
-    real t = 1.0 - abs(c);
-    real slope = trig_angle_over_sine_slope_24_bits(t);
-    if (real_digits() > 24) {
-        slope = trig_angle_over_sine_slope_53_bits(t);
-    }
-    mask obtuse = c < 0.0;
-    if (any_lane(obtuse)) {
-        slope = select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
-    }
-    return slope;
 }

@@ -27,7 +27,7 @@ vec4 case_trig_atan2_unwrapped(CaseInput i) { return case_of_real(trig_atan2_unw
 // slope of angle over sine
 //   a.x    range(-0.999, 1)
 // Error: relative
-vec4 case_trig_angle_over_sine_slope(CaseInput i) {
-    real s2 = (1.0 - i.a.x) * (1.0 + i.a.x);
-    return case_of_real(trig_angle_over_sine_slope(i.a.x, s2, trig_angle_over_sine(i.a.x, s2)));
+vec4 case_trig_angle_over_sine_and_slope(CaseInput i) {
+    vec2 both = trig_angle_over_sine_and_slope(i.a.x, (1.0 - i.a.x) * (1.0 + i.a.x));
+    return case_of_real(both.y);
 }

@@ -4,7 +4,7 @@
 // way round) cost no array. Frame: origin at the shading point, z the surface normal. Walk order: seen from the
 // point, det(v_i, v_i+1, inside) > 0, the reverse of a stored polygon that is counter-clockwise from its lit side.
 // Needs: constants.glsl inverse_trig.glsl
-// Topics: polygon, solid_angle
+// Topics: polygon, solid_angle, edge
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // The state of a walk.
@@ -51,35 +51,87 @@ PolygonWalk polygon_begin() {
     return walk;
 }
 
-// Adds one edge, clipped to the horizon z = 0.
+// The part of an edge above the horizon, by its ends: start = a start_a + b start_b, end = a end_a + b end_b.
+//   start, end   unit directions; equal where nothing is above
+//   rises, sinks whether the part begins, or ends, on the horizon
+struct EdgePart {
+    vec3 start;
+    vec3 end;
+    real start_a;
+    real start_b;
+    real end_a;
+    real end_b;
+    mask rises;
+    mask sinks;
+};
+
+// An edge as a part of itself.
+EdgePart edge_whole(vec3 a, vec3 b) {
+    EdgePart part;
+    part.start = a;
+    part.end = b;
+    part.start_a = 1.0;
+    part.start_b = 0.0;
+    part.end_a = 0.0;
+    part.end_b = 1.0;
+    part.rises = mask_none();
+    part.sinks = mask_none();
+    return part;
+}
+
+// Clips an edge to the horizon z = 0.
 //
 //   a, b     unit directions of the edge's ends (polygon_direction), in walk order
+//
+// Degenerate: an edge below the horizon has equal ends.
+EdgePart edge_above_horizon(vec3 a, vec3 b) {
+    mask a_below = a.z < 0.0;
+    mask b_below = b.z < 0.0;
+    EdgePart part = edge_whole(a, b);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (any_lane(a_below || b_below)) {
+        // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
+        real wa = abs(b.z);
+        real wb = abs(a.z);
+        vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+        real scale = inversesqrt(max(dot(p, p), smallest_square()));
+        vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
+        part.start = select(a_below, crossing, a);
+        part.end = select(b_below, crossing, b);  // both below: start = end, an edge of no length
+        part.start_a = select(a_below, wa * scale, 1.0);
+        part.start_b = select(a_below, wb * scale, 0.0);
+        part.end_a = select(b_below, wa * scale, 0.0);
+        part.end_b = select(b_below, wb * scale, 1.0);
+    }
+    return part;
+}
+
+// Adds the part of an edge above the horizon (edge_above_horizon).
 //
 // What lies below is replaced by an arc of the horizon from where the outline leaves to where it comes back. All
 // these arcs of a plane light lie within one half circle and run the same way, so that only the sum of their angles
 // counts: each crossing multiplies its azimuth into a complex number, in whatever order the crossings come.
+PolygonWalk polygon_add_part(PolygonWalk walk, EdgePart part) {
+    PolygonWalk next = walk;
+    mask crosses = part.rises || part.sinks;
+    if (any_lane(crosses)) {
+        vec3 crossing = select(part.rises, part.start, part.end);
+        real y = select(part.rises, crossing.y, -crossing.y);  // coming up: the azimuth; going down: its conjugate
+        vec2 h = walk.horizon;
+        next.horizon = select(crosses, vec2(h.x * crossing.x - h.y * y, h.x * y + h.y * crossing.x), h);
+    }
+    next.edges = walk.edges + polygon_edge(part.start, part.end);
+    return next;
+}
+
+// Adds one edge, clipped to the horizon z = 0.
+//
+//   a, b     unit directions of the edge's ends (polygon_direction), in walk order
 PolygonWalk polygon_add_edge(PolygonWalk walk, vec3 a, vec3 b) {
     PolygonWalk next = walk;
-    mask a_below = a.z < 0.0;
-    mask b_below = b.z < 0.0;
-    if (any_lane(!a_below || !b_below)) {
-        vec3 start = a;
-        vec3 end = b;
-        if (any_lane(a_below || b_below)) {
-            // The edge's crossing of the horizon: weights of one sign, so nothing cancels.
-            real wa = abs(b.z);
-            real wb = abs(a.z);
-            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inversesqrt(max(dot(p, p), smallest_square()));
-            vec3 crossing = vec3(p.x, p.y, 0.0);
-            start = select(a_below, crossing, a);
-            end = select(b_below, crossing, b);  // both below: start = end, an edge of no length
-            mask crosses = (a_below && !b_below) || (b_below && !a_below);
-            real y = select(a_below, p.y, -p.y);  // coming up: the azimuth; going down: its conjugate
-            vec2 h = walk.horizon;
-            next.horizon = select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
-        }
-        next.edges = walk.edges + polygon_edge(start, end);
+    if (any_lane(!(a.z < 0.0) || !(b.z < 0.0))) {
+        next = polygon_add_part(walk, edge_above_horizon(a, b));
     }
     return next;
 }

@@ -40,6 +40,7 @@ std::unique_ptr<Question> question_of(const std::string& path, const std::string
   reader.add_text(spec, "spec", folder);
   question->job = reader.finish();
   options.least_power = question->job.least_power;
+  options.materials = question->job.materials;
   return question;
 }
 

@@ -7,6 +7,7 @@
 //   Mask<S> begin(const Shading<S>&);   // resets the integral; returns true where this light can send anything
 //   end(u)                              // the stored value of a corner, the unit direction u in the shading frame: mostly u itself
 //   void add(a, b);                     // adds one edge, from the values of `end`
+//   void close(a, b);                   // optional: adds an arc of the horizon, if it is to be told from the edges
 //   finish(Mask<S> reversed);           // the integral: Part<S> of a lobe
 //
 // Each is in a file of its own beside this one. It manages memory that it reuses from light to light itself.
@@ -132,6 +133,12 @@ STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& 
   const auto end = [&](const auto& u) { return integral.end(u); };
   if constexpr (Integral::kClip == Clip::horizon) {
     auto clip = k.horizon_clip_begin();
+    const auto add_arc = [&](const auto& a, const auto& b) {
+      if constexpr (requires { integral.close(a, b); })
+        integral.close(a, b);
+      else
+        integral.add(a, b);
+    };
     const auto close = [&] {
       if (!any_lane(clip.closes)) return;
       const auto wide = k.horizon_arc_wide(clip.arc_start, clip.arc_end);
@@ -139,10 +146,10 @@ STERADIAN_INLINE auto integrate_edges(const Outline& outline, const Shading<S>& 
       if (any_lane(wide)) {
         const auto middle = k.horizon_arc_middle(start, clip.arc_end, select(shading.reversed, Real<S>(-1.0), Real<S>(1.0)));
         const auto to = select(wide, middle, start);
-        integral.add(start, to);
+        add_arc(start, to);
         start = to;
       }
-      integral.add(start, clip.arc_end);
+      add_arc(start, clip.arc_end);
     };
     outline.walk(end, [&](const auto& a, const auto& b) {
       clip = k.horizon_clip_edge(clip, a, b);

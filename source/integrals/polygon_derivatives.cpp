@@ -70,6 +70,7 @@ std::vector<BothParts> solid_angle_by_vertices(const PreparedPolygon& light, int
 LightDerivatives gather(const PreparedPolygon& light, Vec3d position, Vec3d normal, double value, const std::vector<BothParts>& by_vertex) {
   LightDerivatives result;
   result.value = value;
+  result.vertices.reserve(by_vertex.size());
   for (const BothParts& derivative : by_vertex) {
     result.vertices.push_back(derivative.plain);
     result.position += -derivative.plain;

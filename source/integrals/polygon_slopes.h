@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrals/integrate.h"
+#include "integrals/vertex_walk.h"
 #include "steradian/material.h"
 #include "steradian/polygon_derivatives.h"
 #include "steradian/shading_point.h"
@@ -14,12 +15,16 @@ namespace steradian::slopes {
 // A vector for each part of an integral (integrals::Part).
 struct BothParts {
   Vec3d plain, fresnel;
+
+  friend BothParts operator+(const BothParts& a, const BothParts& b) { return {a.plain + b.plain, a.fresnel + b.fresnel}; }
+  friend BothParts operator*(const BothParts& a, double s) { return {a.plain * s, a.fresnel * s}; }
 };
 
 // A number for each part.
 struct PartSlopes {
   double plain = 0, fresnel = 0;
 
+  friend PartSlopes operator+(PartSlopes a, PartSlopes b) { return {a.plain + b.plain, a.fresnel + b.fresnel}; }
   friend PartSlopes operator-(PartSlopes a, PartSlopes b) { return {a.plain - b.plain, a.fresnel - b.fresnel}; }
   friend PartSlopes operator*(PartSlopes a, double s) { return {a.plain * s, a.fresnel * s}; }
 };
@@ -36,27 +41,25 @@ inline Vec3d to_vector(const Kernels<double>::vec3& v) { return {v.x.v, v.y.v, v
 //   edge(a, b)  EdgeDerivatives of the unit directions of its ends in the frame
 template <class Edge>
 std::vector<BothParts> by_edges(const PreparedPolygon& light, int side, Vec3d position, const Frame& frame, const Edge& edge) {
+  Kernels<double> k;
   std::vector<BothParts> result(light.vertices.size());
-  struct End {
-    std::size_t index;
+  struct Corner {
     Kernels<double>::vec3 direction;
     double scale;  // side over distance
   };
-  const auto end = [&](const Vec3d& v) {
-    const Vec3d local = frame.to_local(v - position);
-    return End{static_cast<std::size_t>(&v - light.vertices.data()),
-               Kernels<double>().polygon_direction(integrals::to_kernel<double>(local)), side / std::max(length(local), 1e-18)};
-  };
-  const auto add = [&](const End& e, const BothParts& d) {
-    result[e.index].plain += d.plain * e.scale;
-    result[e.index].fresnel += d.fresnel * e.scale;
-  };
-  integrals::walk_contours(light.vertices.data(), light.contours.data(), light.contours.size() - 1, end, [&](const End& a, const End& b) {
-    const EdgeDerivatives d = edge(a.direction, b.direction);
-    add(a, d.a);
-    add(b, d.b);
-  });
-  for (BothParts& b : result) b = {frame.to_world(b.plain), frame.to_world(b.fresnel)};
+  integrals::walk_vertices(
+      light.contours.data(), light.contours.size() - 1,
+      [&](std::size_t i) {
+        const auto v = integrals::to_kernel<double>(frame.to_local(light.vertices[i] - position));
+        return Corner{k.polygon_direction(v), side * inversesqrt(max(dot(v, v), k.smallest_square())).v};
+      },
+      [&](const Corner& a, const Corner& b) {
+        const EdgeDerivatives d = edge(a.direction, b.direction);
+        return integrals::EndSlopes<BothParts>{d.a * a.scale, d.b * b.scale};
+      },
+      [&](std::size_t i, const BothParts& d) {
+        result[i] = {frame.to_world(d.plain), frame.to_world(d.fresnel)};
+      });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shapes/triangulate.h"
+#include "solve/moved_shape.h"
 #include "steradian/error.h"
 #include "steradian/polygon_light.h"
 
@@ -23,87 +24,6 @@ namespace steradian::solving {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-
-// Two half axes of a polygon that is a parallelogram; none for others.
-std::optional<Ellipse> axes_of(const Polygon& p) {
-  if (p.vertices.size() != 4 || !p.holes.empty()) return {};
-  const auto& v = p.vertices;
-  const Vec3d open = v[0] - v[1] + v[2] - v[3];
-  const double size = length(v[2] - v[0]) + length(v[3] - v[1]);
-  if (!(length(open) <= 1e-5 * size)) return {};
-  return Ellipse{(v[0] + v[1] + v[2] + v[3]) * 0.25, (v[1] - v[0]) * 0.5, (v[3] - v[0]) * 0.5};
-}
-
-Vec3d center_of(const Polygon& p) {
-  Vec3d sum{};
-  for (const Vec3d& v : p.vertices) sum += v;
-  return p.vertices.empty() ? sum : sum / static_cast<double>(p.vertices.size());
-}
-Vec3d center_of(const Ellipse& e) { return e.center; }
-Vec3d center_of(const Ellipsoid& e) { return e.center; }
-Vec3d center_of(const Capsule& c) { return (c.end_a + c.end_b) * 0.5; }
-Vec3d center_of(const Line& l) { return (l.end_a + l.end_b) * 0.5; }
-
-// Sizes that a fit may change [m], by their words.
-struct ShapeSize {
-  const char* word;
-  double value;
-};
-std::vector<ShapeSize> sizes_of(const Shape& shape) {
-  if (const auto* p = std::get_if<Polygon>(&shape)) {
-    if (const auto axes = axes_of(*p)) return {{"width", 2 * length(axes->x)}, {"height", 2 * length(axes->y)}};
-    return {};
-  }
-  if (const auto* e = std::get_if<Ellipse>(&shape)) return {{"diameter", 2 * std::max(length(e->x), length(e->y))}};
-  if (const auto* e = std::get_if<Ellipsoid>(&shape)) return {{"diameter", 2 * std::max({length(e->x), length(e->y), length(e->z)})}};
-  if (const auto* c = std::get_if<Capsule>(&shape)) return {{"length", length(c->end_b - c->end_a)}, {"diameter", 2 * c->radius}};
-  return {};
-}
-
-// Surface of a shape over that of the shape scaled by two factors.
-double area_ratio(const Shape& shape, double f1, double f2) {
-  if (const auto* c = std::get_if<Capsule>(&shape)) {
-    const double between = length(c->end_b - c->end_a);
-    return c->radius * (2 * c->radius + between) / (f2 * c->radius * (2 * f2 * c->radius + f1 * between));
-  }
-  return 1 / (f1 * f2);
-}
-
-// A rotation and a move of the centre, with factors on the shape's own sizes.
-struct Motion {
-  Vec3d center, by, rotation;  // place of the centre before, its move, rotation vector
-  double f1 = 1, f2 = 1;
-
-  Vec3d turned(Vec3d v) const {
-    const double angle = length(rotation);
-    return angle > 0 ? rotated(v, rotation / angle, angle) : v;
-  }
-  Vec3d moved(Vec3d p) const { return center + by + turned(p - center); }
-};
-
-Shape moved(const Polygon& p, const Motion& m) {
-  Polygon result = p;
-  if (const auto axes = axes_of(p)) {
-    const Vec3d x = m.turned(axes->x) * m.f1, y = m.turned(axes->y) * m.f2, c = m.moved(axes->center);
-    // The corners keep their distance from the parallelogram, which is a rounding.
-    const Vec3d corners[] = {c - x - y, c + x - y, c + x + y, c - x + y};
-    std::copy(std::begin(corners), std::end(corners), result.vertices.begin());
-    return result;
-  }
-  for (Vec3d& v : result.vertices) v = m.moved(v);
-  for (auto& hole : result.holes)
-    for (Vec3d& v : hole) v = m.moved(v);
-  return result;
-}
-Shape moved(const Ellipse& e, const Motion& m) { return Ellipse{m.moved(e.center), m.turned(e.x) * m.f1, m.turned(e.y) * m.f2}; }
-Shape moved(const Ellipsoid& e, const Motion& m) {
-  return Ellipsoid{m.moved(e.center), m.turned(e.x) * m.f1, m.turned(e.y) * m.f1, m.turned(e.z) * m.f1};
-}
-Shape moved(const Capsule& c, const Motion& m) {
-  const Vec3d half = m.turned(c.end_b - c.end_a) * (0.5 * m.f1), center = m.moved(center_of(c));
-  return Capsule{center - half, center + half, c.radius * m.f2};
-}
-Shape moved(const Line& l, const Motion& m) { return Line{m.moved(l.end_a), m.moved(l.end_b)}; }
 
 // Directions in the plane of a polygon, along which its vertices move.
 struct PlaneAxes {
@@ -177,9 +97,7 @@ double area_of(const PolygonLight& light) {
   return area;
 }
 
-Vec3d center_of(const FittedLight& light) {
-  return light.is_punctual ? light.punctual.position : std::visit([](const auto& s) { return center_of(s); }, light.area.shape);
-}
+Vec3d place_of(const FittedLight& light) { return light.is_punctual ? light.punctual.position : center_of(light.area.shape); }
 
 Vec3d& radiance_of(FittedLight& light) { return light.is_punctual ? light.punctual.intensity : light.area.radiance; }
 
@@ -220,11 +138,12 @@ std::string default_name(std::size_t number) { return "light " + std::to_string(
 
 }  // namespace
 
-FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties) {
+FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties,
+                           const std::vector<MaterialFit>& materials) {
   std::vector<std::string> problems;
   const std::size_t all = scene.area_lights.size() + scene.punctual_lights.size();
   const double room = std::max(length(scene.bounds_max - scene.bounds_min), 1e-6);
-  if (fits.empty()) problems.push_back("nothing to fit (name a light)");
+  if (fits.empty() && materials.empty()) problems.push_back("nothing to fit (name a light or a material)");
   const auto add_light = [&](std::size_t number) {
     Driven d;
     d.start.number = number;
@@ -289,8 +208,9 @@ FittedLights::FittedLights(const Scene& scene, const std::vector<LightFit>& fits
       }
     }
   }
+  materials_ = FittedMaterials(scene, materials, unknowns_, problems);
   if (problems.empty() && unknowns_.empty())
-    problems.push_back("nothing to fit (name a parameter: power, color, position, rotation, size, vertices)");
+    problems.push_back("nothing to fit (name a parameter: power, color, position, rotation, size, vertices, albedo, roughness)");
   if (!problems.empty()) {
     std::string text;
     for (const std::string& p : problems) text += (text.empty() ? "" : "\n") + p;
@@ -344,7 +264,7 @@ void FittedLights::add_unknowns(const LightFit& fit, std::size_t light, double r
     }
   }
   if (fit.position && !complain(lack_of_position(d.start))) {
-    const Vec3d c = center_of(d.start);
+    const Vec3d c = place_of(d.start);
     add("position x", UnknownKind::position_x, c.x, fit.position_x.low, fit.position_x.high, room);
     add("position y", UnknownKind::position_y, c.y, fit.position_y.low, fit.position_y.high, room);
     add("position z", UnknownKind::position_z, c.z, fit.position_z.low, fit.position_z.high, room);
@@ -385,7 +305,9 @@ bool FittedLights::is_fitted(std::size_t number) const {
   return std::any_of(lights_.begin(), lights_.end(), [&](const Driven& d) { return d.start.number == number; });
 }
 
-bool FittedLights::drives(std::size_t unknown, std::size_t light) const { return lights_[light].leader == unknowns_[unknown].fit; }
+bool FittedLights::drives(std::size_t unknown, std::size_t light) const {
+  return !is_of_material(unknowns_[unknown].kind) && lights_[light].leader == unknowns_[unknown].fit;
+}
 
 std::vector<FittedLight> FittedLights::at(const std::vector<double>& x) const {
   std::vector<FittedLight> result;
@@ -425,8 +347,8 @@ void FittedLights::move_vertices(const std::vector<std::pair<std::size_t, double
 // Moves a light as its leader's unknowns say.
 void FittedLights::move(const Driven& leader, const std::vector<double>& x, FittedLight& light, const Driven& driven) const {
   Motion motion;
-  motion.center = center_of(driven.start);
-  const Vec3d from = center_of(leader.start);
+  motion.center = place_of(driven.start);
+  const Vec3d from = place_of(leader.start);
   Vec3d by{}, rotation{};
   bool moves = false, has_second = false;
   std::vector<std::pair<std::size_t, double>> vertices;  // numbers of unknowns, and their values
@@ -447,6 +369,7 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
       case UnknownKind::size_2: motion.f2 = factor, has_second = true; break;
       case UnknownKind::vertex_u:
       case UnknownKind::vertex_v: vertices.emplace_back(i, value); continue;
+      default: continue;
     }
     moves = true;
   }
@@ -473,11 +396,15 @@ void FittedLights::move(const Driven& leader, const std::vector<double>& x, Fitt
     return;
   }
   light.scale = light.scale * area_ratio(light.area.shape, motion.f1, motion.f2);
-  light.area.shape = std::visit([&](const auto& s) { return moved(s, motion); }, driven.start.area.shape);
+  light.area.shape = moved(driven.start.area.shape, motion);
 }
 
 double FittedLights::shown(std::size_t unknown, double x, double* slope) const {
   const Unknown& u = unknowns_[unknown];
+  if (is_of_material(u.kind)) {
+    if (slope != nullptr) *slope = 1;
+    return x;
+  }
   const FittedLight& light = lights_[u.fit].start;
   const auto scaled = [&](double unit, bool logarithm) {
     const double value = unit * (logarithm ? std::exp(x) : x);

@@ -1,43 +1,15 @@
-// FittedLights: the unknowns of a fit, and the lights that their values describe.
+// FittedLights: the unknowns of a fit, and the lights and materials that their values describe.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "solve/fitted_materials.h"
+#include "solve/unknown.h"
 #include "steradian/solve.h"
 
 namespace steradian::solving {
-
-// Scale: the logarithm of a factor on power, or the factor itself where all unknowns are powers and colours.
-enum class UnknownKind {
-  power,
-  red,
-  green,
-  blue,
-  position_x,
-  position_y,
-  position_z,
-  rotation_x,
-  rotation_y,
-  rotation_z,
-  size_1,
-  size_2,
-  vertex_u,
-  vertex_v
-};
-
-inline bool is_scale(UnknownKind kind) { return kind <= UnknownKind::blue; }
-
-struct Unknown {
-  std::string name;
-  std::size_t fit = 0;  // number of its light in FittedLights
-  UnknownKind kind = UnknownKind::power;
-  double start = 0, low = 0, high = 0;
-  double typical = 1;  // change that is felt: 1 in logarithms, the room's size in metres, 1 radian; a vertex: the light's size
-  double keep = 0;
-  std::size_t vertex = 0;  // of vertex_u and vertex_v: number among the outline's and the holes'
-};
 
 // One fitted light: its moved shape with the file's radiance, and the factor on it.
 struct FittedLight {
@@ -53,7 +25,8 @@ struct FittedLight {
 class FittedLights {
  public:
   // Throws Error with all problems.
-  FittedLights(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties);
+  FittedLights(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties,
+               const std::vector<MaterialFit>& materials = {});
 
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   std::vector<double> start() const;
@@ -64,6 +37,7 @@ class FittedLights {
   std::vector<FittedLight> at(const std::vector<double>& x) const;
   // True if vertices are where the outline of their light crosses itself.
   bool crosses_itself(const std::vector<double>& x) const;
+  const FittedMaterials& materials() const { return materials_; }
   // True if an unknown moves or scales a light.
   bool drives(std::size_t unknown, std::size_t light) const;
   // True if light `number` of the scene is fitted.
@@ -89,6 +63,7 @@ class FittedLights {
   void move(const Driven& leader, const std::vector<double>& x, FittedLight& light, const Driven& driven) const;
 
   std::vector<Driven> lights_;
+  FittedMaterials materials_;
   std::vector<Unknown> unknowns_;
   bool linear_ = true;
 };

@@ -11,7 +11,7 @@ struct LightModel::Parts {
 
   Parts(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties, const std::vector<LightTarget>& targets,
         const SolveOptions& options)
-      : lights(scene, fits, ties), problem(scene, lights, targets, options) {}
+      : lights(scene, fits, ties, options.materials), problem(scene, lights, targets, options) {}
 
   Values at(const std::vector<double>& x, Wants wants) const {
     if (x.size() != lights.unknowns().size())

@@ -20,9 +20,11 @@ namespace steradian::solving {
 
 // Fitted lights keep their numbers as lights that do not shine: the meshes of other lights refer to numbers.
 struct ReceivingTiles::Room {
-  Scene lamp_meshes;  // only the meshes that show fitted lights
-  Scene scene;        // without them; its lights are those of the computation
-  std::vector<AreaLight> area;
+  Scene lamp_meshes;            // only the meshes that show fitted lights
+  Scene scene;                  // without them; its lights are those of the computation
+  std::vector<AreaLight> area;  // all of them dark
+  std::vector<AreaLight> fixed_area;
+  std::vector<PunctualLight> fixed_punctual;
   RenderOptions options;
   DirectMethod method;
   SceneParts parts;
@@ -33,6 +35,8 @@ struct ReceivingTiles::Room {
       : lamp_meshes(only_lamps(all, fitted)),
         scene(without(all, fitted)),
         area(scene.area_lights),
+        fixed_area(scene.area_lights),
+        fixed_punctual(scene.punctual_lights),
         options(render),
         method(choose_method(scene, options)),
         parts(SceneParts::of(scene, options.shadows != Shadows::off ? Sorted::for_rays_and_edges : Sorted::for_rays)),
@@ -71,6 +75,10 @@ struct ReceivingTiles::Room {
     return left;
   }
 
+  void take_fixed_lights() {
+    scene.area_lights = fixed_area;
+    scene.punctual_lights = fixed_punctual;
+  }
   // Takes lamps instead of the scene's lights. Returns the number of the first.
   std::size_t take(const Lamps& lamps) {
     scene.area_lights = area;
@@ -122,28 +130,60 @@ bool counts(const SurfaceTile& tile, std::size_t slot) {
 
 }  // namespace
 
+// A camera's surfaces, which change with their materials.
+struct ReceivingTiles::View {
+  RenderOptions options;
+  LightPart part;
+  float least_alpha;
+  std::size_t first_tile;
+  FrameSurfaces surfaces;
+
+  View(const Room& room, RenderOptions render, LightPart which, float alpha, std::size_t first)
+      : options(std::move(render)),
+        part(which),
+        least_alpha(alpha),
+        first_tile(first),
+        surfaces(room.scene, options, room.parts, room.method.table.get()) {}
+  std::size_t tile_count() const { return static_cast<std::size_t>(surfaces.tile_count()); }
+};
+
+void ReceivingTiles::fill(View& view) const {
+  each(view.tile_count(), [&](std::size_t index) {
+    SurfaceTile& tile = *tiles_[view.first_tile + index].surfaces;
+    view.surfaces.fill(static_cast<int>(index), 0, tile);
+    restrict_to(view.part, view.least_alpha, tile);
+    view.surfaces.add_environment(static_cast<int>(index), 0, tile);
+  });
+}
+
 void ReceivingTiles::add_camera(const std::string& camera, int width, int height, LightPart part, float least_alpha) {
   RenderOptions options = room_->options;
   options.camera = camera;
   options.width = width;
   options.height = height;
-  FrameSurfaces surfaces(room_->scene, options, room_->parts, room_->method.table.get());
-  const std::size_t first = tiles_.size();
-  tiles_.resize(first + static_cast<std::size_t>(surfaces.tile_count()));
-  each(static_cast<std::size_t>(surfaces.tile_count()), [&](std::size_t index) {
-    ReceivingTile& tile = tiles_[first + index];
-    tile.surfaces = std::make_unique<SurfaceTile>();
+  View& view = *views_.emplace_back(std::make_unique<View>(*room_, options, part, least_alpha, tiles_.size()));
+  for (std::size_t i = 0; i < view.tile_count(); ++i) tiles_.emplace_back().surfaces = std::make_unique<SurfaceTile>();
+  fill(view);
+  each(view.tile_count(), [&](std::size_t index) {
+    ReceivingTile& tile = tiles_[view.first_tile + index];
     tile.value.fill(kNoValue);
-    const int number = static_cast<int>(index);
-    surfaces.fill(number, 0, *tile.surfaces);
-    restrict_to(part, least_alpha, *tile.surfaces);
-    surfaces.add_environment(number, 0, *tile.surfaces);
-    const TileArea a = surfaces.area(number);
+    const TileArea a = view.surfaces.area(static_cast<int>(index));
     for (int y = 0; y < a.height; ++y)
       for (int x = 0; x < a.width; ++x)
         if (const std::size_t slot = tile_slot(x, y); counts(*tile.surfaces, slot))
           tile.value[slot] = static_cast<std::uint32_t>((a.y + y) * width + a.x + x);
   });
+}
+
+void ReceivingTiles::take_materials(const std::vector<SurfaceMaterial>& materials) const {
+  Room& room = *room_;
+  if (materials.empty() || materials == room.scene.materials) return;
+  std::copy(materials.begin(), materials.end(), room.scene.materials.begin());  // in place: tiles point to them
+  room.take_fixed_lights();
+  for (const auto& view : views_) {
+    fill(*view);
+    add_fixed_light(view->first_tile, view->first_tile + view->tile_count());
+  }
 }
 
 std::vector<char> ReceivingTiles::pixels_of_fitted(const std::string& camera, int width, int height) const {
@@ -277,15 +317,19 @@ bool ReceivingTiles::has_slopes() const {
          });
 }
 
-void ReceivingTiles::add_fixed_light() {
+void ReceivingTiles::add_fixed_light(std::size_t first, std::size_t last) const {
   Room& room = *room_;
   LampTable table(room.scene, room.options, room.method, room.parts);
-  each(tiles_.size(), [&](std::size_t index) {
-    for (std::size_t number = 0; number < table.count(); ++number) table.add(number, *tiles_[index].surfaces, LampTable::For::values);
+  if (!table.shines()) return;
+  each(last - first, [&](std::size_t index) {
+    for (std::size_t number = 0; number < table.count(); ++number)
+      table.add(number, *tiles_[first + index].surfaces, LampTable::For::values);
   });
-  if (room.options.bounces != 0 && table.shines())
+  if (room.options.bounces != 0)
     add_bounces(table, 0, table.count(), [&](std::size_t index) -> TileVector& { return tiles_[index].surfaces->radiance; });
 }
+
+void ReceivingTiles::add_fixed_light() { add_fixed_light(0, tiles_.size()); }
 
 void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_t last,
                                  const std::function<TileVector&(std::size_t)>& light) const {
@@ -321,6 +365,7 @@ void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_
 void ReceivingTiles::light(const Lamps& lamps, const std::function<void(std::size_t, const TileLight&)>& use) const {
   Room& room = *room_;
   const std::lock_guard<std::mutex> lock(room.one_at_a_time);
+  take_materials(lamps.materials);
   const std::size_t first = room.take(lamps);
   LampTable table(room.scene, room.options, room.method, room.parts);
   const auto direct = [&](std::size_t index, TileLight& light) {

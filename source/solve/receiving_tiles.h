@@ -1,7 +1,7 @@
 // ReceivingTiles: the surfaces whose light a fit compares, and the light that lamps send to them on packs.
 //
 // Surfaces are those that a camera sees, or white diffuse ones at given points, whose radiance times pi is the irradiance. They are stored,
-// since only the lamps change from one step to the next.
+// since mostly the lamps alone change from one step to the next.
 #pragma once
 
 #include <functional>
@@ -28,6 +28,7 @@ struct ReceivingTile {
 struct Lamps {
   std::vector<AreaLight> area;
   std::vector<PunctualLight> punctual;
+  std::vector<SurfaceMaterial> materials;  // instead of the scene's; none: they stay
   std::size_t count() const { return area.size() + punctual.size(); }
 };
 
@@ -64,11 +65,19 @@ class ReceivingTiles {
 
  private:
   struct Room;
+  struct View;
   class LampTable;
+  // Fills the tiles of a camera with its surfaces and the environment's light.
+  void fill(View& view) const;
+  // Adds the light of the lights that are not fitted to some tiles.
+  void add_fixed_light(std::size_t first, std::size_t last) const;
+  // Takes other materials, and finds the surfaces of all cameras again.
+  void take_materials(const std::vector<SurfaceMaterial>& materials) const;
   // Adds the light that other surfaces send of the lamps `first` to `last`, to light(number of the tile).
   void add_bounces(LampTable& table, std::size_t first, std::size_t last, const std::function<TileVector&(std::size_t)>& light) const;
 
   std::unique_ptr<Room> room_;
+  std::vector<std::unique_ptr<View>> views_;
   std::vector<ReceivingTile> tiles_;
 };
 

@@ -63,6 +63,10 @@ std::vector<double> random_place(const std::vector<Unknown>& unknowns, const Sce
       case UnknownKind::rotation_z: within(-0.5, 0.5); break;
       case UnknownKind::vertex_u:
       case UnknownKind::vertex_v: low = high = u.start; break;  // random outlines would cross themselves
+      case UnknownKind::albedo_red:
+      case UnknownKind::albedo_green:
+      case UnknownKind::albedo_blue:
+      case UnknownKind::roughness: low = high = u.start; break;  // they have one valley each
       default: within(u.start - 0.5, u.start + 0.5); break;
     }
     x.push_back(std::clamp(low < high ? random.uniform(low, high) : u.start, u.low, u.high));
@@ -74,7 +78,11 @@ class Solver {
  public:
   Solver(const Scene& scene, const std::vector<LightFit>& fits, const std::vector<LightTie>& ties, const std::vector<LightTarget>& targets,
          const SolveOptions& options)
-      : scene_(scene), targets_(targets), options_(options), lights_(scene, fits, ties), problem_(scene, lights_, targets, options) {
+      : scene_(scene),
+        targets_(targets),
+        options_(options),
+        lights_(scene, fits, ties, options.materials),
+        problem_(scene, lights_, targets, options) {
     for (const Unknown& u : lights_.unknowns()) {
       settings_.low.push_back(u.low);
       settings_.high.push_back(u.high);
@@ -160,25 +168,31 @@ class Solver {
     return best.x;
   }
 
-  // Throws Error for a light whose every derivative is 0.
+  // Throws Error for a light or a material whose every derivative is 0.
   void refuse_blind_lights() {
     const Evaluation e = problem_.evaluate(lights_.start(), Wants::derivatives);
     const std::size_t n = lights_.unknowns().size();
-    std::string blind;
     // Bands that are satisfied hide a light from the cost, so the illuminances themselves are asked.
     const FitProblem::Lux lux = problem_.illuminances(lights_.start(), Wants::derivatives);
-    for (std::size_t fit = 0; fit < lights_.light_count(); ++fit) {
-      bool asked = false, seen = false;
-      for (std::size_t u = 0; u < n; ++u) {
-        if (lights_.unknowns()[u].fit != fit) continue;
-        asked = true;
-        seen = seen || e.hessian[u * n + u] > 0;
-        for (std::size_t p = 0; p < lux.value.size() && !seen; ++p) seen = lux.slopes[p * n + u] != 0;
+    const auto unseen = [&](std::size_t count, bool materials, const auto& name_of) {
+      std::string blind;
+      for (std::size_t fit = 0; fit < count; ++fit) {
+        bool asked = false, seen = false;
+        for (std::size_t u = 0; u < n; ++u) {
+          if (lights_.unknowns()[u].fit != fit || is_of_material(lights_.unknowns()[u].kind) != materials) continue;
+          asked = true;
+          seen = seen || e.hessian[u * n + u] > 0;
+          for (std::size_t p = 0; p < lux.value.size() && !seen; ++p) seen = lux.slopes[p * n + u] != 0;
+        }
+        if (asked && !seen) blind += (blind.empty() ? "'" : ", '") + name_of(fit) + "'";
       }
-      if (asked && !seen) blind += (blind.empty() ? "'" : ", '") + lights_.name_of(fit) + "'";
-    }
-    if (!blind.empty())
+      return blind;
+    };
+    if (const std::string blind = unseen(lights_.light_count(), false, [&](std::size_t i) { return lights_.name_of(i); }); !blind.empty())
       throw Error("fit", "no target sees the light of " + blind, "turn or move the light towards the target, or leave it out");
+    const FittedMaterials& materials = lights_.materials();
+    if (const std::string blind = unseen(materials.count(), true, [&](std::size_t i) { return materials.name_of(i); }); !blind.empty())
+      throw Error("fit", "no target sees light on the material " + blind, "point the camera at it, or leave it out");
   }
 
   // Conditions of the illuminances, linear in the powers.
@@ -249,6 +263,8 @@ class Solver {
 
   void gather(const BoxMinimum& found) {
     solution_.changes = changes_at(found.x);
+    solution_.material_changes = lights_.materials().changes_at(found.x);
+    for (std::string& note : lights_.materials().notes()) solution_.notes.push_back(std::move(note));
     solution_.area_lights = scene_.area_lights;
     solution_.punctual_lights = scene_.punctual_lights;
     for (const FittedLight& light : lights_.at(found.x)) {

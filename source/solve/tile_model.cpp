@@ -8,7 +8,9 @@
 namespace steradian::solving {
 namespace {
 
-constexpr double kDifference = 2e-4;  // step of differences, in typical changes: rounding of floats over it is 5e-4 of the light
+constexpr double kAlbedoDifference = 0.1;
+constexpr double kRoughnessDifference = 2e-3;  // error of 4e-4 at a roughness of 0.1, rounding of 1e-4
+constexpr double kDifference = 2e-4;           // step of differences, in typical changes: rounding of floats over it is 5e-4 of the light
 
 // Lamps of a computation, in the order in which they were added.
 struct LampList {
@@ -56,6 +58,15 @@ struct MovingPolygon {
   }
 };
 
+void add(TileVector& to, const TileVector& light, Vec3d factor) {
+  const auto f = static_cast<Vec3f>(factor);
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    to.x[i] += f.x * light.x[i];
+    to.y[i] += f.y * light.y[i];
+    to.z[i] += f.z * light.z[i];
+  }
+}
+
 bool is_plain_polygon(const FittedLight& light) {
   return !light.is_punctual && std::holds_alternative<Polygon>(light.area.shape) && !light.area.texture && !light.area.emission;
 }
@@ -70,6 +81,30 @@ TileModel::TileModel(const FittedLights& lights, const ReceivingTiles& tiles) : 
   tiles_.light(list.lamps, [&](std::size_t tile, const TileLight& light) {
     for (std::size_t i = 0; i < list.size(); ++i) columns_[tile].push_back(light[list.place(i)]);
   });
+}
+
+// The light is affine in the albedo, so that a wide difference is exact. Within the range of a parameter, since there is no other material.
+std::vector<TileLight> TileModel::slopes_by_materials(const std::vector<double>& x, const std::vector<FittedLight>& lights) const {
+  std::vector<TileLight> by(lights_.materials().empty() ? 0 : x.size());
+  for (std::size_t u = 0; u < by.size(); ++u) {
+    const UnknownKind kind = lights_.unknowns()[u].kind;
+    if (!is_of_material(kind)) continue;
+    by[u].resize(tiles_.tiles().size());
+    const double step = kind == UnknownKind::roughness ? kRoughnessDifference : kAlbedoDifference;
+    const double low = std::max(x[u] - step, 0.0), high = std::min(x[u] + step, 1.0);
+    for (const auto& [place, factor] : {std::pair{low, -1 / (high - low)}, std::pair{high, 1 / (high - low)}}) {
+      std::vector<double> there = x;
+      there[u] = place;
+      LampList list;
+      for (const FittedLight& light : lights) list.add(light);
+      list.lamps.materials = lights_.materials().at(there);
+      tiles_.light(list.lamps, [&, f = factor](std::size_t tile, const TileLight& light) {
+        add(by[u][tile], tiles_.tiles()[tile].surfaces->radiance, Vec3d{f, f, f});
+        for (std::size_t i = 0; i < lights.size(); ++i) add(by[u][tile], light[list.place(i)], lights[i].scale * f);
+      });
+    }
+  }
+  return by;
 }
 
 void TileModel::each(const std::vector<double>& x, Wants wants,
@@ -92,6 +127,7 @@ void TileModel::each(const std::vector<double>& x, Wants wants,
   }
   for (std::size_t u = 0; u < unknowns; ++u) {
     const Unknown& unknown = lights_.unknowns()[u];
+    if (is_of_material(unknown.kind)) continue;
     const double step = kDifference * unknown.typical;
     std::vector<double> there = x;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -121,18 +157,14 @@ void TileModel::each(const std::vector<double>& x, Wants wants,
       }
     }
   }
-  const auto add = [](TileVector& to, const TileVector& light, Vec3d factor) {
-    const auto f = static_cast<Vec3f>(factor);
-    for (std::size_t i = 0; i < kTilePixels; ++i) {
-      to.x[i] += f.x * light.x[i];
-      to.y[i] += f.y * light.y[i];
-      to.z[i] += f.z * light.z[i];
-    }
-  };
+  const std::vector<TileLight> by_materials = unknowns > 0 ? slopes_by_materials(x, lights) : std::vector<TileLight>{};
+  list.lamps.materials = lights_.materials().at(x);
   const auto sum = [&](std::size_t tile, const TileLight& light, const auto& place) {
     TileVector all = tiles_.tiles()[tile].surfaces->radiance;
     for (const Term& term : value) add(all, light[place(term.lamp)], term.factor);
     TileLight by(unknowns);
+    for (std::size_t u = 0; u < by_materials.size(); ++u)
+      if (is_of_material(lights_.unknowns()[u].kind)) by[u] = by_materials[u][tile];
     for (std::size_t u = 0; u < unknowns; ++u)
       for (const Term& term : slopes[u]) add(by[u], light[place(term.lamp)], term.factor);
     for (const MovingPolygon& polygon : moving) {

@@ -22,6 +22,9 @@ class TileModel {
             const std::function<void(std::size_t, const TileVector&, const TileLight&)>& use) const;
 
  private:
+  // By unknown, of materials alone, and by tile.
+  std::vector<TileLight> slopes_by_materials(const std::vector<double>& x, const std::vector<FittedLight>& lights) const;
+
   const FittedLights& lights_;
   const ReceivingTiles& tiles_;
   std::vector<TileLight> columns_;  // of a linear problem: the light of each lamp at its start, by tile

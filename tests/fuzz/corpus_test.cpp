@@ -33,6 +33,7 @@ TEST(FuzzCorpus, Texture) { run_all("texture", fuzz::texture); }
 TEST(FuzzCorpus, Table) { run_all("table", fuzz::table); }
 TEST(FuzzCorpus, Samples) { run_all("samples", fuzz::samples); }
 TEST(FuzzCorpus, Factors) { run_all("factors", fuzz::factors); }
+TEST(FuzzCorpus, Solve) { run_all("solve", fuzz::solve); }
 TEST(FuzzCorpus, Profile) { run_all("profile", fuzz::profile); }
 
 }  // namespace

@@ -23,6 +23,7 @@ void texture(Input input);    // PNG and JPEG as textures
 void table(Input input);      // fitted tables
 void samples(Input input);    // measured reflection
 void factors(Input input);    // files of view factors, and of View3D with the factors of its surfaces
+void solve(Input input);      // questions of `solve`
 void profile(Input input);    // IES and EULUMDAT, and the intensities that they give
 
 }  // namespace steradian::fuzz

@@ -148,9 +148,8 @@ void add_outline(std::vector<Derivative>& result, const Query& query, const Area
     if (query.occluders == nullptr) {
       d = methods::light_derivatives(light, at, m, row, options);
     } else {
-      const ShadowedDerivatives past = shadowed_derivatives(query, light, m, row);
-      d.light.by_vector = past.vertices;
-      d.light.position = past.position;
+      ShadowedDerivatives past = shadowed_derivatives(query, light, m, row);
+      d.light = std::move(past.light);
       add(by_occluders, past.occluders);
     }
     add(sum.light.by_vector, d.light.by_vector);

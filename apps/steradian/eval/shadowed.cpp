@@ -225,30 +225,86 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
   return mean;
 }
 
-ShadowedDerivatives shadowed_derivatives(const Query& query, const AreaLight& whole, const Material& m, const methods::Row& entry) {
-  if (!std::holds_alternative<Polygon>(whole.shape) || whole.emission)
-    throw Error("derivatives", "past occluders, only polygons and rects without a profile have them", "leave one of the keys out");
-  const PolygonLight stored = flat_polygon(whole);
-  const PreparedPolygon light = prepare_polygon(stored);
-  std::size_t count = stored.vertices.size();
-  for (const auto& hole : stored.holes) count += hole.size();
-  const std::vector<std::size_t> stored_index = stored_vertices(stored, light);
+namespace {
+
+// The share of a light's vectors in the motion of a corner of its polygon, in the order of OutlineDerivatives, and the corner's motion with
+// the radius.
+struct CornerMotion {
+  std::vector<double> by_vector;
+  Vec3d by_radius{};
+};
+
+struct MotionOfCorner {
+  Vec3d corner;
+
+  CornerMotion operator()(const Polygon&) const { return {}; }
+  CornerMotion operator()(const Line&) const { return {}; }
+  CornerMotion operator()(const Ellipse& e) const {
+    const Vec3d d = corner - e.center, n = cross(e.x, e.y) / dot(cross(e.x, e.y), cross(e.x, e.y));
+    return {{1, dot(cross(d, e.y), n), dot(cross(e.x, d), n)}};
+  }
+  CornerMotion operator()(const Ellipsoid& e) const {
+    const Vec3d d = (corner - e.center) / dot(cross(e.x, e.y), e.z);
+    return {{1, dot(cross(e.y, e.z), d), dot(cross(e.z, e.x), d), dot(cross(e.x, e.y), d)}};
+  }
+  // A corner is a point of the ball about the nearer end.
+  CornerMotion operator()(const Capsule& c) const {
+    const bool is_a = length(corner - c.end_a) <= length(corner - c.end_b);
+    return {{is_a ? 1.0 : 0.0, is_a ? 0.0 : 1.0}, (corner - (is_a ? c.end_a : c.end_b)) / c.radius};
+  }
+};
+
+std::size_t vector_count(const AreaLight& light) {
+  if (const auto* p = std::get_if<Polygon>(&light.shape)) {
+    std::size_t count = p->vertices.size();
+    for (const auto& hole : p->holes) count += hole.size();
+    return count;
+  }
+  return std::holds_alternative<Ellipse>(light.shape) ? 3 : std::holds_alternative<Ellipsoid>(light.shape) ? 4 : 2;
+}
+
+}  // namespace
+
+ShadowedDerivatives shadowed_derivatives(const Query& query, const AreaLight& light, const Material& m, const methods::Row& entry) {
+  if (std::holds_alternative<Line>(light.shape) || light.emission)
+    throw Error("derivatives", "past occluders, lines and lights with a profile have none", "leave one of the keys out");
+  const bool is_polygon = std::holds_alternative<Polygon>(light.shape);
+  PreparedPolygon flat;
+  std::vector<std::size_t> stored_index;
+  if (is_polygon) {
+    const PolygonLight stored = flat_polygon(light);
+    flat = prepare_polygon(stored);
+    stored_index = stored_vertices(stored, flat);
+  }
+  const int corners = query.quality == Quality::high ? 192 : 96;
   ShadowedDerivatives result;
-  result.vertices.resize(count);
+  result.light.by_vector.resize(vector_count(light));
   result.occluders.resize(query.occluders->mesh.vertices.size());
-  const std::vector<shadow::Viewpoint> sides = viewpoints_of(query, reach_of(stored.vertices));
+  const std::vector<shadow::Viewpoint> sides = viewpoints_of(query, reach_of(light));
   const double share = 1 / static_cast<double>(sides.size());
-  const auto add = [&](shadow::ByChannel& to, const shadow::ByChannel& from) {
-    for (std::size_t channel = 0; channel < 3; ++channel) to[channel] += from[channel] * share;
+  const auto add = [&](shadow::ByChannel& to, const shadow::ByChannel& from, double factor) {
+    for (std::size_t channel = 0; channel < 3; ++channel) to[channel] += from[channel] * (factor * share);
+  };
+  const auto add_corner = [&](Vec3d corner, const shadow::ByChannel& by_corner) {
+    const CornerMotion motion = std::visit(MotionOfCorner{corner}, light.shape);
+    for (std::size_t i = 0; i < motion.by_vector.size(); ++i) add(result.light.by_vector[i], by_corner, motion.by_vector[i]);
+    const auto along = [&](std::size_t channel) { return dot(by_corner[channel], motion.by_radius); };
+    result.light.by_radius += Vec3d{along(0), along(1), along(2)} * share;
   };
   for (const shadow::Viewpoint& from : sides) {
     const ShadingPoint at = {from.position, query.normal, query.view.value_or(query.normal)};
     const LobeDensity density = entry.density(at, m, query.quality);
-    const shadow::BoundaryDerivatives d =
-        shadow::boundary_derivatives(light, *query.occluders, from, [&](Vec3d direction) { return light.radiance * density(direction); });
-    add(result.position, d.position);
-    for (std::size_t i = 0; i < d.occluders.size(); ++i) add(result.occluders[i], d.occluders[i]);
-    for (std::size_t i = 0; i < d.light.size(); ++i) add(result.vertices[stored_index[i]], d.light[i]);
+    for (const PreparedPolygon& part : is_polygon ? std::vector<PreparedPolygon>{flat} : polygons_of(light, from.position, corners)) {
+      const shadow::BoundaryDerivatives d =
+          shadow::boundary_derivatives(part, *query.occluders, from, [&](Vec3d direction) { return light.radiance * density(direction); });
+      add(result.light.position, d.position, 1);
+      for (std::size_t i = 0; i < d.occluders.size(); ++i) add(result.occluders[i], d.occluders[i], 1);
+      for (std::size_t i = 0; i < d.light.size(); ++i)
+        if (is_polygon)
+          add(result.light.by_vector[stored_index[i]], d.light[i], 1);
+        else
+          add_corner(part.vertices[i], d.light[i]);
+    }
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "eval/query.h"
+#include "integrals/outline_derivatives.h"
 #include "shadow/region/derivatives.h"
 
 namespace steradian::eval {
@@ -20,13 +21,13 @@ RadianceResult shadowed_answer(const Query& query, const Light& source, const Sh
 
 // Derivatives past occluders.
 struct ShadowedDerivatives {
-  std::vector<shadow::ByChannel> vertices;   // by those of the light as stored
-  shadow::ByChannel position{};              // by the point
+  OutlineDerivatives light;                  // by the light's parts and the point
   std::vector<shadow::ByChannel> occluders;  // by the positions of the triangles; equal positions that move together count at the first
 };
 
-// Derivatives of one lobe under a polygon. Throws Error for unsupported lobes, methods and lights. They are derivatives of the lobe itself;
-// the method's value differs from it by its error.
+// Derivatives of one lobe under any light with an extent. A round light is a polygon of 96 corners that are points of it, as the point sees
+// it (quality high: 192). What an occluder hides between that polygon and a ball's surface does not count. Throws Error for unsupported
+// lobes, methods and lights. They are derivatives of the lobe itself; the method's value differs from it by its error.
 ShadowedDerivatives shadowed_derivatives(const Query& query, const AreaLight& light, const Material& material, const methods::Row& entry);
 
 }  // namespace steradian::eval

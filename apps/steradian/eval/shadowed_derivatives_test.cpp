@@ -219,5 +219,51 @@ TEST(ShadowedDerivatives, WithNothingInTheWayAreThoseOfTheWholeLight) {
   }
 }
 
+// Round lights: by their own keys, the point and the occluders, against differences of quadrature over the light's surface.
+TEST(ShadowedDerivatives, OfRoundLightsAgreeWithCentralDifferences) {
+  const Setting settings[] = {
+      {"disk", R"({"type":"disk","center":[0.2,2,0.1],"x":[0.6,0.1,0],"y":[0,-0.1,0.5],"radiance":[1,2,3],"two_sided":true})", kBent},
+      {"sphere", R"({"type":"sphere","center":[0.2,2.2,0.1],"radius":0.5,"radiance":[1,2,3]})", kBent},
+      {"ellipsoid", R"({"type":"ellipsoid","center":[0.2,2.2,0.1],"x":[0.6,0.1,0],"y":[0,0.3,0.1],"z":[0,-0.1,0.5],"radiance":[1,2,3]})",
+       kBent},
+      {"capsule", R"({"type":"capsule","ends":[[-0.4,2.1,0],[0.7,2.3,0.3]],"radius":0.2,"radiance":[1,2,3]})", kBent},
+  };
+  for (const Setting& setting : settings)
+    for (const Lobe& lobe : {Lobe{R"({"brdf":"lambert","albedo":[0.3,0.7,0.5]})", "exact", "reference"},
+                             Lobe{R"({"brdf":"ggx","alpha":0.3})", "closed-form", "reference"}}) {
+      SCOPED_TRACE(setting.name + ", " + lobe.material);
+      const json query = query_of(setting, lobe);
+      json asked = query;
+      asked["derivatives"] = true;
+      const json d = answer(asked);
+      ASSERT_TRUE(d.contains("d_occluders")) << d;
+      std::vector<Move> moves;
+      for (int c = 0; c < 3; ++c) {
+        moves.push_back({"position", d["d_position"][1][c], {place("/position", c)}});
+        for (const std::string key : {"center", "x", "y", "z"})
+          if (query["light"].contains(key)) moves.push_back({key, d["d_" + key][1][c], {place("/light/" + key, c)}});
+        if (query["light"].contains("ends"))
+          for (std::size_t k = 0; k < 2; ++k)
+            moves.push_back({"end", d["d_ends"][1][k][c], {place("/light/ends/" + std::to_string(k), c)}});
+        // A vertex of the triangle that stands alone.
+        moves.push_back({"occluder", d["d_occluders"][1][7][c], {place("/occluders/2/1", c)}});
+      }
+      if (query["light"].contains("radius")) moves.push_back({"radius", d["d_radius"][1], {json::json_pointer("/light/radius")}});
+      const double whole = value(query, lobe.judge);
+      double largest = 0;
+      for (const Move& move : moves) largest = std::max(largest, std::fabs(move.derivative));
+      EXPECT_GT(largest, 0.1 * whole);
+      // As above, and the polygon of 96 corners: its outline is (pi / 96)^2 / 2 = 5e-4 of the radius off.
+      const double bar = 3e-4 * whole + 2e-3 * largest;
+      double worst = 0;
+      for (const Move& move : moves) {
+        const double judge = central_difference(query, move.places, lobe.judge);
+        worst = std::max(worst, std::fabs(move.derivative - judge) / largest);
+        EXPECT_NEAR(move.derivative, judge, bar) << move.what << ", " << move.places[0];
+      }
+      std::printf("%s, %s: worst %.1e of the largest derivative\n", setting.name.c_str(), lobe.method.c_str(), worst);
+    }
+}
+
 }  // namespace
 }  // namespace steradian::eval::shadowed_derivatives_test

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/words.h"
-#include "document/light_changes.h"
+#include "scene/emitters/light_materials.h"
 #include "steradian/area_light.h"  // luminance
 #include "steradian/error.h"
 #include "wrong_use.h"
@@ -35,19 +35,39 @@ const std::string& own_name(const Scene& scene, std::size_t number) {
 
 std::size_t count_of_lights(const Scene& scene) { return scene.area_lights.size() + scene.punctual_lights.size(); }
 
-bool set_parameter(const std::string& word, LightFit& fit) {
-  bool* const value = word == "power"      ? &fit.power
-                      : word == "color"    ? &fit.color
-                      : word == "position" ? &fit.position
-                      : word == "rotation" ? &fit.rotation
-                      : word == "size"     ? &fit.size
-                      : word == "vertices" ? &fit.vertices
-                                           : nullptr;
-  if (value != nullptr) *value = true;
-  return value != nullptr;
+// Sets the parameters that a text lists, or all problems of it. member(word): the flag of a parameter; null if there is none.
+template <class Member>
+void set_parameters(const std::string& list, const std::vector<std::string>& known, Problems& problems, const Place& place,
+                    const Member& member) {
+  for (const std::string& word : parts_of(list, ',')) {
+    if (bool* const value = member(word)) {
+      *value = true;
+      continue;
+    }
+    const std::string near = nearest_word(word, known);
+    std::string all;
+    for (std::size_t i = 0; i < known.size(); ++i) all += (i == 0 ? "" : i + 1 < known.size() ? ", " : " and ") + known[i];
+    problems.add(place, eval::quoted(word) + " is not a parameter", near.empty() ? all + " are" : "did you mean " + near + "?");
+  }
+}
+
+bool* flag_of(const std::string& word, LightFit& fit) {
+  return word == "power"      ? &fit.power
+         : word == "color"    ? &fit.color
+         : word == "position" ? &fit.position
+         : word == "rotation" ? &fit.rotation
+         : word == "size"     ? &fit.size
+         : word == "vertices" ? &fit.vertices
+                              : nullptr;
+}
+
+bool* flag_of(const std::string& word, MaterialFit& fit) {
+  return word == "albedo" ? &fit.albedo : word == "roughness" ? &fit.roughness : nullptr;
 }
 
 const std::vector<std::string> kParameters = {"power", "color", "position", "rotation", "size", "vertices"};
+const std::vector<std::string> kMaterialParameters = {"albedo", "roughness"};
+const std::string kMaterial = "material:";  // before the name of a material
 
 // Calls use(pixel, fraction) for the pixels of a picture within pixel (x, y) of another size.
 template <class Use>
@@ -136,15 +156,15 @@ void SolveJobReader::add_fits(const std::string& glob, const LightFit& like, con
       problems_.add(place, "light '" + name_of_light(light) + "' is fitted twice", "name each light once");
       continue;
     }
-    const int material = view::material_of_light(scene_, light);
+    const int material = scene::material_of_light(scene_, light);
     if (material >= 0) {
-      if (std::find(materials_.begin(), materials_.end(), material) != materials_.end()) continue;
-      materials_.push_back(material);
+      if (std::find(emissive_.begin(), emissive_.end(), material) != emissive_.end()) continue;
+      emissive_.push_back(material);
       if (like.position || like.rotation || like.size || like.color)
         problems_.add(place, "light '" + name_of_light(light) + "' is an emissive mesh, whose power and vertices alone are fitted",
                       "name power");
       LightTie tie{{light}};
-      for (const std::size_t other : view::lights_of_material(scene_, material))
+      for (const std::size_t other : scene::lights_of_material(scene_, material))
         if (other != light) tie.lights.push_back(other);
       if (tie.lights.size() > 1 && like.vertices)
         problems_.add(place, "light '" + name_of_light(light) + "' shares its material with others, so its vertices are not fitted",
@@ -158,17 +178,46 @@ void SolveJobReader::add_fits(const std::string& glob, const LightFit& like, con
   }
 }
 
+void SolveJobReader::add_materials(const std::string& glob, const MaterialFit& like, const Place& place) {
+  std::vector<std::string> names;
+  bool found = false;
+  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+    const std::string& name = scene_.materials[i].name;
+    const bool lamp = std::any_of(scene_.meshes.begin(), scene_.meshes.end(),
+                                  [&](const Mesh& mesh) { return mesh.is_light_shape && static_cast<std::size_t>(mesh.material) == i; });
+    if (name.empty() || lamp) continue;
+    names.push_back(name);
+    if (fnmatch(glob.c_str(), name.c_str(), 0) != 0) continue;
+    found = true;
+    job_.materials.push_back(like);
+    job_.materials.back().material = i;
+  }
+  if (found) return;
+  std::string hint = nearest_word(glob, names);
+  if (!hint.empty()) hint = "did you mean '" + hint + "'?";
+  if (hint.empty())
+    for (const std::string& name : nearest_beginnings(glob, names, 5)) hint += (hint.empty() ? "there are: " : ", ") + name;
+  problems_.add(place, "no material is named " + eval::quoted(glob), hint.empty() ? "the scene's materials have no names" : hint);
+}
+
 void SolveJobReader::add_fit(const std::string& text) {
   const Place top, place = top.in("--fit");
+  if (text.starts_with(kMaterial)) {
+    const std::string rest = text.substr(kMaterial.size());
+    const std::size_t colon = rest.rfind(':');
+    MaterialFit fit;
+    if (colon == std::string::npos)
+      fit.albedo = true;
+    else
+      set_parameters(rest.substr(colon + 1), kMaterialParameters, problems_, place, [&](const std::string& w) { return flag_of(w, fit); });
+    return add_materials(rest.substr(0, colon), fit, place);
+  }
   const std::size_t colon = text.rfind(':');
   LightFit fit;
-  if (colon == std::string::npos) fit.power = true;
-  for (const std::string& word : colon == std::string::npos ? std::vector<std::string>{} : parts_of(text.substr(colon + 1), ',')) {
-    if (set_parameter(word, fit)) continue;
-    const std::string near = nearest_word(word, kParameters);
-    problems_.add(place, eval::quoted(word) + " is not a parameter",
-                  near.empty() ? "power, color, position, rotation, size and vertices are" : "did you mean " + near + "?");
-  }
+  if (colon == std::string::npos)
+    fit.power = true;
+  else
+    set_parameters(text.substr(colon + 1), kParameters, problems_, place, [&](const std::string& w) { return flag_of(w, fit); });
   add_fits(text.substr(0, colon), fit, place);
 }
 
@@ -252,7 +301,8 @@ void SolveJobReader::add_target(const std::string& picture, const std::string& m
 
 SolveJob SolveJobReader::finish() {
   const Place top;
-  if (job_.fits.empty() && !problems_.any()) problems_.add(top, "nothing to fit", "name lights with --fit, or in the file of --spec");
+  if (job_.fits.empty() && job_.materials.empty() && !problems_.any())
+    problems_.add(top, "nothing to fit", "name lights or materials with --fit, or in the file of --spec");
   if (job_.targets.empty() && !problems_.any()) problems_.add(top, "no target", "give --target, or targets in the file of --spec");
   if (problems_.any()) problems_.raise();
   return std::move(job_);

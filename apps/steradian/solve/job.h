@@ -14,6 +14,7 @@ namespace steradian::app {
 struct SolveJob {
   std::vector<LightFit> fits;
   std::vector<LightTie> ties;
+  std::vector<MaterialFit> materials;
   std::vector<LightTarget> targets;
   bool least_power = false;
 };
@@ -32,7 +33,7 @@ class SolveJobReader {
   SolveJobReader(const Scene& scene, const PictureDefaults& defaults, const Limits& limits)
       : scene_(scene), defaults_(defaults), limits_(limits) {}
 
-  // "lamp*:position,power"
+  // "lamp*:position,power", or "material:floor:albedo,roughness"
   void add_fit(const std::string& text);
   void add_target(const std::string& picture, const std::string& mask);
   // The keys are in docs/solve-questions.md. Paths are relative to the file.
@@ -51,7 +52,9 @@ class SolveJobReader {
   std::string name_of_light(std::size_t number) const;
   std::vector<std::size_t> lights_named(const std::string& glob, const Place& place);
   void add_fits(const std::string& glob, const LightFit& like, const Place& place);
+  void add_materials(const std::string& glob, const MaterialFit& like, const Place& place);
   void read_fit(const Place& place, Json value);
+  void read_material_fit(const Place& place, Json value);
   void read_tie(const Place& place, Json value);
   void read_target(const Place& place, Json value, const std::string& folder);
   void add_picture(const Place& place, const std::string& path, const std::string& mask, PictureTarget target);
@@ -63,7 +66,7 @@ class SolveJobReader {
   const PictureDefaults defaults_;
   const Limits limits_;
   SolveJob job_;
-  std::vector<int> materials_;  // emissive ones whose lights are fitted
+  std::vector<int> emissive_;  // materials whose lights are fitted
   eval::Problems problems_;
 };
 

@@ -106,6 +106,25 @@ constexpr Field<FitKeys> kFitFields[] = {
     {"keep", [](Problems& p, const Place& at, Json v, FitKeys& k) { k.fit.keep = read_not_negative(p, at, v); }},
 };
 
+struct MaterialKeys {
+  std::string material;
+  MaterialFit fit;
+};
+constexpr Field<MaterialKeys> kMaterialFields[] = {
+    {"material", [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.material = read_string(p, at, v); }, true},
+    {"albedo",
+     [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+       k.fit.albedo = true;
+       k.fit.albedo_range = read_range(p, at, v);
+     }},
+    {"roughness",
+     [](Problems& p, const Place& at, Json v, MaterialKeys& k) {
+       k.fit.roughness = true;
+       k.fit.roughness_range = read_range(p, at, v);
+     }},
+    {"keep", [](Problems& p, const Place& at, Json v, MaterialKeys& k) { k.fit.keep = read_not_negative(p, at, v); }},
+};
+
 struct MirrorKeys {
   Vec3d point{}, normal{1, 0, 0};
 };
@@ -145,6 +164,8 @@ LuxBand read_lux(Problems& problems, const Place& place, Json value) {
   return band;
 }
 
+constexpr std::int64_t kMostCells = 1000;  // of a zone, along each side
+
 struct ZoneKeys {
   Vec3d center, x, y;
   std::optional<Vec3d> normal;
@@ -159,8 +180,8 @@ constexpr Field<ZoneKeys> kZoneFields[] = {
      [](Problems& p, const Place& at, Json v, ZoneKeys& k) {
        simdjson::dom::array list;
        if (v.get(list) != simdjson::SUCCESS || list.size() != 2) return wrong_type(p, at, "a list of 2 numbers", v);
-       k.columns = read_integer(p, at.at(0), list.at(0).value_unsafe(), 1, 1000);
-       k.rows = read_integer(p, at.at(1), list.at(1).value_unsafe(), 1, 1000);
+       k.columns = read_integer(p, at.at(0), list.at(0).value_unsafe(), 1, kMostCells);
+       k.rows = read_integer(p, at.at(1), list.at(1).value_unsafe(), 1, kMostCells);
      }},
 };
 
@@ -173,6 +194,7 @@ void add_zone(Problems& problems, const Place& place, Json value, LuxTarget& tar
   else if (normal.y < -1e-9)
     normal = -normal;
   if (normal == Vec3d{}) return problems.add(place, "x and y are parallel", "give two directions");
+  if (zone.columns > kMostCells || zone.rows > kMostCells) return;  // read_integer has said so
   for (std::int64_t j = 0; j < zone.rows; ++j)
     for (std::int64_t i = 0; i < zone.columns; ++i) {
       const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(zone.columns) - 1,
@@ -200,9 +222,17 @@ struct SolveJobReader::TargetKeys {
 };
 
 void SolveJobReader::read_fit(const Place& place, Json value) {
+  simdjson::dom::object object;
+  if (value.get(object) == simdjson::SUCCESS && object["material"].error() == simdjson::SUCCESS) return read_material_fit(place, value);
   FitKeys keys;
   read_fields(problems_, place, value, {}, std::span<const Field<FitKeys>>(kFitFields), keys);
   if (!keys.light.empty()) add_fits(keys.light, keys.fit, place.in("light"));
+}
+
+void SolveJobReader::read_material_fit(const Place& place, Json value) {
+  MaterialKeys keys;
+  read_fields(problems_, place, value, {}, std::span<const Field<MaterialKeys>>(kMaterialFields), keys);
+  if (!keys.material.empty()) add_materials(keys.material, keys.fit, place.in("material"));
 }
 
 void SolveJobReader::read_tie(const Place& place, Json value) {

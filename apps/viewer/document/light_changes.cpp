@@ -7,6 +7,7 @@
 #include "document/node_pose.h"
 #include "document/outline.h"
 #include "steradian/area_light.h"  // luminance
+#include "scene/emitters/light_materials.h"
 #include "steradian/error.h"
 
 namespace steradian::view {
@@ -27,7 +28,7 @@ Lamp lamp_of(const EditedDocument& document, const std::vector<Lamp>& lamps, con
   const std::size_t area = scene.area_lights.size();
   const bool punctual = light >= area;
   const int node = punctual ? scene.punctual_lights[light - area].node : scene.area_lights[light].node;
-  const int material = node < 0 ? material_of_light(scene, light) : -1;
+  const int material = node < 0 ? scene::material_of_light(scene, light) : -1;
   const auto found = std::find_if(lamps.begin(), lamps.end(), [&](const Lamp& lamp) {
     if (node < 0) return lamp.kind == LampKind::mesh && lamp.light == material;
     return lamp.node == node && lamp.kind != LampKind::mesh && (lamp.kind != LampKind::area) == punctual;
@@ -128,21 +129,6 @@ void set_vertices(EditedDocument& document, const Lamp& lamp, const AreaLight& s
 
 }  // namespace
 
-int material_of_light(const Scene& scene, std::size_t light) {
-  for (const Mesh& mesh : scene.meshes)
-    if (!mesh.is_light_shape &&
-        std::find(mesh.triangle_lights.begin(), mesh.triangle_lights.end(), static_cast<std::int32_t>(light)) != mesh.triangle_lights.end())
-      return mesh.material;
-  return -1;
-}
-
-std::vector<std::size_t> lights_of_material(const Scene& scene, int material) {
-  std::vector<std::size_t> lights;
-  for (std::size_t i = 0; i < scene.area_lights.size(); ++i)
-    if (material_of_light(scene, i) == material) lights.push_back(i);
-  return lights;
-}
-
 void apply_changes(EditedDocument& document, const Scene& start, const std::vector<LightChange>& changes) {
   std::vector<int> materials;  // that were changed: all lights of one shine alike
   for (const LightChange& change : changes) {
@@ -157,6 +143,20 @@ void apply_changes(EditedDocument& document, const Scene& start, const std::vect
               change.light < start.area_lights.size() && start.area_lights[change.light].emission.has_value());
     if (lamp.kind != LampKind::mesh) set_place(document, lamp, change);
     if (!change.vertices.empty()) set_vertices(document, lamp, start.area_lights[change.light], change.vertices);
+  }
+}
+
+void apply_changes(EditedDocument& document, const std::vector<MaterialChange>& changes) {
+  for (const MaterialChange& change : changes) {
+    const std::string material = "/materials/" + std::to_string(change.material), at = material + "/pbrMetallicRoughness/";
+    if (change.material >= document.count("/materials"))
+      throw Error(document.file().path, "a fitted material is not in the file", "leave it out of --fit");
+    if (change.has_albedo) {
+      std::vector<double> color = document.numbers(at + "baseColorFactor", 4);
+      if (color.empty()) color.assign(4, 1.0);
+      document.set(at + "baseColorFactor", {change.albedo.x, change.albedo.y, change.albedo.z, color[3]});
+    }
+    if (change.has_roughness) document.set(at + "roughnessFactor", change.roughness);
   }
 }
 

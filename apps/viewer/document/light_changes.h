@@ -12,9 +12,7 @@ namespace steradian::view {
 // light that the file does not hold in a form that can be changed.
 void apply_changes(EditedDocument& document, const Scene& start, const std::vector<LightChange>& changes);
 
-// The file's material of a light of an emissive mesh; -1 for other lights.
-int material_of_light(const Scene& scene, std::size_t light);
-// All lights of an emissive material. They shine alike.
-std::vector<std::size_t> lights_of_material(const Scene& scene, int material);
+// The same for materials, whose numbers are those of the file.
+void apply_changes(EditedDocument& document, const std::vector<MaterialChange>& changes);
 
 }  // namespace steradian::view

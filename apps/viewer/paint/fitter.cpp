@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "document/light_changes.h"
+#include "scene/emitters/light_materials.h"
 #include "steradian/error.h"
 
 namespace steradian::view {
@@ -42,11 +43,12 @@ Unknowns unknowns_of(const LoadedScene& loaded, const FitTask& task) {
     LightFit fit;
     fit.light = light;
     fit.keep = kKeep;
-    const int material = light < scene.area_lights.size() && scene.area_lights[light].node < 0 ? material_of_light(scene, light) : -1;
+    const int material =
+        light < scene.area_lights.size() && scene.area_lights[light].node < 0 ? scene::material_of_light(scene, light) : -1;
     if (material >= 0) {
       if (std::find(materials.begin(), materials.end(), material) != materials.end()) continue;
       materials.push_back(material);
-      const std::vector<std::size_t> alike = lights_of_material(scene, material);
+      const std::vector<std::size_t> alike = scene::lights_of_material(scene, material);
       if (alike.size() > 1) result.ties.push_back({alike});
       fit.vertices = choice.vertices && alike.size() == 1;
       fit.power = choice.power || !fit.vertices;

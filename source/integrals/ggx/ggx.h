@@ -27,7 +27,16 @@ class GgxArcs {
   }
   // Lanes without light walk edges of no length, so that the others never wait for them.
   STERADIAN_INLINE vec3 end(const vec3& u) const { return select(lit_, u, vec3(0.0, 0.0, 0.0)); }
-  STERADIAN_INLINE void add(const vec3& a, const vec3& b) { edges_.push_back({a, b}); }
+  STERADIAN_INLINE void add(const vec3& a, const vec3& b) { edges_.push_back({a, b, true}); }
+  STERADIAN_INLINE void close(const vec3& a, const vec3& b) { edges_.push_back({a, b, false}); }
+
+  STERADIAN_INLINE const typename K::GgxView& view() const { return view_; }
+  // After finish: use(arc) for the part above the horizon of each of the outline's edges, in walk order.
+  template <class Use>
+  STERADIAN_INLINE void each_edge(Use use) const {
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      if (edges_[i].is_of_outline) use(arcs_[i]);
+  }
 
   STERADIAN_INLINE Real<S> least_distance2() const { return K().light_elements_along_arcs().least_distance2; }
   SmallLight<S> small_light(const vec3&) const {
@@ -41,22 +50,23 @@ class GgxArcs {
     vec3 e(0.0, 0.0, 0.0);
     arcs_.clear();
     for (const Edge& edge : edges_) {
-      const auto arc = K().ggx_edge(view_, edge.a, edge.b);
-      if (!any_lane(arc.end > arc.begin)) continue;
-      e = e + K().conic_vector(arc);
-      arcs_.push_back(arc);
+      arcs_.push_back(K().ggx_edge(view_, edge.a, edge.b));
+      if (is_seen(arcs_.back())) e = e + K().conic_vector(arcs_.back());
     }
     return e;
   }
   STERADIAN_INLINE static Real<S> facing(Mask<S> reversed) { return select(reversed, Real<S>(-1.0), Real<S>(1.0)); }
 
+  STERADIAN_INLINE static bool is_seen(const typename K::ConicArc& arc) { return any_lane(arc.end > arc.begin); }
+
   struct Edge {
     vec3 a, b;
+    bool is_of_outline;
   };
   typename K::GgxView view_{};
   Mask<S> lit_{};
   std::vector<Edge> edges_;
-  std::vector<typename K::ConicArc> arcs_;
+  std::vector<typename K::ConicArc> arcs_;  // of the edges
 };
 
 template <class S>
@@ -72,7 +82,8 @@ class GgxIntegral : public GgxArcs<S> {
     if (quality == Quality::draft) return K().ggx_draft(this->view_, e, smith, facing);
     auto c = K().ggx_cubature_begin(this->view_, e, smith, facing);
     const int extra_nodes = quality == Quality::high ? 2 : 0;
-    for (const auto& arc : this->arcs_) c = K().ggx_cubature_edge(c, arc, extra_nodes);
+    for (const auto& arc : this->arcs_)
+      if (this->is_seen(arc)) c = K().ggx_cubature_edge(c, arc, extra_nodes);
     return K().ggx_cubature_finish(c);
   }
   Part<S> at(const typename K::vec3& u) const { return K().ggx_lobe_and_fresnel(this->view_, u, smith); }

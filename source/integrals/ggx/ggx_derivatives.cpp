@@ -17,26 +17,40 @@ class GgxInside : public integrals::GgxArcs<double> {
  public:
   double smith = 1;
   Quality quality = Quality::normal;
+  double side = 0;  // longest side of the triangles into which the light is divided [rad]; 0: it stays whole
 
   void take(const K::ConicArc& arc) {
     if (arc.end.v > arc.begin.v) arcs_.push_back(arc);
   }
   // After all arcs: of those taken, if there are some, else of the edges.
-  Vec3d finish(Mask<double> reversed) {
-    facing_ = facing(reversed);
-    if (edges_.empty())
-      for (const K::ConicArc& arc : arcs_) e_ = e_ + K().conic_vector(arc);
-    else
-      e_ = prepare();
-    return to_vector(e_);
+  void finish(Mask<double> reversed) {
+    parts_.clear();
+    if (edges_.empty()) {
+      V e{};
+      for (const K::ConicArc& arc : arcs_) e = e + K().conic_vector(arc);
+      parts_.push_back({std::move(arcs_), e, facing(reversed), 1});
+    } else if (side > 0) {
+      add_fan(facing(reversed).v);
+    } else {
+      const V e = prepare();
+      parts_.push_back({std::move(arcs_), e, facing(reversed), 1});
+    }
   }
   PartSlopes at(Vec3d view) const {
     K k;
     const auto moved = k.ggx_view(to_kernel<double>(view), alpha_x, alpha_y);
-    if (quality == Quality::draft) return both(k.ggx_draft(moved, e_, smith, facing_));
-    auto c = k.ggx_cubature_begin(moved, e_, smith, facing_);
-    for (const K::ConicArc& arc : arcs_) c = k.ggx_cubature_edge(c, arc, quality == Quality::high ? 2 : 0);
-    return both(k.ggx_cubature_finish(c));
+    PartSlopes sum;
+    for (const Part& part : parts_) {
+      if (quality == Quality::draft) {
+        sum = sum + both(k.ggx_draft(moved, part.e, smith, part.facing)) * part.sign;
+        continue;
+      }
+      auto c = k.ggx_cubature_begin(moved, part.e, smith, part.facing);
+      for (const K::ConicArc& arc : part.arcs)
+        if (is_seen(arc)) c = k.ggx_cubature_edge(c, arc, quality == Quality::high ? 2 : 0);
+      sum = sum + both(k.ggx_cubature_finish(c)) * part.sign;
+    }
+    return sum;
   }
   // The change as the view turns towards a direction across it. At fixed nodes, the mean is smooth. Its width is the view's height.
   PartSlopes along(Vec3d view, Vec3d across) const {
@@ -46,9 +60,50 @@ class GgxInside : public integrals::GgxArcs<double> {
   }
 
  private:
+  static constexpr int kDepth = 6;
+
+  struct Part {
+    std::vector<K::ConicArc> arcs;
+    V e;
+    Real<double> facing;
+    double sign;
+  };
+
   static PartSlopes both(const K::vec2& v) { return {v.x.v, v.y.v}; }
-  V e_{};
-  Real<double> facing_{1.0};
+
+  // Triangles from one direction to all edges, those of one orientation with a minus.
+  void add_fan(double facing) {
+    Vec3d middle{};
+    for (const Edge& edge : edges_) middle += to_vector(edge.a) + to_vector(edge.b);
+    middle = normalized(middle);
+    if (middle == Vec3d{}) middle = {0, 0, 1};
+    for (const Edge& edge : edges_) add_triangle(middle, to_vector(edge.a), to_vector(edge.b), facing, 0);
+  }
+  void add_triangle(Vec3d a, Vec3d b, Vec3d c, double sign, int depth) {
+    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+    if (longest > side && depth < kDepth) {
+      const Vec3d ab = normalized(a + b), bc = normalized(b + c), ca = normalized(c + a);
+      add_triangle(a, ab, ca, sign, depth + 1);
+      add_triangle(ab, b, bc, sign, depth + 1);
+      add_triangle(ca, bc, c, sign, depth + 1);
+      add_triangle(ab, bc, ca, sign, depth + 1);
+      return;
+    }
+    if (dot(a, cross(b, c)) < 0) {
+      std::swap(b, c);
+      sign = -sign;
+    }
+    Part part{{}, {}, 1.0, sign};
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      const auto arc = K().ggx_edge(view_, to_kernel<double>(from), to_kernel<double>(to));
+      if (!is_seen(arc)) continue;
+      part.e = part.e + K().conic_vector(arc);
+      part.arcs.push_back(arc);
+    }
+    parts_.push_back(std::move(part));
+  }
+
+  std::vector<Part> parts_;
 };
 
 // The rule along an edge (ggx_edge_slopes).
@@ -57,31 +112,6 @@ struct EdgeRule {
 };
 EdgeRule rule_of(Quality quality) {
   return {quality == Quality::draft ? 4 : quality == Quality::normal ? 6 : 8, quality == Quality::high ? 2 : 1};
-}
-
-// INT f (2 (N.h) h - N) ds along an edge, N its unit normal: with fixed half vectors, the view moves the light's directions by
-// 2 (h.dv) h - dv, and the region of half vectors the other way.
-void add_by_view(BothParts& sum, const K::GgxView& view, const K::EdgePart& part, const K::ConicArc& arc, double smith, EdgeRule rule) {
-  if (!(arc.end.v > arc.begin.v)) return;
-  K k;
-  const Vec3d n = normalized(cross(to_vector(part.start), to_vector(part.end - part.start)));
-  const Vec3d v = to_vector(view.v);
-  const double share = 1.0 / rule.pieces, total = arc.sweep.x.v + arc.sweep.y.v, unit = arc.scale.v;
-  for (int i = 0; i < rule.pieces; ++i)
-    for (int j = 0; j < rule.nodes; ++j) {
-      const auto at = k.gauss_legendre_node(rule.nodes, j);
-      const auto node = k.conic_node(arc, (at.x + static_cast<double>(i)) * share);
-      const V u = arc.u0 + (arc.u1 + arc.u2 * node.tau) * node.tau;
-      const Vec3d p = {u.x.v * view.ax.v, u.y.v * view.ay.v, u.z.v};  // (l + v) times a positive factor
-      const Vec3d h = normalized(p);
-      const Vec3d l = h * (2 * dot(h, v)) - v;
-      const double t = node.tau.v * unit;
-      const double ds = at.y.v * share * total / std::max(node.density.v, 1e-300) * 2 * unit / (1 + t * t);
-      const auto f = k.ggx_lobe_and_fresnel(view, to_kernel<double>(l), smith);
-      const Vec3d across = h * (2 * dot(n, h)) - n;
-      sum.plain += across * (f.x.v * ds);
-      sum.fresnel += across * (f.y.v * ds);
-    }
 }
 
 }  // namespace
@@ -97,14 +127,18 @@ GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const Sha
   GgxInside inside;
   BothParts by_view{};
   bool crosses = false;
+  Vec3d first;
+  double width = 0;  // of the light on the unit sphere, as a chord from `first`
   result.by_vertex = by_edges(light, side, at.position, frame, [&](const V& a, const V& b) {
     const auto part = k.edge_above_horizon(a, b);
     const auto arc = k.ggx_edge(view, part.start, part.end);
     const auto s = k.ggx_edge_slopes_of_part(view, part, arc, smith, rule.nodes, rule.pieces);
     if (m.shadowing) {
       crosses = crosses || a.z.v < 0 || b.z.v < 0;
+      first = first == Vec3d{} ? to_vector(a) : first;
+      width = std::max(width, length(to_vector(b) - first));
       inside.take(arc);
-      add_by_view(by_view, view, part, arc, smith, rule);
+      by_view = by_view + BothParts{to_vector(s.turn), to_vector(s.turn_of_fresnel)};
     }
     return EdgeDerivatives{{to_vector(s.normal * s.by_start.x), to_vector(s.normal * s.by_start.y)},
                            {to_vector(s.normal * s.by_end.x), to_vector(s.normal * s.by_end.y)}};
@@ -116,8 +150,11 @@ GgxDerivatives ggx_derivatives(const PreparedPolygon& light, int side, const Sha
   inside.quality = methods::fine_method(Method::closed_form, quality).quality;
   const auto shading = integrals::shading_from<double>(side, to_kernel<double>(v));
   inside.begin(shading);
+  // Over all of a wide light, the mean of shadowing and Fresnel would make the derivative by the view wrong by as much as itself.
+  const bool high = quality == Quality::high;
+  if (width > (high ? 0.5 : 1.8)) inside.side = high ? 0.5 : 1;
   // Only where the horizon cuts the light, its arcs close the outline.
-  if (crosses)
+  if (crosses || inside.side > 0)
     integrals::integrate_edges(integrals::contours_in<double>(light, frame, at.position), shading, inside);
   else
     inside.finish(shading.reversed);

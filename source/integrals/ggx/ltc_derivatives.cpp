@@ -86,8 +86,8 @@ std::vector<BothParts> ltc_by_vertices(LtcMethod method, const PreparedPolygon& 
     return slopes::by_edges(light, side, at.position, frame, [&](const auto& a, const auto& b) {
       Kernels<double> k;
       const auto s = k.ltc_edge_slopes(lobe.matrix, a, b);
-      const Vec3d by_a = slopes::to_vector(k.ltc_edge_transform_back(lobe.matrix, s.normal * s.by_start));
-      const Vec3d by_b = slopes::to_vector(k.ltc_edge_transform_back(lobe.matrix, s.normal * s.by_end));
+      const Vec3d by_a = slopes::to_vector(k.ltc_edge_transform_back(lobe.matrix, a, s.normal * s.by_start));
+      const Vec3d by_b = slopes::to_vector(k.ltc_edge_transform_back(lobe.matrix, b, s.normal * s.by_end));
       return slopes::EdgeDerivatives{{by_a * lobe.n_a.v, by_a * lobe.f_a.v}, {by_b * lobe.n_a.v, by_b * lobe.f_a.v}};
     });
   };
@@ -99,7 +99,52 @@ std::vector<BothParts> ltc_by_vertices(LtcMethod method, const PreparedPolygon& 
   return result;
 }
 
-// The change of both parts as the view turns within the frame's plane of x and z, away from z.
+// The integral of a transformed cosine over a light above the horizon, and its change with the matrix: the outline moves under it.
+//
+//   change   of m
+struct ChangedIntegral {
+  double value = 0, slope = 0;
+};
+ChangedIntegral with_matrix(const PreparedPolygon& light, int side, Vec3d position, const Frame& frame, const Kernels<double>::LtcMatrix& m,
+                            const Kernels<double>::LtcMatrix& change) {
+  Kernels<double> k;
+  struct Corner {
+    Kernels<double>::vec3 u, under, moves;  // unit; the motion of `under`
+  };
+  auto walk = k.ltc_begin();
+  double slope = 0;
+  integrals::walk_contours(
+      light.vertices.data(), light.contours.data(), light.contours.size() - 1,
+      [&](const Vec3d& vertex) {
+        const auto u = k.polygon_direction(to_kernel<double>(frame.to_local(vertex - position))), under = k.ltc_transform(m, u);
+        const auto scale = inversesqrt(max(dot(under, under), k.smallest_square()));
+        return Corner{u, under * scale, k.ltc_transform(change, u) * scale};
+      },
+      [&](const Corner& a, const Corner& b) {
+        const auto part = k.ltc_part(m, a.u, b.u, a.under, b.under), lobe_part = k.edge_above_horizon(part.start, part.end);
+        walk.lobe = k.polygon_add_part(walk.lobe, lobe_part);
+        const auto s = k.ltc_part_slopes(part, lobe_part);
+        slope += (dot(s.normal, a.moves) * s.by_start + dot(s.normal, b.moves) * s.by_end).v;
+      });
+  return {k.ltc_integral(walk, Mask<double>(side < 0)).v, side * slope};
+}
+
+// The value and the derivative of numbers that depend on one.
+Kernels<double>::LtcMatrix matrix_of(const Kernels<Dual<1>>::LtcMatrix& m, const auto& number) {
+  Kernels<double>::LtcMatrix result;
+  result.xx = number(m.xx);
+  result.xz = number(m.xz);
+  result.yy = number(m.yy);
+  result.zx = number(m.zx);
+  result.zz = number(m.zz);
+  return result;
+}
+
+bool is_above_horizon(const PreparedPolygon& light, Vec3d position, Vec3d normal) {
+  return std::all_of(light.vertices.begin(), light.vertices.end(), [&](Vec3d v) { return dot(v - position, normal) >= 0; });
+}
+
+// The change of both parts as the view turns within the frame's plane of x and z, away from z. The horizon moves under the matrix, too.
 slopes::PartSlopes ltc_by_slant(LtcMethod method, const PreparedPolygon& light, int side, const ShadingPoint& at, const Frame& frame,
                                 const Material& m) {
   using S = Dual<1>;
@@ -107,6 +152,20 @@ slopes::PartSlopes ltc_by_slant(LtcMethod method, const PreparedPolygon& light, 
   auto moving = to_kernel<S>(view);
   moving.x.v.d[0] = view.z;
   moving.z.v.d[0] = -view.x;
+  if (is_above_horizon(light, at.position, frame.z)) {
+    const auto value_of = [](const Real<S>& x) { return x.v.v; };
+    const auto slope_of = [](const Real<S>& x) { return x.v.d[0]; };
+    const auto by_lobe = [&](const integrals::LtcLobe<S>& lobe) {
+      const ChangedIntegral c =
+          with_matrix(light, side, at.position, frame, matrix_of(lobe.matrix, value_of), matrix_of(lobe.matrix, slope_of));
+      return slopes::PartSlopes{slope_of(lobe.n_a) * c.value + value_of(lobe.n_a) * c.slope,
+                                slope_of(lobe.f_a) * c.value + value_of(lobe.f_a) * c.slope};
+    };
+    const auto shading = integrals::shading_from<S>(side, moving);
+    slopes::PartSlopes result = by_lobe(ltc_lobe_of<S>(method, m, shading));
+    if (method == LtcMethod::fresnel) result.fresnel = by_lobe(grazing_lobe_of<S>(m, shading)).plain;
+    return result;
+  }
   const auto value =
       ltc_integral(method, m).operator()<S>(integrals::contours_in<S>(light, frame, at.position), integrals::shading_from<S>(side, moving));
   return {value.x.v.d[0], value.y.v.d[0]};

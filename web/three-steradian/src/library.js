@@ -109,18 +109,27 @@ vec3 steradian_fan_place(vec3 centre, vec3 outward, float rim_cosine, float shar
     float cosine = 1.0 - (1.0 - rim_cosine) * share;
     return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
 }
-float steradian_trig_angle_over_sine_24_bits(float t) {
+vec2 steradian_trig_angle_over_sine_24_bits(float t) {
     float p = 0.01116282422619877;
+    float d = p;
     p = p * t - 0.032591688733997218;
+    d = d * t + p;
     p = p * t + 0.05097575847577638;
+    d = d * t + p;
     p = p * t - 0.033552997791327491;
+    d = d * t + p;
     p = p * t + 0.030059175970996568;
+    d = d * t + p;
     p = p * t + 0.020163489805166888;
+    d = d * t + p;
     p = p * t + 0.057977801513775039;
+    d = d * t + p;
     p = p * t + 0.13326657225500885;
+    d = d * t + p;
     p = p * t + 0.33333538143391106;
+    d = d * t + p;
     p = p * t + 0.9999999897346874;
-    return p;
+    return vec2(p, d);
 }
 float steradian_trig_atan_over_argument_24_bits(float q) {
     float p = 0.002766283501762026;
@@ -134,8 +143,12 @@ float steradian_trig_atan_over_argument_24_bits(float q) {
     p = p * q + 0.99999998178865568;
     return p;
 }
-float steradian_trig_angle_over_sine_acute(float t) {
+vec2 steradian_trig_angle_over_sine_acute_and_slope(float t) {
     return steradian_trig_angle_over_sine_24_bits(t);
+}
+float steradian_trig_angle_over_sine_acute(float t) {
+    vec2 both = steradian_trig_angle_over_sine_acute_and_slope(t);
+    return both.x;
 }
 float steradian_trig_angle_over_sine(float c, float s2) {
     float f = steradian_trig_angle_over_sine_acute(1.0 - abs(c));
@@ -144,6 +157,15 @@ float steradian_trig_angle_over_sine(float c, float s2) {
         f = steradian_select(obtuse, steradian_pi() * inversesqrt(max(s2, steradian_smallest_divisor())) - f, f);
     }
     return f;
+}
+vec2 steradian_trig_angle_over_sine_and_slope(float c, float s2) {
+    vec2 both = steradian_trig_angle_over_sine_acute_and_slope(1.0 - abs(c));
+    bool obtuse = c < 0.0;
+    if (obtuse) {
+        float f = steradian_pi() * inversesqrt(max(s2, steradian_smallest_divisor())) - both.x;
+        both = steradian_select(obtuse, vec2(f, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12)), both);
+    }
+    return both;
 }
 float steradian_trig_atan2(float y, float x) {
     float ax = abs(x);
@@ -160,27 +182,6 @@ float steradian_trig_atan2(float y, float x) {
 float steradian_trig_atan2_unwrapped(float y, float x) {
     float angle = steradian_trig_atan2(y, x);
     return steradian_select(angle < -0.5 * steradian_pi(), angle + 2.0 * steradian_pi(), angle);
-}
-float steradian_trig_angle_over_sine_slope_24_bits(float t) {
-    float p = 0.10046541803578893;
-    p = p * t - 0.260733509871977744;
-    p = p * t + 0.35683030933043466;
-    p = p * t - 0.201317986747964946;
-    p = p * t + 0.15029587985498284;
-    p = p * t + 0.080653959220667552;
-    p = p * t + 0.173933404541325117;
-    p = p * t + 0.2665331445100177;
-    p = p * t + 0.33333538143391106;
-    return p;
-}
-float steradian_trig_angle_over_sine_slope(float c, float s2, float f) {
-    float t = 1.0 - abs(c);
-    float slope = steradian_trig_angle_over_sine_slope_24_bits(t);
-    bool obtuse = c < 0.0;
-    if (obtuse) {
-        slope = steradian_select(obtuse, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), slope);
-    }
-    return slope;
 }
 struct SteradianQuarticPoles {
     vec2 z1;
@@ -234,27 +235,65 @@ SteradianPolygonWalk steradian_polygon_begin() {
     walk.horizon = vec2(1.0, 0.0);
     return walk;
 }
-SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, vec3 a, vec3 b) {
-    SteradianPolygonWalk next = walk;
+struct SteradianEdgePart {
+    vec3 start;
+    vec3 end;
+    float start_a;
+    float start_b;
+    float end_a;
+    float end_b;
+    bool rises;
+    bool sinks;
+};
+SteradianEdgePart steradian_edge_whole(vec3 a, vec3 b) {
+    SteradianEdgePart part;
+    part.start = a;
+    part.end = b;
+    part.start_a = 1.0;
+    part.start_b = 0.0;
+    part.end_a = 0.0;
+    part.end_b = 1.0;
+    part.rises = steradian_mask_none();
+    part.sinks = steradian_mask_none();
+    return part;
+}
+SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
     bool a_below = a.z < 0.0;
     bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        vec3 start = a;
-        vec3 end = b;
-        if (a_below || b_below) {
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inversesqrt(max(dot(p, p), steradian_smallest_square()));
-            vec3 crossing = vec3(p.x, p.y, 0.0);
-            start = steradian_select(a_below, crossing, a);
-            end = steradian_select(b_below, crossing, b);  
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float y = steradian_select(a_below, p.y, -p.y);  
-            vec2 h = walk.horizon;
-            next.horizon = steradian_select(crosses, vec2(h.x * p.x - h.y * y, h.x * y + h.y * p.x), h);
-        }
-        next.edges = walk.edges + steradian_polygon_edge(start, end);
+    SteradianEdgePart part = steradian_edge_whole(a, b);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        float wa = abs(b.z);
+        float wb = abs(a.z);
+        vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+        float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
+        vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
+        part.start = steradian_select(a_below, crossing, a);
+        part.end = steradian_select(b_below, crossing, b);  
+        part.start_a = steradian_select(a_below, wa * scale, 1.0);
+        part.start_b = steradian_select(a_below, wb * scale, 0.0);
+        part.end_a = steradian_select(b_below, wa * scale, 0.0);
+        part.end_b = steradian_select(b_below, wb * scale, 1.0);
+    }
+    return part;
+}
+SteradianPolygonWalk steradian_polygon_add_part(SteradianPolygonWalk walk, SteradianEdgePart part) {
+    SteradianPolygonWalk next = walk;
+    bool crosses = part.rises || part.sinks;
+    if (crosses) {
+        vec3 crossing = steradian_select(part.rises, part.start, part.end);
+        float y = steradian_select(part.rises, crossing.y, -crossing.y);  
+        vec2 h = walk.horizon;
+        next.horizon = steradian_select(crosses, vec2(h.x * crossing.x - h.y * y, h.x * y + h.y * crossing.x), h);
+    }
+    next.edges = walk.edges + steradian_polygon_edge(part.start, part.end);
+    return next;
+}
+SteradianPolygonWalk steradian_polygon_add_edge(SteradianPolygonWalk walk, vec3 a, vec3 b) {
+    SteradianPolygonWalk next = walk;
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        next = steradian_polygon_add_part(walk, steradian_edge_above_horizon(a, b));
     }
     return next;
 }
@@ -1871,6 +1910,9 @@ SteradianLtcMatrix steradian_ltc_from_compact(vec4 e, float alpha, vec3 view) {
 vec3 steradian_ltc_transform(SteradianLtcMatrix m, vec3 v) {
     return vec3(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
+vec3 steradian_ltc_transform_transposed(SteradianLtcMatrix m, vec3 v) {
+    return vec3(m.xx * v.x + m.zx * v.z, m.yy * v.y, m.xz * v.x + m.zz * v.z);
+}
 float steradian_ltc_lobe(SteradianLtcMatrix m, vec3 l) {
     vec3 w = steradian_ltc_transform(m, l);
     float d2 = max(dot(w, w), steradian_smallest_length());
@@ -1900,32 +1942,55 @@ SteradianLtcWalk steradian_ltc_begin() {
 vec3 steradian_ltc_direction(SteradianLtcMatrix m, vec3 v) {
     return steradian_polygon_direction(steradian_ltc_transform(m, v));
 }
-SteradianLtcWalk steradian_ltc_add_edge(SteradianLtcWalk walk, SteradianLtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
-    SteradianLtcWalk next = walk;
+SteradianEdgePart steradian_ltc_part(SteradianLtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
     bool a_below = a.z < 0.0;
     bool b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        vec3 start = ta;
-        vec3 end = tb;
-        if (a_below || b_below) {
-            vec3 none = vec3(0.0, 0.0, 0.0);
-            bool crosses = (a_below && !b_below) || (b_below && !a_below);
-            float wa = abs(b.z);
-            float wb = abs(a.z);
-            vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-            vec3 crossing = steradian_select(crosses, steradian_ltc_direction(m, horizon), none);
-            start = steradian_select(a_below, crossing, ta);
-            end = steradian_select(b_below, crossing, tb);
-            if (crosses && walk.anchored) {
-                bool closes = crosses && walk.anchored;
-                vec3 departure = steradian_select(a_below, walk.anchor, crossing);
-                vec3 arrival = steradian_select(a_below, crossing, walk.anchor);
-                next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
-            }
-            next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
-            next.anchored = walk.anchored || crosses;
+    SteradianEdgePart part = steradian_edge_whole(ta, tb);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        float wa = abs(b.z);
+        float wb = abs(a.z);
+        vec3 horizon = vec3(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+        vec3 under = steradian_ltc_transform(m, horizon);
+        vec3 crossing = steradian_select(part.rises || part.sinks, steradian_polygon_direction(under), vec3(0.0, 0.0, 0.0));
+        part.start = steradian_select(a_below, crossing, ta);
+        part.end = steradian_select(b_below, crossing, tb);
+        vec3 under_a = steradian_ltc_transform(m, a);
+        vec3 under_b = steradian_ltc_transform(m, b);
+        float scale = inversesqrt(max(dot(under, under), steradian_smallest_square()));
+        float of_a = wa * sqrt(dot(under_a, under_a)) * scale;
+        float of_b = wb * sqrt(dot(under_b, under_b)) * scale;
+        part.start_a = steradian_select(a_below, of_a, 1.0);
+        part.start_b = steradian_select(a_below, of_b, 0.0);
+        part.end_a = steradian_select(b_below, of_a, 0.0);
+        part.end_b = steradian_select(b_below, of_b, 1.0);
+    }
+    return part;
+}
+SteradianLtcWalk steradian_ltc_close_gap(SteradianLtcWalk walk, SteradianEdgePart part) {
+    SteradianLtcWalk next = walk;
+    bool crosses = part.rises || part.sinks;
+    if (crosses) {
+        vec3 none = vec3(0.0, 0.0, 0.0);
+        vec3 crossing = steradian_select(part.rises, part.start, part.end);
+        bool closes = crosses && walk.anchored;
+        if (closes) {
+            vec3 departure = steradian_select(part.rises, walk.anchor, crossing);
+            vec3 arrival = steradian_select(part.rises, crossing, walk.anchor);
+            next.lobe = steradian_polygon_add_edge(next.lobe, steradian_select(closes, departure, none), steradian_select(closes, arrival, none));
         }
-        next.lobe = steradian_polygon_add_edge(next.lobe, start, end);
+        next.anchor = steradian_select(crosses && !walk.anchored, crossing, walk.anchor);
+        next.anchored = walk.anchored || crosses;
+    }
+    return next;
+}
+SteradianLtcWalk steradian_ltc_add_edge(SteradianLtcWalk walk, SteradianLtcMatrix m, vec3 a, vec3 b, vec3 ta, vec3 tb) {
+    SteradianLtcWalk next = walk;
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        SteradianEdgePart part = steradian_ltc_part(m, a, b, ta, tb);
+        next = steradian_ltc_close_gap(walk, part);
+        next.lobe = steradian_polygon_add_edge(next.lobe, part.start, part.end);
     }
     return next;
 }
@@ -2791,14 +2856,6 @@ vec3 steradian_ggx_arc(SteradianGgxView view, vec3 a, vec3 b) {
 float steradian_half_vector_radiance(SteradianGgxView view, float sum, float facing) {
     return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
 }
-struct SteradianEdgePart {
-    vec3 start;
-    vec3 end;
-    float start_a;
-    float start_b;
-    float end_a;
-    float end_b;
-};
 struct SteradianEdgeSlopes {
     vec3 normal;
     float by_start;
@@ -2808,60 +2865,46 @@ struct SteradianEdgeSlopesOfBoth {
     vec3 normal;
     vec2 by_start;
     vec2 by_end;
+    vec3 turn;
+    vec3 turn_of_fresnel;
 };
-SteradianEdgePart steradian_edge_above_horizon(vec3 a, vec3 b) {
-    bool a_below = a.z < 0.0;
-    bool b_below = b.z < 0.0;
-    float wa = abs(b.z);
-    float wb = abs(a.z);
-    vec2 p = vec2(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    float scale = inversesqrt(max(dot(p, p), steradian_smallest_square()));
-    vec3 crossing = vec3(p.x * scale, p.y * scale, 0.0);
-    SteradianEdgePart part;
-    part.start = steradian_select(a_below, crossing, a);
-    part.end = steradian_select(b_below, crossing, b);
-    part.start_a = steradian_select(a_below, wa * scale, 1.0);
-    part.start_b = steradian_select(a_below, wb * scale, 0.0);
-    part.end_a = steradian_select(b_below, wa * scale, 0.0);
-    part.end_b = steradian_select(b_below, wb * scale, 1.0);
-    return part;
-}
-vec2 steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
-    vec3 n = cross(start, end - start);
-    float c = dot(start, end);
-    float s2 = dot(n, n);
-    float f = steradian_trig_angle_over_sine(c, s2);
-    float q = steradian_trig_angle_over_sine_slope(c, s2, f);
-    float p = min(f, 1.0e12) - c * q;
-    return vec2(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
-}
-SteradianEdgeSlopes steradian_edge_slopes_of_part(SteradianEdgePart part, vec2 g) {
+SteradianEdgeSlopes steradian_edge_irradiance_slopes(vec3 start, vec3 end) {
     SteradianEdgeSlopes slopes;
-    slopes.normal = cross(part.start, part.end - part.start);
-    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
-    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+    slopes.normal = cross(start, end - start);
+    float c = dot(start, end);
+    vec2 half_angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    float q = half_angle.y;
+    float p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
     return slopes;
 }
+SteradianEdgeSlopes steradian_edge_slopes_of_whole(SteradianEdgePart part, SteradianEdgeSlopes of_part) {
+    SteradianEdgeSlopes slopes = of_part;
+    if (part.rises || part.sinks) {
+        slopes.by_start = part.start_a * of_part.by_start + part.end_a * of_part.by_end;
+        slopes.by_end = part.start_b * of_part.by_start + part.end_b * of_part.by_end;
+    }
+    return slopes;
+}
+SteradianEdgeSlopes steradian_polygon_part_slopes(SteradianEdgePart part) {
+    return steradian_edge_slopes_of_whole(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
 SteradianEdgeSlopes steradian_polygon_edge_slopes(vec3 a, vec3 b) {
-    SteradianEdgePart part = steradian_edge_above_horizon(a, b);
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+    return steradian_polygon_part_slopes(steradian_edge_above_horizon(a, b));
+}
+SteradianEdgeSlopes steradian_ltc_part_slopes(SteradianEdgePart part, SteradianEdgePart lobe_part) {
+    SteradianEdgeSlopes slopes = steradian_edge_slopes_of_whole(part, steradian_polygon_part_slopes(lobe_part));
+    slopes.normal = slopes.normal * steradian_inverse_pi();
+    return slopes;
 }
 SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, vec3 a, vec3 b) {
-    SteradianEdgePart real_part = steradian_edge_above_horizon(a, b);
-    vec3 start = steradian_ltc_transform(m, real_part.start);
-    vec3 end = steradian_ltc_transform(m, real_part.end);
-    float start_scale = inversesqrt(max(dot(start, start), steradian_smallest_square()));
-    float end_scale = inversesqrt(max(dot(end, end), steradian_smallest_square()));
-    SteradianEdgePart lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
-    SteradianEdgePart part = lobe_part;
-    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
-    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
-    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
-    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+    SteradianEdgePart part = steradian_ltc_part(m, a, b, steradian_ltc_direction(m, a), steradian_ltc_direction(m, b));
+    return steradian_ltc_part_slopes(part, steradian_edge_above_horizon(part.start, part.end));
 }
-vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 g) {
-    return vec3(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 v, vec3 g) {
+    vec3 under = steradian_ltc_transform(m, v);
+    return steradian_ltc_transform_transposed(m, g * inversesqrt(max(dot(under, under), steradian_smallest_square())));
 }
 SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView view, SteradianEdgePart part, SteradianConicArc arc, float smith, int nodes, int pieces) {
     vec3 sum = part.start + part.end;
@@ -2873,8 +2916,12 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
     bool from_start = !(arc.begin < 0.0);
     bool from_end = !(arc.end > 0.0);
     vec2 base = vec2(steradian_select(from_start || from_end, half_cosine, 1.0), steradian_select(from_start, -half_sine, steradian_select(from_end, half_sine, 0.0)));
+    vec3 n = cross(part.start, chord);
+    vec3 across = n * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
     vec2 even = vec2(0.0, 0.0);
     vec2 odd = vec2(0.0, 0.0);
+    vec3 turn = vec3(0.0, 0.0, 0.0);
+    vec3 turn_of_fresnel = vec3(0.0, 0.0, 0.0);
     float total = arc.sweep.x + arc.sweep.y;
     float share = 1.0 / float(pieces);
     for (int i = 0; i < pieces; i++) {
@@ -2889,7 +2936,12 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
             vec3 l = p * (2.0 * along / p2) - view.v;
             float g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
             float w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
-            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inversesqrt(p2)));
+            float p_inverse = inversesqrt(p2);
+            vec2 both = vec2(w, w * steradian_fresnel_schlick(0.0, 1.0, along * p_inverse));
+            vec3 h = p * p_inverse;
+            vec3 moved = h * (2.0 * dot(across, h)) - across;
+            turn = turn + moved * both.x;
+            turn_of_fresnel = turn_of_fresnel + moved * both.y;
             float t = node.tau * arc.scale;
             float d = 1.0 / (1.0 + t * t);
             vec2 angle = steradian_complex_product(base, vec2((1.0 - t * t) * d, 2.0 * t * d));
@@ -2897,15 +2949,17 @@ SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView vie
             odd = odd + both * (angle.y * chord_inverse);
         }
     }
-    vec3 n = cross(part.start, chord);
-    float scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
-    scale = steradian_select(arc.end > arc.begin, scale, 0.0);
+    float density = arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z);
+    density = steradian_select(arc.end > arc.begin, density, 0.0);
+    float scale = -density * inversesqrt(max(dot(n, n), steradian_smallest_divisor()));
     vec2 by_part_start = (even - odd) * scale;
     vec2 by_part_end = (even + odd) * scale;
     SteradianEdgeSlopesOfBoth slopes;
     slopes.normal = n;
     slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
     slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    slopes.turn = turn * density;
+    slopes.turn_of_fresnel = turn_of_fresnel * density;
     return slopes;
 }
 SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes(SteradianGgxView view, vec3 a, vec3 b, float smith, int nodes, int pieces) {

@@ -107,18 +107,27 @@ fn steradian_fan_place(centre: vec3f, outward: vec3f, rim_cosine: f32, share: f3
     let cosine = 1.0 - (1.0 - rim_cosine) * share;
     return centre * cosine + outward * sqrt(max(1.0 - cosine * cosine, 0.0));
 }
-fn steradian_trig_angle_over_sine_24_bits(t: f32) -> f32 {
+fn steradian_trig_angle_over_sine_24_bits(t: f32) -> vec2f {
     var p = 0.01116282422619877;
+    var d = p;
     p = p * t - 0.032591688733997218;
+    d = d * t + p;
     p = p * t + 0.05097575847577638;
+    d = d * t + p;
     p = p * t - 0.033552997791327491;
+    d = d * t + p;
     p = p * t + 0.030059175970996568;
+    d = d * t + p;
     p = p * t + 0.020163489805166888;
+    d = d * t + p;
     p = p * t + 0.057977801513775039;
+    d = d * t + p;
     p = p * t + 0.13326657225500885;
+    d = d * t + p;
     p = p * t + 0.33333538143391106;
+    d = d * t + p;
     p = p * t + 0.9999999897346874;
-    return p;
+    return vec2f(p, d);
 }
 fn steradian_trig_atan_over_argument_24_bits(q: f32) -> f32 {
     var p = 0.002766283501762026;
@@ -132,8 +141,12 @@ fn steradian_trig_atan_over_argument_24_bits(q: f32) -> f32 {
     p = p * q + 0.99999998178865568;
     return p;
 }
-fn steradian_trig_angle_over_sine_acute(t: f32) -> f32 {
+fn steradian_trig_angle_over_sine_acute_and_slope(t: f32) -> vec2f {
     return steradian_trig_angle_over_sine_24_bits(t);
+}
+fn steradian_trig_angle_over_sine_acute(t: f32) -> f32 {
+    let both = steradian_trig_angle_over_sine_acute_and_slope(t);
+    return both.x;
 }
 fn steradian_trig_angle_over_sine(c: f32, s2: f32) -> f32 {
     var f = steradian_trig_angle_over_sine_acute(1.0 - abs(c));
@@ -142,6 +155,15 @@ fn steradian_trig_angle_over_sine(c: f32, s2: f32) -> f32 {
         f = select(f, steradian_pi() * inverseSqrt(max(s2, steradian_smallest_divisor())) - f, obtuse);
     }
     return f;
+}
+fn steradian_trig_angle_over_sine_and_slope(c: f32, s2: f32) -> vec2f {
+    var both = steradian_trig_angle_over_sine_acute_and_slope(1.0 - abs(c));
+    let obtuse = c < 0.0;
+    if (obtuse) {
+        let f = steradian_pi() * inverseSqrt(max(s2, steradian_smallest_divisor())) - both.x;
+        both = select(both, vec2f(f, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12)), obtuse);
+    }
+    return both;
 }
 fn steradian_trig_atan2(y: f32, x: f32) -> f32 {
     let ax = abs(x);
@@ -158,27 +180,6 @@ fn steradian_trig_atan2(y: f32, x: f32) -> f32 {
 fn steradian_trig_atan2_unwrapped(y: f32, x: f32) -> f32 {
     let angle = steradian_trig_atan2(y, x);
     return select(angle, angle + 2.0 * steradian_pi(), angle < -0.5 * steradian_pi());
-}
-fn steradian_trig_angle_over_sine_slope_24_bits(t: f32) -> f32 {
-    var p = 0.10046541803578893;
-    p = p * t - 0.260733509871977744;
-    p = p * t + 0.35683030933043466;
-    p = p * t - 0.201317986747964946;
-    p = p * t + 0.15029587985498284;
-    p = p * t + 0.080653959220667552;
-    p = p * t + 0.173933404541325117;
-    p = p * t + 0.2665331445100177;
-    p = p * t + 0.33333538143391106;
-    return p;
-}
-fn steradian_trig_angle_over_sine_slope(c: f32, s2: f32, f: f32) -> f32 {
-    let t = 1.0 - abs(c);
-    var slope = steradian_trig_angle_over_sine_slope_24_bits(t);
-    let obtuse = c < 0.0;
-    if (obtuse) {
-        slope = select(slope, (1.0 - c * min(f, 1.0e12)) / max(s2, 1.0e-12), obtuse);
-    }
-    return slope;
 }
 struct SteradianQuarticPoles {
     z1: vec2f,
@@ -232,27 +233,65 @@ fn steradian_polygon_begin() -> SteradianPolygonWalk {
     walk.horizon = vec2f(1.0, 0.0);
     return walk;
 }
-fn steradian_polygon_add_edge(walk: SteradianPolygonWalk, a: vec3f, b: vec3f) -> SteradianPolygonWalk {
-    var next = walk;
+struct SteradianEdgePart {
+    start: vec3f,
+    end: vec3f,
+    start_a: f32,
+    start_b: f32,
+    end_a: f32,
+    end_b: f32,
+    rises: bool,
+    sinks: bool,
+}
+fn steradian_edge_whole(a: vec3f, b: vec3f) -> SteradianEdgePart {
+    var part: SteradianEdgePart;
+    part.start = a;
+    part.end = b;
+    part.start_a = 1.0;
+    part.start_b = 0.0;
+    part.end_a = 0.0;
+    part.end_b = 1.0;
+    part.rises = steradian_mask_none();
+    part.sinks = steradian_mask_none();
+    return part;
+}
+fn steradian_edge_above_horizon(a: vec3f, b: vec3f) -> SteradianEdgePart {
     let a_below = a.z < 0.0;
     let b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        var start = a;
-        var end = b;
-        if (a_below || b_below) {
-            let wa = abs(b.z);
-            let wb = abs(a.z);
-            var p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-            p = p * inverseSqrt(max(dot(p, p), steradian_smallest_square()));
-            let crossing = vec3f(p.x, p.y, 0.0);
-            start = select(a, crossing, a_below);
-            end = select(b, crossing, b_below);  
-            let crosses = (a_below && !b_below) || (b_below && !a_below);
-            let y = select(-p.y, p.y, a_below);  
-            let h = walk.horizon;
-            next.horizon = select(h, vec2f(h.x * p.x - h.y * y, h.x * y + h.y * p.x), crosses);
-        }
-        next.edges = walk.edges + steradian_polygon_edge(start, end);
+    var part = steradian_edge_whole(a, b);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        let wa = abs(b.z);
+        let wb = abs(a.z);
+        let p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
+        let scale = inverseSqrt(max(dot(p, p), steradian_smallest_square()));
+        let crossing = vec3f(p.x * scale, p.y * scale, 0.0);
+        part.start = select(a, crossing, a_below);
+        part.end = select(b, crossing, b_below);  
+        part.start_a = select(1.0, wa * scale, a_below);
+        part.start_b = select(0.0, wb * scale, a_below);
+        part.end_a = select(0.0, wa * scale, b_below);
+        part.end_b = select(1.0, wb * scale, b_below);
+    }
+    return part;
+}
+fn steradian_polygon_add_part(walk: SteradianPolygonWalk, part: SteradianEdgePart) -> SteradianPolygonWalk {
+    var next = walk;
+    let crosses = part.rises || part.sinks;
+    if (crosses) {
+        let crossing = select(part.end, part.start, part.rises);
+        let y = select(-crossing.y, crossing.y, part.rises);  
+        let h = walk.horizon;
+        next.horizon = select(h, vec2f(h.x * crossing.x - h.y * y, h.x * y + h.y * crossing.x), crosses);
+    }
+    next.edges = walk.edges + steradian_polygon_edge(part.start, part.end);
+    return next;
+}
+fn steradian_polygon_add_edge(walk: SteradianPolygonWalk, a: vec3f, b: vec3f) -> SteradianPolygonWalk {
+    var next = walk;
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        next = steradian_polygon_add_part(walk, steradian_edge_above_horizon(a, b));
     }
     return next;
 }
@@ -1869,6 +1908,9 @@ fn steradian_ltc_from_compact(e: vec4f, alpha: f32, view: vec3f) -> SteradianLtc
 fn steradian_ltc_transform(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
     return vec3f(m.xx * v.x + m.xz * v.z, m.yy * v.y, m.zx * v.x + m.zz * v.z);
 }
+fn steradian_ltc_transform_transposed(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
+    return vec3f(m.xx * v.x + m.zx * v.z, m.yy * v.y, m.xz * v.x + m.zz * v.z);
+}
 fn steradian_ltc_lobe(m: SteradianLtcMatrix, l: vec3f) -> f32 {
     let w = steradian_ltc_transform(m, l);
     let d2 = max(dot(w, w), steradian_smallest_length());
@@ -1898,32 +1940,55 @@ fn steradian_ltc_begin() -> SteradianLtcWalk {
 fn steradian_ltc_direction(m: SteradianLtcMatrix, v: vec3f) -> vec3f {
     return steradian_polygon_direction(steradian_ltc_transform(m, v));
 }
-fn steradian_ltc_add_edge(walk: SteradianLtcWalk, m: SteradianLtcMatrix, a: vec3f, b: vec3f, ta: vec3f, tb: vec3f) -> SteradianLtcWalk {
-    var next = walk;
+fn steradian_ltc_part(m: SteradianLtcMatrix, a: vec3f, b: vec3f, ta: vec3f, tb: vec3f) -> SteradianEdgePart {
     let a_below = a.z < 0.0;
     let b_below = b.z < 0.0;
-    if (!a_below || !b_below) {
-        var start = ta;
-        var end = tb;
-        if (a_below || b_below) {
-            let none = vec3f(0.0, 0.0, 0.0);
-            let crosses = (a_below && !b_below) || (b_below && !a_below);
-            let wa = abs(b.z);
-            let wb = abs(a.z);
-            let horizon = vec3f(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
-            let crossing = select(none, steradian_ltc_direction(m, horizon), crosses);
-            start = select(ta, crossing, a_below);
-            end = select(tb, crossing, b_below);
-            if (crosses && walk.anchored) {
-                let closes = crosses && walk.anchored;
-                let departure = select(crossing, walk.anchor, a_below);
-                let arrival = select(walk.anchor, crossing, a_below);
-                next.lobe = steradian_polygon_add_edge(next.lobe, select(none, departure, closes), select(none, arrival, closes));
-            }
-            next.anchor = select(walk.anchor, crossing, crosses && !walk.anchored);
-            next.anchored = walk.anchored || crosses;
+    var part = steradian_edge_whole(ta, tb);
+    part.rises = a_below && !b_below;
+    part.sinks = b_below && !a_below;
+    if (a_below || b_below) {
+        let wa = abs(b.z);
+        let wb = abs(a.z);
+        let horizon = vec3f(a.x * wa + b.x * wb, a.y * wa + b.y * wb, 0.0);
+        let under = steradian_ltc_transform(m, horizon);
+        let crossing = select(vec3f(0.0, 0.0, 0.0), steradian_polygon_direction(under), part.rises || part.sinks);
+        part.start = select(ta, crossing, a_below);
+        part.end = select(tb, crossing, b_below);
+        let under_a = steradian_ltc_transform(m, a);
+        let under_b = steradian_ltc_transform(m, b);
+        let scale = inverseSqrt(max(dot(under, under), steradian_smallest_square()));
+        let of_a = wa * sqrt(dot(under_a, under_a)) * scale;
+        let of_b = wb * sqrt(dot(under_b, under_b)) * scale;
+        part.start_a = select(1.0, of_a, a_below);
+        part.start_b = select(0.0, of_b, a_below);
+        part.end_a = select(0.0, of_a, b_below);
+        part.end_b = select(1.0, of_b, b_below);
+    }
+    return part;
+}
+fn steradian_ltc_close_gap(walk: SteradianLtcWalk, part: SteradianEdgePart) -> SteradianLtcWalk {
+    var next = walk;
+    let crosses = part.rises || part.sinks;
+    if (crosses) {
+        let none = vec3f(0.0, 0.0, 0.0);
+        let crossing = select(part.end, part.start, part.rises);
+        let closes = crosses && walk.anchored;
+        if (closes) {
+            let departure = select(crossing, walk.anchor, part.rises);
+            let arrival = select(walk.anchor, crossing, part.rises);
+            next.lobe = steradian_polygon_add_edge(next.lobe, select(none, departure, closes), select(none, arrival, closes));
         }
-        next.lobe = steradian_polygon_add_edge(next.lobe, start, end);
+        next.anchor = select(walk.anchor, crossing, crosses && !walk.anchored);
+        next.anchored = walk.anchored || crosses;
+    }
+    return next;
+}
+fn steradian_ltc_add_edge(walk: SteradianLtcWalk, m: SteradianLtcMatrix, a: vec3f, b: vec3f, ta: vec3f, tb: vec3f) -> SteradianLtcWalk {
+    var next = walk;
+    if (!(a.z < 0.0) || !(b.z < 0.0)) {
+        let part = steradian_ltc_part(m, a, b, ta, tb);
+        next = steradian_ltc_close_gap(walk, part);
+        next.lobe = steradian_polygon_add_edge(next.lobe, part.start, part.end);
     }
     return next;
 }
@@ -2789,14 +2854,6 @@ fn steradian_ggx_arc(view: SteradianGgxView, a: vec3f, b: vec3f) -> vec3f {
 fn steradian_half_vector_radiance(view: SteradianGgxView, sum: f32, facing: f32) -> f32 {
     return max(sum * facing, 0.0) * steradian_inverse_two_pi() / view.v.z;
 }
-struct SteradianEdgePart {
-    start: vec3f,
-    end: vec3f,
-    start_a: f32,
-    start_b: f32,
-    end_a: f32,
-    end_b: f32,
-}
 struct SteradianEdgeSlopes {
     normal: vec3f,
     by_start: f32,
@@ -2806,60 +2863,46 @@ struct SteradianEdgeSlopesOfBoth {
     normal: vec3f,
     by_start: vec2f,
     by_end: vec2f,
+    turn: vec3f,
+    turn_of_fresnel: vec3f,
 }
-fn steradian_edge_above_horizon(a: vec3f, b: vec3f) -> SteradianEdgePart {
-    let a_below = a.z < 0.0;
-    let b_below = b.z < 0.0;
-    let wa = abs(b.z);
-    let wb = abs(a.z);
-    let p = vec2f(a.x * wa + b.x * wb, a.y * wa + b.y * wb);
-    let scale = inverseSqrt(max(dot(p, p), steradian_smallest_square()));
-    let crossing = vec3f(p.x * scale, p.y * scale, 0.0);
-    var part: SteradianEdgePart;
-    part.start = select(a, crossing, a_below);
-    part.end = select(b, crossing, b_below);
-    part.start_a = select(1.0, wa * scale, a_below);
-    part.start_b = select(0.0, wb * scale, a_below);
-    part.end_a = select(0.0, wa * scale, b_below);
-    part.end_b = select(1.0, wb * scale, b_below);
-    return part;
-}
-fn steradian_edge_irradiance_slopes(start: vec3f, end: vec3f) -> vec2f {
-    let n = cross(start, end - start);
-    let c = dot(start, end);
-    let s2 = dot(n, n);
-    let f = steradian_trig_angle_over_sine(c, s2);
-    let q = steradian_trig_angle_over_sine_slope(c, s2, f);
-    let p = min(f, 1.0e12) - c * q;
-    return vec2f(-0.5 * (start.z * p + end.z * q), -0.5 * (end.z * p + start.z * q));
-}
-fn steradian_edge_slopes_of_part(part: SteradianEdgePart, g: vec2f) -> SteradianEdgeSlopes {
+fn steradian_edge_irradiance_slopes(start: vec3f, end: vec3f) -> SteradianEdgeSlopes {
     var slopes: SteradianEdgeSlopes;
-    slopes.normal = cross(part.start, part.end - part.start);
-    slopes.by_start = part.start_a * g.x + part.end_a * g.y;
-    slopes.by_end = part.start_b * g.x + part.end_b * g.y;
+    slopes.normal = cross(start, end - start);
+    let c = dot(start, end);
+    let half_angle = steradian_trig_angle_over_sine_and_slope(c, dot(slopes.normal, slopes.normal)) * 0.5;
+    let q = half_angle.y;
+    let p = half_angle.x - c * q;
+    slopes.by_start = -(start.z * p + end.z * q);
+    slopes.by_end = -(end.z * p + start.z * q);
     return slopes;
 }
+fn steradian_edge_slopes_of_whole(part: SteradianEdgePart, of_part: SteradianEdgeSlopes) -> SteradianEdgeSlopes {
+    var slopes = of_part;
+    if (part.rises || part.sinks) {
+        slopes.by_start = part.start_a * of_part.by_start + part.end_a * of_part.by_end;
+        slopes.by_end = part.start_b * of_part.by_start + part.end_b * of_part.by_end;
+    }
+    return slopes;
+}
+fn steradian_polygon_part_slopes(part: SteradianEdgePart) -> SteradianEdgeSlopes {
+    return steradian_edge_slopes_of_whole(part, steradian_edge_irradiance_slopes(part.start, part.end));
+}
 fn steradian_polygon_edge_slopes(a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
-    let part = steradian_edge_above_horizon(a, b);
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end));
+    return steradian_polygon_part_slopes(steradian_edge_above_horizon(a, b));
+}
+fn steradian_ltc_part_slopes(part: SteradianEdgePart, lobe_part: SteradianEdgePart) -> SteradianEdgeSlopes {
+    var slopes = steradian_edge_slopes_of_whole(part, steradian_polygon_part_slopes(lobe_part));
+    slopes.normal = slopes.normal * steradian_inverse_pi();
+    return slopes;
 }
 fn steradian_ltc_edge_slopes(m: SteradianLtcMatrix, a: vec3f, b: vec3f) -> SteradianEdgeSlopes {
-    let real_part = steradian_edge_above_horizon(a, b);
-    let start = steradian_ltc_transform(m, real_part.start);
-    let end = steradian_ltc_transform(m, real_part.end);
-    let start_scale = inverseSqrt(max(dot(start, start), steradian_smallest_square()));
-    let end_scale = inverseSqrt(max(dot(end, end), steradian_smallest_square()));
-    let lobe_part = steradian_edge_above_horizon(start * start_scale, end * end_scale);
-    var part = lobe_part;
-    part.start_a = lobe_part.start_a * start_scale * real_part.start_a + lobe_part.start_b * end_scale * real_part.end_a;
-    part.start_b = lobe_part.start_a * start_scale * real_part.start_b + lobe_part.start_b * end_scale * real_part.end_b;
-    part.end_a = lobe_part.end_a * start_scale * real_part.start_a + lobe_part.end_b * end_scale * real_part.end_a;
-    part.end_b = lobe_part.end_a * start_scale * real_part.start_b + lobe_part.end_b * end_scale * real_part.end_b;
-    return steradian_edge_slopes_of_part(part, steradian_edge_irradiance_slopes(part.start, part.end) * steradian_inverse_pi());
+    let part = steradian_ltc_part(m, a, b, steradian_ltc_direction(m, a), steradian_ltc_direction(m, b));
+    return steradian_ltc_part_slopes(part, steradian_edge_above_horizon(part.start, part.end));
 }
-fn steradian_ltc_edge_transform_back(m: SteradianLtcMatrix, g: vec3f) -> vec3f {
-    return vec3f(m.xx * g.x + m.zx * g.z, m.yy * g.y, m.xz * g.x + m.zz * g.z);
+fn steradian_ltc_edge_transform_back(m: SteradianLtcMatrix, v: vec3f, g: vec3f) -> vec3f {
+    let under = steradian_ltc_transform(m, v);
+    return steradian_ltc_transform_transposed(m, g * inverseSqrt(max(dot(under, under), steradian_smallest_square())));
 }
 fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdgePart, arc: SteradianConicArc, smith: f32, nodes: i32, pieces: i32) -> SteradianEdgeSlopesOfBoth {
     let sum = part.start + part.end;
@@ -2871,8 +2914,12 @@ fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdge
     let from_start = !(arc.begin < 0.0);
     let from_end = !(arc.end > 0.0);
     let base = vec2f(select(1.0, half_cosine, from_start || from_end), select(select(0.0, half_sine, from_end), -half_sine, from_start));
+    let n = cross(part.start, chord);
+    let across = n * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
     var even = vec2f(0.0, 0.0);
     var odd = vec2f(0.0, 0.0);
+    var turn = vec3f(0.0, 0.0, 0.0);
+    var turn_of_fresnel = vec3f(0.0, 0.0, 0.0);
     let total = arc.sweep.x + arc.sweep.y;
     let share = 1.0 / f32(pieces);
     for (var i: i32 = 0; i < pieces; i++) {
@@ -2887,7 +2934,12 @@ fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdge
             let l = p * (2.0 * along / p2) - view.v;
             let g = 1.0 + smith * (steradian_ggx_shadowing(l, view.v, view.ax, view.ay) - 1.0);
             let w = (p2 / u2) * (along / u2) * g * rule.y * share * total / max(node.density, steradian_smallest_divisor());
-            let both = vec2f(w, w * steradian_fresnel_schlick(0.0, 1.0, along * inverseSqrt(p2)));
+            let p_inverse = inverseSqrt(p2);
+            let both = vec2f(w, w * steradian_fresnel_schlick(0.0, 1.0, along * p_inverse));
+            let h = p * p_inverse;
+            let moved = h * (2.0 * dot(across, h)) - across;
+            turn = turn + moved * both.x;
+            turn_of_fresnel = turn_of_fresnel + moved * both.y;
             let t = node.tau * arc.scale;
             let d = 1.0 / (1.0 + t * t);
             let angle = steradian_complex_product(base, vec2f((1.0 - t * t) * d, 2.0 * t * d));
@@ -2895,15 +2947,17 @@ fn steradian_ggx_edge_slopes_of_part(view: SteradianGgxView, part: SteradianEdge
             odd = odd + both * (angle.y * chord_inverse);
         }
     }
-    let n = cross(part.start, chord);
-    var scale = -arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z) * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
-    scale = select(0.0, scale, arc.end > arc.begin);
+    var density = arc.scale * steradian_inverse_pi() / (view.ax * view.ay * view.v.z);
+    density = select(0.0, density, arc.end > arc.begin);
+    let scale = -density * inverseSqrt(max(dot(n, n), steradian_smallest_divisor()));
     let by_part_start = (even - odd) * scale;
     let by_part_end = (even + odd) * scale;
     var slopes: SteradianEdgeSlopesOfBoth;
     slopes.normal = n;
     slopes.by_start = by_part_start * part.start_a + by_part_end * part.end_a;
     slopes.by_end = by_part_start * part.start_b + by_part_end * part.end_b;
+    slopes.turn = turn * density;
+    slopes.turn_of_fresnel = turn_of_fresnel * density;
     return slopes;
 }
 fn steradian_ggx_edge_slopes(view: SteradianGgxView, a: vec3f, b: vec3f, smith: f32, nodes: i32, pieces: i32) -> SteradianEdgeSlopesOfBoth {
