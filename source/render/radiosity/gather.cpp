@@ -146,7 +146,7 @@ bool Gather::is_within(const Lit& lit) const {
          });
 }
 
-// What bright sides send to each surface.
+// The light of bright sides at each surface.
 std::array<FittedValue, Gather::kLanes> Gather::bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample,
                                                        std::size_t level) const {
   std::array<FittedValue, kLanes> fitted{};
