@@ -308,6 +308,7 @@ struct DeviceFrame::Parts {
       };
       stats.shadow_fallback = share(counts.fallback, points);
       stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
+      if (shadows) stats.shadow_pairs = shadows->pairs();
       if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
       if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
     }
@@ -377,9 +378,11 @@ const std::string& DeviceFrame::lacks() const { return parts_->lacks; }
 Picture DeviceFrame::render(RenderStats* stats) {
   if (!lacks().empty()) throw UsageError("--backend vulkan", "cannot render all of this picture: " + lacks(), "use --backend cpu");
   const auto start = Clock::now();
+  const std::size_t submitted = parts_->device->submissions();
   Picture picture = parts_->render();
   if (stats != nullptr) {
     parts_->report(*stats);
+    stats->submissions = parts_->device->submissions() - submitted;
     stats->total_ms = ms_since(start);
   }
   return picture;

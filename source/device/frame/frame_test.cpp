@@ -224,6 +224,23 @@ TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   EXPECT_EQ(by_host(213), 1);
 }
 
+// Most pairs of a pixel and a light see none of their group's edges, or few of them. Many triangles take the last space.
+TEST_F(VulkanFrame, SeesAtOnceWhatNoEdgeOccludes) {
+  RenderOptions options = small("ltc-compact");
+  options.backend = Backend::vulkan;
+  options.shadows = Shadows::on;
+  RenderStats stats;
+  render(scene_of("room"), options, &stats);
+  ASSERT_EQ(stats.shadow_pairs.size(), 5u);
+  EXPECT_GT(stats.shadow_pairs[0], 0u);
+  EXPECT_GT(stats.shadow_pairs[1], 0u);
+  EXPECT_EQ(stats.shadow_pairs[4], 0u);
+  EXPECT_GT(stats.submissions, 0u);
+  render(under_triangles(212, kSquare, kFlatBeforeSquare), options, &stats);
+  EXPECT_EQ(stats.shadow_pairs[1], 0u);
+  EXPECT_GT(stats.shadow_pairs[4], 0u);
+}
+
 // Holes between needles have four pieces each. They exceed the first space with 12 needles, the second one with 20, all with 32. Behind a
 // plate that leaves few pieces, the crossings of 160 needles exceed all spaces (kSegments of shadows.cpp).
 TEST_F(VulkanFrame, GoesOnToMoreSpaceForPiecesAndCrossings) {
