@@ -99,7 +99,7 @@ struct Job {
 }  // namespace
 
 std::string lack_of_devices(const Scene& scene, const RenderOptions& options) {
-  if (options.bounces != 0) return "it has no --bounces";
+  if (options.bounces != 0 && options.bound) return "it has no --bound";
   if (options.time_limit > 0) return "it has no --time-limit";
   if (options.lights == LightSum::tree) return "it has no --lights tree";
   return choose_method(scene, options).estimates() ? "it has no method " + options.method : std::string();
@@ -286,7 +286,8 @@ struct DeviceFrame::Parts {
       for (int tile = first; tile < std::min(first + batch, count); ++tile) jobs.push_back({tile, nullptr, false});
       const std::uint64_t now_done = done + jobs.size();
       for (int layer = 0; !jobs.empty(); ++layer) jobs = light(std::move(jobs), sample, layer, picture);
-      while (options.progress && done < now_done)
+      // With bounces the host's work tells the progress.
+      while (options.progress && options.bounces == 0 && done < now_done)
         options.progress(++done, static_cast<std::uint64_t>(count) * static_cast<std::uint64_t>(options.aa));
     }
     if (bounced && !stopped()) arena.execute([&] { bounced->add_to(picture); });

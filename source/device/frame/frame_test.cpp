@@ -299,6 +299,29 @@ TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
   }
 }
 
+// The device has direct light. The host gathers the light between surfaces meanwhile, as it does for its own pictures.
+TEST_F(VulkanFrame, AddsTheLightBetweenSurfaces) {
+  RenderOptions options = small("auto");
+  options.bounces = kAllBounces;
+  options.bounce_preview = true;
+  for (const char* name : {"room", "ring"}) {
+    const Scene scene = scene_of(name);
+    expect_same(std::string(name) + ", bounces", scene, options);
+    options.backend = Backend::cpu;
+    const Picture cpu = render(scene, options);
+    options.backend = Backend::vulkan;
+    RenderStats stats;
+    const Picture device = render(scene, options, &stats);
+    EXPECT_FALSE(stats.device.empty());
+    EXPECT_GT(stats.patches, 0u);
+    EXPECT_EQ(device.layers.at("indirect"), cpu.layers.at("indirect")) << name;
+    EXPECT_EQ(device.layers.size(), cpu.layers.size()) << name;
+  }
+  EXPECT_EQ(lack_of_devices(scene_of("room"), options), "");
+  options.bound = true;
+  EXPECT_EQ(lack_of_devices(scene_of("room"), options), "it has no --bound");
+}
+
 // The search for visible parts, its rays and the lighting are one submission. A second one adds the light of points that are left to the
 // host: with 32 needles, points have more pieces than a subgroup has space for. With 20 needles, the parts of the first frame exceed the
 // buffer. So it takes one submission more than the next frame, and has the same bytes. Its second light leaves thin regions to the host.
