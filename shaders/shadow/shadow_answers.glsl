@@ -11,7 +11,7 @@ layout(std430, binding = 2) buffer Answers {
     uint lists;
     uint seen_at_once;
     uint unused;
-    uint points_of[kShadowSpaces];
+    uint points_of[8];
     uvec4 spaces[kShadowSpaces];
     uvec4 answers[];
 };

@@ -8,10 +8,13 @@
 #include "shadow_layout.glsl"
 
 layout(local_size_x = 64) in;               // kGroupPoints
-layout(constant_id = 0) const int FEW = 1;  // points of a work group of the first space
-layout(constant_id = 1) const int SPACE_0 = 32;
-layout(constant_id = 2) const int SPACE_1 = 96;
-layout(constant_id = 3) const int SPACE_2 = 208;
+// Capacities of the spaces, and points of a work group of the first two.
+layout(constant_id = 0) const int SPACE_0 = 16;
+layout(constant_id = 1) const int SPACE_1 = 48;
+layout(constant_id = 2) const int SPACE_2 = 96;
+layout(constant_id = 3) const int SPACE_3 = 208;
+layout(constant_id = 4) const int TOGETHER_0 = 1;
+layout(constant_id = 5) const int TOGETHER_1 = 1;
 
 #include "prelude/prelude.glsl"
 #include "math/constants.glsl"
@@ -76,8 +79,9 @@ void main() {
         return;
     }
     int segments = int(count + point.triangles + point.corners.count) + 2;  // two horizons
-    bool few = segments <= SPACE_0 && count <= uint(kMostListed) && point.triangles == 0u;
-    uint space = few ? 0u : segments <= SPACE_1 ? 1u : segments <= SPACE_2 ? 2u : 3u;
-    if (space == 0u) answers[uint(kShadowAnswer) * point.answer + 1u].x = count;
-    go_to_space(space, name, uint(FEW));
+    // Listed edges have no sections beside them.
+    bool few = segments <= SPACE_1 && count <= uint(kMostListed) && point.triangles == 0u;
+    uint space = few ? (segments <= SPACE_0 ? 0u : 1u) : segments <= SPACE_2 ? 2u : segments <= SPACE_3 ? 3u : 4u;
+    if (few) answers[uint(kShadowAnswer) * point.answer + 1u].x = count;
+    go_to_space(space, name, uint(space == 0u ? TOGETHER_0 : space == 1u ? TOGETHER_1 : 1));
 }

@@ -10,6 +10,7 @@
 layout(constant_id = 0) const int SPACE = 32;  // for segments, for pieces, and for the crossings of LANES segments
 
 layout(std430, binding = 1) writeonly buffer Parts { vec4 parts[]; };
+layout(constant_id = 4) const int TOGETHER = 1;  // points of a work group of the next space
 layout(push_constant) uniform Push { uint space; };
 
 #include "prelude/prelude.glsl"
@@ -108,7 +109,7 @@ Record write_polygon(View view, Corners corners, uint at) {
 }
 
 void main() {
-    // The first space has few segments a point, so that a subgroup serves several points.
+    // The first spaces have few segments a point, so that a subgroup serves several points.
     uint place_of_point = gl_WorkGroupID.x * POINTS + uint(MINE);
     if (gl_NumSubgroups > 1u || place_of_point >= points_of[space]) return;
     uint name = answers[spaces[space].w + place_of_point / 4u][place_of_point % 4u];
@@ -158,7 +159,7 @@ void main() {
     }
     if (LANE > 0u) return;
     if (too_much && space + 1u < uint(kShadowSpaces))
-        go_to_space(space + 1u, name, 1u);
+        go_to_space(space + 1u, name, uint(TOGETHER));
     else
         write_answer(point, place.xy, too_much ? uint(kAskHost) : sees);
 }

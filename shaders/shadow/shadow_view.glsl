@@ -115,11 +115,11 @@ Point point_of(uint name) {
     return point;
 }
 
-// Appends a point to a space's list. few: points of a work group of the first space.
-void go_to_space(uint space, uint name, uint few) {
+// Appends a point to a space's list, whose work groups serve `together` points each.
+void go_to_space(uint space, uint name, uint together) {
     uint place = atomicAdd(points_of[space], 1u);
     answers[spaces[space].w + place / 4u][place % 4u] = name;
-    if (space > 0u || place % few == 0u) atomicAdd(spaces[space].x, 1u);
+    if (place % together == 0u) atomicAdd(spaces[space].x, 1u);
 }
 
 // Writes the answer: what the point sees if the ray to a place of the light, in cells, is free.

@@ -19,17 +19,17 @@ constexpr std::size_t kMostGroups = 65535, kMostPoints = 65535, kMostLights = 16
                       kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
 constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
-// (docs/theory/device.md). In the first one a subgroup serves several points. Bytes of a segment and a piece in shared memory:
+// (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes of a segment and a piece in shared memory:
 // shaders/shadow/shadow_segments.glsl, shaders/shadow/shadow_count.glsl.
-constexpr std::array<std::size_t, kShadowSpaces> kSegments = {32, 96, 208, 640};
+constexpr std::array<std::size_t, kShadowSpaces> kSegments = {16, 48, 96, 208, 640};
 constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 48;
-static_assert(static_cast<std::size_t>(kMostListed) < kSegments.front() && kMostListed == 4 * kListVectors);
+static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] && kMostListed == 4 * kListVectors);
 
 // Layout of Answers in shaders/shadow/shadow_parts.comp.
 struct AnswersHead {
   std::uint32_t parts_begin, parts_used, parts_room, left;
   std::uint32_t found, lists, seen_at_once, unused;
-  std::uint32_t points_of[kShadowSpaces];
+  std::uint32_t points_of[8];
   struct Space {
     std::uint32_t groups, one_y, one_z, first_name;
   } spaces[kShadowSpaces];
@@ -44,10 +44,11 @@ static_assert(sizeof(AnswersHead) == kAnswersHead * kVector && sizeof(ShadowAnsw
 
 constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow/shadow_rays.comp
 
-// Lanes of a subgroup that serve a point of the first space.
-int lanes_of_few(const DeviceInfo& device) {
-  constexpr std::uint32_t kPointsOfSubgroup = 4, kLeastLanes = 4;
-  return static_cast<int>(std::min(device.subgroup, std::max(device.subgroup / kPointsOfSubgroup, kLeastLanes)));
+// Lanes of a subgroup that serve a point of a space.
+int lanes_of(const DeviceInfo& device, std::size_t space) {
+  constexpr std::uint32_t kTogether[] = {8, 4}, kLeastLanes = 4;
+  const std::uint32_t lanes = space < kFewSpaces ? std::max(device.subgroup / kTogether[space], kLeastLanes) : device.subgroup;
+  return static_cast<int>(std::min(device.subgroup, lanes));
 }
 
 std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
@@ -71,7 +72,7 @@ DeviceShadows::Kept::Kept(const Device& d)
       states(d) {}
 
 bool DeviceShadows::has(const DeviceInfo& device) {
-  return device.adds && device.int64 && device.subgroup > 1 && device.subgroup <= kSegments[1] &&
+  return device.adds && device.int64 && device.subgroup > 1 && device.subgroup <= kSegments[kFewSpaces] &&
          device.shared_memory >= kLeastSegments * kSegmentBytes;
 }
 
@@ -153,18 +154,22 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
   const std::size_t count = begins_.back().point;
   if (count > 0) {
     const DeviceInfo& device = kept_.device.info();
-    const int subgroup = static_cast<int>(device.subgroup), few = lanes_of_few(device);
-    std::array<int, kSegments.size()> spaces;
-    for (std::size_t i = 0; i < kSegments.size(); ++i)
+    const int subgroup = static_cast<int>(device.subgroup);
+    std::array<int, kSegments.size()> spaces, together;
+    for (std::size_t i = 0; i < kSegments.size(); ++i) {
       spaces[i] = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i]));
-    dispatches.push_back({.pipeline = kept_.program.pipeline(0, {subgroup / few, spaces[0], spaces[1], spaces[2]}),
+      together[i] = subgroup / lanes_of(device, i);
+    }
+    dispatches.push_back({.pipeline = kept_.program.pipeline(0, {spaces[0], spaces[1], spaces[2], spaces[3], together[0], together[1]}),
                           .groups_x = number(begins_.back().group),
                           .units = looks_});
-    for (std::size_t i = 0; i < kSegments.size(); ++i)
-      dispatches.push_back({.pipeline = kept_.program.pipeline(1, {spaces[i], i == 0 ? few : subgroup, subgroup, i == 0}),
+    for (std::size_t i = 0; i < kSegments.size(); ++i) {
+      const int next = i + 1 < kSegments.size() ? together[i + 1] : 1;
+      dispatches.push_back({.pipeline = kept_.program.pipeline(1, {spaces[i], lanes_of(device, i), subgroup, i < kFewSpaces, next}),
                             .push = number(i),
                             .groups = &kept_.answers.get(),
                             .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i)});
+    }
     dispatches.push_back({kept_.program.pipeline(2), number((count + kThreads - 1) / kThreads), 1, number(count)});
   }
   kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get(), &gates},
