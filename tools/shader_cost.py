@@ -37,7 +37,6 @@ PICTURES = [
 SIZE = "640x360"
 GROUP = 64  # threads of a work group
 MODEL_SIZE = "1280x720"
-COUNT_SIZE, COUNT_SCALE = "320x180", 16  # the software device counts fewer pixels
 # Lanes and clock [Hz] of the model, from data sheets.
 PARTS = [("RX 7900 XTX", 6144, 2.5e9), ("RTX 4060", 3072, 2.46e9), ("Steam Deck", 512, 1.6e9)]
 # Bytes that a unit of the model reads and writes: vectors of 16 bytes of a pixel's surface and radiance (shaders/direct.glsl, resolve.comp).
@@ -160,11 +159,11 @@ def count_pairs(program, arguments):
     """RenderStats::shadow_pairs of a picture on the software device, which runs what the others compile."""
     with tempfile.TemporaryDirectory() as folder:
         told = Path(folder) / "stats.json"
-        made = subprocess.run([program, "render", *arguments, "-o", str(Path(folder) / "picture.png"), "--size", COUNT_SIZE, "--backend", "vulkan",
+        made = subprocess.run([program, "render", *arguments, "-o", str(Path(folder) / "picture.png"), "--size", MODEL_SIZE, "--backend", "vulkan",
                                "--device", "llvmpipe", "--stats", str(told)], cwd=ROOT, capture_output=True, text=True)
         if made.returncode != 0:
             sys.exit(f"shader_cost: {' '.join(arguments)} on llvmpipe: exit {made.returncode}: {made.stderr.strip()}")
-        return [COUNT_SCALE * count for count in json.loads(told.read_text())["shadow_pairs"]]
+        return json.loads(told.read_text())["shadow_pairs"]
 
 
 def take_pairs(made, pairs):
