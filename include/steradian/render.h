@@ -128,7 +128,10 @@ struct RenderStats {
   double exact_tiles = 1;               // fraction of the tiles that are exact, where time was limited
   double estimated_shadow_error = 0;    // estimated rms error of the others over the picture's mean light
   double shadow_on_host = 0;            // fraction of a device's pairs that see a part of the light for which the host found that part
-  std::vector<std::string> warnings;    // omissions of the method, a sentence each
+  // A device's pairs of a surface and a light whose edges it has searched: pairs without a segment, then pairs in each space of segments.
+  std::vector<std::uint64_t> shadow_pairs;
+  std::uint64_t submissions = 0;      // of work to the device
+  std::vector<std::string> warnings;  // omissions of the method, a sentence each
 };
 
 // Renders a scene. Throws Error for a missing camera and for a method that does not serve a lobe of the scene. The same scene, options and

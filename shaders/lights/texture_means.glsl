@@ -66,16 +66,19 @@ Mean mean_over_cells(LightTexture t, LtcTextureCellView view) {
     mean.found = false;
     if (!ltc_texture_cell_resolves(view, t.finest, t.bounds)) return mean;
     vec3 expected = tree_cell_at(t, 0).cell.mean;
-    LtcTextureCellSeen seen = ltc_texture_cell_seen(tree_cell_at(t, 0).cell, view, expected);
-    float threshold = seen.error;
+    LtcTextureCellSeen seen;
+    float threshold = uintBitsToFloat(0x7f800000u);  // infinite
     bool over = false;
     bool closing = false;
-    for (int turn = 0; turn < kTexturePasses; turn++) {
-        float allowed = kTextureTolerance * ltc_texture_cell_luminance(seen.radiance);
-        if (!(seen.error > allowed)) break;
-        float share = allowed / seen.error;
-        threshold *= over ? kTextureBack : clamp(share * share * kTextureMargin, kTextureSteepest, 0.5);
-        if (seen.weight > 1.0e-37) expected = seen.radiance / seen.weight;
+    for (int turn = 0; turn <= kTexturePasses; turn++) {  // the first one looks at the whole light
+        if (turn > 0) {
+            float allowed = kTextureTolerance * ltc_texture_cell_luminance(seen.radiance);
+            if (!(seen.error > allowed)) break;
+            if (turn == 1) threshold = seen.error;
+            float share = allowed / seen.error;
+            threshold *= over ? kTextureBack : clamp(share * share * kTextureMargin, kTextureSteepest, 0.5);
+            if (seen.weight > 1.0e-37) expected = seen.radiance / seen.weight;
+        }
         CellSums sums = sum_cells(t, view, expected, threshold);
         if (sums.too_deep) return mean;
         over = sums.splits > kTextureSplits;
@@ -114,13 +117,17 @@ vec3 mean_by_look_up(Light light, LightTexture t, LtcTextureCellView view, mat3 
     vec2 slope = vec2(ltc_transform(view.transform_inverse, view.x).z, ltc_transform(view.transform_inverse, view.y).z) / z;
     float widest = kTextureWidest * sqrt(t.covariance.x + t.covariance.z);
     vec4 sum = vec4(0.0);
-    for (int k = 0; k < 2; k++) {
-        LtcTextureEllipse g = ltc_texture_gaussian(ellipse, k == 0 ? kTextureNarrow : kTextureWide, widest);
-        vec2 place = ltc_texture_place(g, hit - t.middle, slope, t.covariance);
-        vec4 here = under_gaussian(t, hit, g);
-        vec4 there = under_gaussian(t, t.middle + place, g);
-        float weight = k == 0 ? kTextureNarrowWeight : 1.0 - kTextureNarrowWeight;
-        sum += there.w > kTextureLeastCoverage ? there * (weight * here.w / there.w) : here * weight;
+    vec4 here = vec4(0.0);
+    for (int k = 0; k < 4; k++) {  // one loop, so that the code of a look-up is there once
+        bool narrow = k < 2;
+        LtcTextureEllipse g = ltc_texture_gaussian(ellipse, narrow ? kTextureNarrow : kTextureWide, widest);
+        vec2 place = (k & 1) == 0 ? hit : t.middle + ltc_texture_place(g, hit - t.middle, slope, t.covariance);
+        vec4 there = under_gaussian(t, place, g);
+        float weight = narrow ? kTextureNarrowWeight : 1.0 - kTextureNarrowWeight;
+        if ((k & 1) == 0)
+            here = there;
+        else
+            sum += there.w > kTextureLeastCoverage ? there * (weight * here.w / there.w) : here * weight;
     }
     return sum.w > kTextureLeastCoverage ? sum.xyz / sum.w : t.mean;
 }

@@ -216,7 +216,7 @@ GgxCubature cubature_with(CubatureSums sums, GgxView view, vec3 e, float facing)
 vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, vec3 v, float ax, float ay) {
     float facing = seen.reversed ? -1.0 : 1.0;
     vec3 e = vec3(0.0);
-    CubatureSums sums = CubatureSums(0.0, 0.0, vec2(0.0), vec2(0.0), vec2(0.0));
+    CubatureSums sums = CubatureSums(0.0, 0.0, vec2(0.0), vec2(1.0e30), vec2(-1.0e30));
     int count = clipped_length(light);
     for (int turn = 0; turn < (DRAFT || EXACT ? 1 : 2); turn++) {
         begin_clip(facing);
@@ -233,12 +233,14 @@ vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, vec3 v, float ax, float
                 }
             } while (!UNCUT && next_arc());
         }
-        if (turn == 0) sums = sums_of(ggx_cubature_begin(ggx_view(v, ax, ay), e, SMITH, facing));
     }
     GgxView view = ggx_view(v, ax, ay);
     if (EXACT) return vec2(ggx_unshadowed(view, e * facing), 0.0);
     if (DRAFT) return ggx_draft(view, e, SMITH, facing);
-    return ggx_cubature_finish(cubature_with(sums, view, e, facing));
+    GgxCubature c = cubature_with(sums, view, e, facing);
+    c.lowest = min(c.lowest, c.at_centre);
+    c.highest = max(c.highest, c.at_centre);
+    return ggx_cubature_finish(c);
 }
 #else
 vec2 representative_point(Light light, Seen seen, mat3 frame, vec3 p, vec3 view, float alpha) {

@@ -74,8 +74,11 @@ float entry_before(Round r, vec2 unit, vec2 v) {
     return min(max(outside2(unit), 0.0) / max(dot(n, n), smallest_divisor()), 1.0);
 }
 
-// A round blocker that overlaps the light. The nearer one of the two changes only at a crossing that is visible on both.
-void take_lens(uint at, uint light, vec2 axis) {
+const Interval kNone = Interval(1.0, 0.0);
+
+// A round blocker that overlaps the light. The nearer one of the two changes only at a crossing that is visible on both. Returns what the
+// blocker takes from crossing i on.
+Interval taken_by_lens(uint at, uint light, vec2 axis, int i) {
     Round r = round_at(at);
     int count = int(lists[at + 10u]);
     uint crossings = at + 11u;
@@ -84,20 +87,21 @@ void take_lens(uint at, uint light, vec2 axis) {
     vec2 q = along_axis(axis, tangent_direction(r, unit, -1.0));
     float first = slope(p.x, p.y, -kBeyond);
     float last = slope(q.x, q.y, kBeyond);
-    if (!(outside2(unit) > 0.0 && (p.x > 1.0e-12 || q.x > 1.0e-12) && first < last)) return;
+    if (!(outside2(unit) > 0.0 && (p.x > 1.0e-12 || q.x > 1.0e-12) && first < last)) return kNone;
     bool seen[4];
     float places[4];
     bool any_seen = false;
-    for (int i = 0; i < count; i++) {
-        uint c = crossings + uint(i * kCrossing);
+    for (int k = 0; k < count; k++) {
+        uint c = crossings + uint(k * kCrossing);
         vec2 v = pair_of_numbers(c) - eye;
         // One that rounding hides counts: it is at the end of what is visible, and decides the order there.
         float slack = 1.0e-5 * (abs(v.x) + abs(v.y));
-        seen[i] = dot(v, pair_of_numbers(c + 2u)) < slack && dot(v, pair_of_numbers(c + 4u)) < slack;
+        seen[k] = dot(v, pair_of_numbers(c + 2u)) < slack && dot(v, pair_of_numbers(c + 4u)) < slack;
         vec2 along = along_axis(axis, v);
-        places[i] = slope(along.x, along.y, 0.0);
-        any_seen = any_seen || seen[i];
+        places[k] = slope(along.x, along.y, 0.0);
+        any_seen = any_seen || seen[k];
     }
+    if (any_seen ? !seen[i] : i > 0) return kNone;
     if (!any_seen) {
         // The order is the same everywhere, so also towards the first crossing.
         vec2 v = pair_of_numbers(crossings) - eye;
@@ -106,47 +110,46 @@ void take_lens(uint at, uint light, vec2 axis) {
             Round own = round_at(light + uint(kLightShape));
             light_entry = entry_before(own, to_unit(own, eye - own.center), v);
         }
-        if (!(entry_before(r, unit, v) < light_entry)) return;
+        if (!(entry_before(r, unit, v) < light_entry)) return kNone;
     }
     // The blocker is in front from each crossing at which that begins, up to the next at which it ends. From its tangent, it is in front up
     // to a crossing at which that ends, if none has begun before.
-    for (int i = 0; i < (any_seen ? count : 1); i++) {
-        if (any_seen && !seen[i]) continue;
-        bool begins_here = lists[crossings + uint(i * kCrossing) + 6u] == 1u;
-        float from = begins_here && any_seen ? places[i] : first;
-        float to = begins_here || !any_seen ? last : places[i];
-        bool counts = true;
-        for (int k = 0; k < count; k++) {
-            if (k == i || !seen[k]) continue;
-            bool other = lists[crossings + uint(k * kCrossing) + 6u] == 1u;
-            if (begins_here && !other && places[k] > places[i]) to = min(to, places[k]);
-            if (!begins_here && other && places[k] < places[i]) counts = false;
-        }
-        if (counts) take(from, to);
+    bool begins_here = lists[crossings + uint(i * kCrossing) + 6u] == 1u;
+    float from = begins_here && any_seen ? places[i] : first;
+    float to = begins_here || !any_seen ? last : places[i];
+    bool counts = true;
+    for (int k = 0; k < count; k++) {
+        if (k == i || !seen[k]) continue;
+        bool other = lists[crossings + uint(k * kCrossing) + 6u] == 1u;
+        if (begins_here && !other && places[k] > places[i]) to = min(to, places[k]);
+        if (!begins_here && other && places[k] < places[i]) counts = false;
     }
+    return counts ? Interval(from, to) : kNone;
 }
 
-// Keeps only the directions in which a spot's light arrives.
-void cut_spot(uint at, vec2 axis) {
+// Keeps only the directions in which a spot's light arrives. Returns directions between them in which it does not.
+Interval cut_spot(uint at, vec2 axis) {
     uint kind = lists[at];
-    if (kind == 0u) return;
+    if (kind == 0u) return kNone;
     vec2 l = along_axis(axis, pair_of_numbers(at + 1u));
     vec2 h = along_axis(axis, pair_of_numbers(at + 3u));
     bool either = l.x > 1.0e-12 || h.x > 1.0e-12;
     if (kind == 2u) {
         // The other directions are less than half a turn, from high to low.
-        if (either) take(slope(h.x, h.y, -kBeyond), slope(l.x, l.y, kBeyond));
-        return;
+        return either ? Interval(slope(h.x, h.y, -kBeyond), slope(l.x, l.y, kBeyond)) : kNone;
     }
     low = max(low, slope(l.x, l.y, -kBeyond));
     high = either ? min(high, slope(h.x, h.y, kBeyond)) : low;
+    return kNone;
 }
 
 // Number of entries in a list of a light. The lists stand in the order of these counts.
 uint length_of_list(uint light, int list) { return lists[light + uint(kLightCounts + list)]; }
 
+const int kLastList = 11;
+
 void cut_blockers(uint light, vec2 axis) {
-    cut_spot(light + uint(kLightSpot), axis);
+    Interval next = cut_spot(light + uint(kLightSpot), axis);
     uint at = light + uint(kLight) + length_of_list(light, 0) * uint(kPart);
     for (uint n = length_of_list(light, 1); n > 0u; n--) {
         low = max(low, slope_to(axis, pair_of_numbers(at)));
@@ -167,16 +170,18 @@ void cut_blockers(uint light, vec2 axis) {
     // One loop handles the lists one after another, so that drivers compile a single `take`.
     int list = 5;
     uint left = length_of_list(light, list);
-    while (list < 11 && low < high) {
+    int crossing = 0;
+    do {
+        take(next.from, next.to);
+        next = kNone;
         if (left == 0u) {
             ++list;
-            left = length_of_list(light, list);
+            left = list <= kLastList ? length_of_list(light, list) : 0u;
             continue;
         }
         --left;
-        Interval taken_here = Interval(1.0, 0.0);
         if (list == 5) {
-            taken_here = Interval(disk_tangent(axis, at, -1.0), disk_tangent(axis, at, 1.0));
+            next = Interval(disk_tangent(axis, at, -1.0), disk_tangent(axis, at, 1.0));
             at += uint(kDiskBlocker);
         } else if (list == 6 || list == 7) {
             uint first_count = lists[at];
@@ -184,25 +189,29 @@ void cut_blockers(uint light, vec2 axis) {
             uint v = at + uint(list == 6 ? kSpan : kBody);
             vec2 p = along_axis(axis, outermost(v, first_count, -1.0));
             vec2 q = along_axis(axis, outermost(v + first_count * uint(kVertex), last_count, 1.0));
-            if (list == 6 || lists[at + 2u] == 0u || is_nearer(at + 3u)) taken_here = between(p, q);
+            if (list == 6 || lists[at + 2u] == 0u || is_nearer(at + 3u)) next = between(p, q);
             at = v + (first_count + last_count) * uint(kVertex);
         } else if (list == 8 || list == 9) {
             vec2 p = along_axis(axis, pair_of_numbers(at) - eye);
             vec2 q = along_axis(axis, pair_of_numbers(at + 2u) - eye);
-            if (list == 8 || is_nearer(at + 4u)) taken_here = between_in_any_order(p, q);
+            if (list == 8 || is_nearer(at + 4u)) next = between_in_any_order(p, q);
             at += uint(list == 8 ? kChord : kDeep);
-        } else {
+        } else if (list == 10) {
             Round r = round_at(at);
             vec2 unit = to_unit(r, eye - r.center);
             vec2 p = along_axis(axis, tangent_direction(r, unit, 1.0));
             vec2 q = along_axis(axis, tangent_direction(r, unit, -1.0));
-            if (outside2(unit) > 0.0 && is_nearer(at + 10u)) taken_here = between_in_any_order(p, q);
+            if (outside2(unit) > 0.0 && is_nearer(at + 10u)) next = between_in_any_order(p, q);
             at += uint(kRound);
+        } else {
+            next = taken_by_lens(at, light, axis, crossing);
+            ++crossing;
+            if (crossing < int(lists[at + 10u])) {
+                ++left;
+            } else {
+                crossing = 0;
+                at += uint(kLens);
+            }
         }
-        take(taken_here.from, taken_here.to);
-    }
-    for (uint n = length_of_list(light, 11); n > 0u && low < high; n--) {
-        take_lens(at, light, axis);
-        at += uint(kLens);
-    }
+    } while (list <= kLastList && low < high);
 }

@@ -1,11 +1,26 @@
 // Disks, edges and runs of edges by the general rules (source/plane/frame/tiles/tile_pack.cpp).
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-vec3 disk_light(uint at) {
-    DiskView view = disk_view(pair_of_numbers(at + uint(kLightX)), number(at + uint(kLightRadius)), number(at + uint(kLightInverseRange)));
+// Slopes from an axis at which a light is, before anything occludes it.
+struct Opening {
+    vec2 axis;
+    float from;
+    float to;
+};
+
+DiskView disk_seen(uint at) {
+    return disk_view(pair_of_numbers(at + uint(kLightX)), number(at + uint(kLightRadius)), number(at + uint(kLightInverseRange)));
+}
+
+Opening disk_opening(uint at) {
+    DiskView view = disk_seen(at);
     float reach = disk_slope(view, view.reach);
-    open_cut(-reach, reach);
-    cut_blockers(at, view.to);
+    return Opening(view.to, -reach, reach);
+}
+
+// Light of a disk, when the blockers are cut out.
+vec3 disk_light(uint at) {
+    DiskView view = disk_seen(at);
     float sum = 0.0;
     float from = low;
     for (int k = 0; k <= taken; k++) {
@@ -183,12 +198,9 @@ vec3 part_light(uint part, vec2 run_axis, Emission emission, float inverse_range
     return colour_at(part + 6u) * sum.x + colour_at(part + 9u) * sum.y;
 }
 
-// An edge that emits equally in all directions and at all distances has no parts. Neither has a chord that replaces such edges.
-vec3 edge_light(uint at) {
-    float inverse_range = number(at + uint(kLightInverseRange));
-    uint parts = length_of_list(at, 0);
+Opening edge_opening(uint at) {
     Edge e = edge_of(pair_of_numbers(at + uint(kLightX)), pair_of_numbers(at + uint(kLightNormal)), number(at + uint(kLightBegin)),
-                     inverse_range);
+                     number(at + uint(kLightInverseRange)));
     vec2 axis = -e.normal;
     float from = slope_along(e, e.begin);
     float to = slope_along(e, number(at + uint(kLightEnd)));
@@ -209,32 +221,51 @@ vec3 edge_light(uint at) {
     } else if (!(e.d > 1.0e-6)) {
         to = from;
     }
-    open_cut(from, to);
-    cut_blockers(at, axis);
+    return Opening(axis, from, to);
+}
+
+// Light of an edge, when the blockers are cut out. An edge that emits equally in all directions and at all distances has no parts. Neither
+// has a chord that replaces such edges.
+vec3 edge_light(uint at, Opening opening) {
+    float inverse_range = number(at + uint(kLightInverseRange));
+    uint parts = length_of_list(at, 0);
     if (parts > 0u) {
         Emission emission;
         emission.ranged = inverse_range > 0.0;
         emission.linear = lists[at + uint(kLightLinear)] == 1u;
         emission.profile = int(lists[at + uint(kLightProfile)]);
         bool by_direction_alone = !emission.ranged && emission.profile == 0;
-        bool whole = taken == 0 && low == from && high == to;
+        bool whole = taken == 0 && low == opening.from && high == opening.to;
         vec3 light = vec3(0.0);
         uint part = at + uint(kLight);
         for (; parts > 0u && low < high; parts--) {
             if (by_direction_alone && lists[part + 16u] != 0u)
-                light += small_part_light(part, axis, whole && lists[part + 16u] == uint(kSmallAndSeen));
+                light += small_part_light(part, opening.axis, whole && lists[part + 16u] == uint(kSmallAndSeen));
             else
-                light += part_light(part, axis, emission, inverse_range);
+                light += part_light(part, opening.axis, emission, inverse_range);
             part += uint(kPart);
         }
         return light;
     }
     float sum = 0.0;
-    from = low;
+    float from = low;
     for (int k = 0; k <= taken; k++) {
-        to = gap_end(k);
+        float to = gap_end(k);
         if (to > from) sum += trig_atan2_unwrapped(to - from, 1.0 + from * to);
         from = after_gap(k, from);
     }
     return colour_at(at + uint(kLightColour)) * (sum * inverse_two_pi());
+}
+
+// Light of a disk or an edge. Both take one look at the blockers, so that its code is there once.
+vec3 cut_light(uint at) {
+    bool is_edge = int(lists[at]) == 1;
+    Opening opening;
+    if (is_edge)
+        opening = edge_opening(at);
+    else
+        opening = disk_opening(at);
+    open_cut(opening.from, opening.to);
+    cut_blockers(at, opening.axis);
+    return is_edge ? edge_light(at, opening) : disk_light(at);
 }

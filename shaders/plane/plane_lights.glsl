@@ -41,7 +41,7 @@ vec3 light_of_job(uint job, float x, float y) {
         at += uint(kDiskLight) + lists[at + 7u];
 #else
 #if KIND == PLANE_CUTS
-        sum += int(lists[at]) == 1 ? edge_light(at) : disk_light(at);
+        sum += cut_light(at);
 #else
         sum += arc_light(at);
 #endif

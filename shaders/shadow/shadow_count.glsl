@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Pieces of segments at the lowest count so far: fractions of the way at which each begins and ends.
-shared vec2 pieces[PIECE_SPACE];
+shared vec2 pieces[ALL_SPACE];
 int piece_count;
 int level;
 bool too_many_pieces;
 
 // Crossings of the segments that the lanes have in work. Each segment has a chain of them, in their order along it.
-shared float crossing_at[PIECE_SPACE];
-shared int crossing_links[PIECE_SPACE];  // the change of the count, times kLinks; place of the next crossing
+shared float crossing_at[ALL_SPACE];
+shared int crossing_links[ALL_SPACE];  // the change of the count, times kLinks; place of the next crossing
 int crossing_count;
 const int kLinkBits = 12;
 const int kLinks = 1 << kLinkBits;
@@ -17,11 +17,11 @@ const int kNoLink = kLinks - 1;
 
 // Begin and end of a piece, with the side of the lower count on its left.
 vec4 piece_ends(int i) {
-    vec4 e = cells[piece_segments[i]];
+    vec4 e = cells[FIRST + piece_segments[FIRST + i]];
     vec2 d = e.zw - e.xy;
-    vec2 ways = pieces[i];
+    vec2 ways = pieces[FIRST + i];
     vec4 ends = vec4(e.xy + ways.x * d, ways.y < 1.0 ? e.xy + ways.y * d : e.zw);
-    return marks[piece_segments[i]] >= kMarks ? ends.zwxy : ends;
+    return marks[FIRST + piece_segments[FIRST + i]] >= kMarks ? ends.zwxy : ends;
 }
 
 // A segment e whose count is computed.
@@ -50,8 +50,8 @@ bool share_an_end(uvec2 a, uvec2 b) { return a.x == b.x || a.x == b.y || a.y == 
 // Three products tell all sides: of e's start from f, of f's start from e, and of e's direction from f's. The others are sums. Differences
 // of cells are exact. Each sum is off by less than 2^-22 of the sizes of all products, and 4e-7 is more.
 bool look_at_segment(inout Walk e, int i) {
-    vec4 f = cells[i];
-    int mark = marks[i];
+    vec4 f = cells[FIRST + i];
+    int mark = marks[FIRST + i];
     vec2 d = e.cells.zw - e.cells.xy;
     vec2 df = f.zw - f.xy;
     vec2 q = e.cells.xy - f.xy;
@@ -66,7 +66,7 @@ bool look_at_segment(inout Walk e, int i) {
     // They cross if both fractions of the way, -start / all and other / all, are between 0 and 1.
     float along = all < 0.0 ? start : -start;
     float across = all < 0.0 ? -other : other;
-    bool meets = min(along, across) >= -bound && max(along, across) <= abs(all) + bound && !share_an_end(e.names, names[i]);
+    bool meets = min(along, across) >= -bound && max(along, across) <= abs(all) + bound && !share_an_end(e.names, names[FIRST + i]);
     float middle = 2.0 * start + all;
     vec2 height = 2.0 * f.yw - (e.cells.y + e.cells.w);
     bool passes = (height.x > 0.0) != (height.y > 0.0) && i != e.number;
@@ -107,25 +107,25 @@ int add_crossing(inout Walk e, int place, float at, int change) {
     int before = kNoLink;
     int next = e.first;
     int steps = 0;
-    while (next != kNoLink && crossing_at[next] <= at) {
+    while (next != kNoLink && crossing_at[FIRST + next] <= at) {
         before = next;
-        next = crossing_links[next] & kNoLink;
+        next = crossing_links[FIRST + next] & kNoLink;
         ++steps;
     }
-    crossing_at[place] = at;
-    crossing_links[place] = kLinks * change + next;
+    crossing_at[FIRST + place] = at;
+    crossing_links[FIRST + place] = kLinks * change + next;
     if (before == kNoLink)
         e.first = place;
     else
-        crossing_links[before] = crossing_links[before] - next + place;
+        crossing_links[FIRST + before] = crossing_links[FIRST + before] - next + place;
     return steps;
 }
 
 // Adds to the count what segment i changes by whole numbers, and the crossing to the chain. Lanes without `asked` add nothing.
 void settle_segment(inout Walk e, int i, bool asked) {
     ivec4 c = ivec4(e.cells);
-    ivec4 f = ivec4(cells[i]);
-    int mark = marks[i];
+    ivec4 f = ivec4(cells[FIRST + i]);
+    int mark = marks[FIRST + i];
     ivec2 d = c.zw - c.xy;
     ivec2 df = f.zw - f.xy;
     ivec2 q = c.xy - f.xy;
@@ -137,7 +137,7 @@ void settle_segment(inout Walk e, int i, bool asked) {
     // Displacements decide. A loop of at most one turn, as elsewhere.
     for (int turn = tie && asked ? 0 : 1; turn < 1; turn++) {
         ivec4 shift_e = displacements(e.names);
-        ivec4 shift_f = displacements(names[i]);
+        ivec4 shift_f = displacements(names[FIRST + i]);
         ivec2 g = shift_e.zw - shift_e.xy;
         ivec2 gf = shift_f.zw - shift_f.xy;
         ivec2 r = shift_e.xy - shift_f.xy;
@@ -152,17 +152,17 @@ void settle_segment(inout Walk e, int i, bool asked) {
     if (asked) e.count += left_events(mark, height.x < 0, height.y < 0) + (passes ? left_ray(weight_of(mark), height.y > 0, signs.middle >= 0) : 0);
 
     bool to_left = signs.ends.y >= 0;
-    bool crosses = asked && (signs.ends.x >= 0) != to_left && (signs.ends.z >= 0) != (signs.ends.w >= 0) && !share_an_end(e.names, names[i]);
+    bool crosses = asked && (signs.ends.x >= 0) != to_left && (signs.ends.z >= 0) != (signs.ends.w >= 0) && !share_an_end(e.names, names[FIRST + i]);
     int change = to_left ? weight_of(mark) : -weight_of(mark);
     // The middle is still to come where it lies on the end's side.
     if (crosses && (signs.middle >= 0) == to_left) e.before_middle += change;
     int all;
     int place = crossing_count + begin_of(crosses, all);
     crossing_count += all;
-    too_much = too_much || crossing_count > PIECE_SPACE;
+    too_much = too_much || crossing_count > SPACE;
     int steps = 0;
     if (crosses && !too_much) steps = add_crossing(e, place, at < 0.0 ? 0.5 : at, change);
-    turns -= 4 + subgroupMax(steps);
+    turns -= 4 + most_of_lanes(steps);
 }
 
 void look_at_all(inout Walk e) {
@@ -177,7 +177,7 @@ void look_at_all(inout Walk e) {
             open |= four << (i - first);
         }
         if (!e.mine) open = 0u;
-        while (subgroupAny(open != 0u) && !too_much) {
+        while (any_of_lanes(open != 0u) && !too_much) {
             settle_segment(e, first + max(findLSB(open), 0), open != 0u);
             open &= open - 1u;
             too_much = too_much || turns < 0;
@@ -190,7 +190,7 @@ void take_pieces(Walk e) {
     float rise = e.cells.w - e.cells.y;
     bool up = rise > 0.0;
     for (int turn = rise == 0.0 ? 0 : 1; turn < 1; turn++) up = displacement(e.names.y).y > displacement(e.names.x).y;
-    int weight = weight_of(marks[e.number]);
+    int weight = weight_of(marks[FIRST + e.number]);
     // The count is on the -x side, which is the left if the segment runs up.
     int begin = (up ? e.count : e.count + weight) - e.before_middle;
     bool has_pieces = e.mine && weight != 0;
@@ -207,7 +207,7 @@ void take_pieces(Walk e) {
         count = 0;
         while (walks) {
             walks = next != kNoLink;
-            float until = walks ? crossing_at[next] : 1.0;
+            float until = walks ? crossing_at[FIRST + next] : 1.0;
             int low = min(left, left - weight);
             if (until > from) {
                 if (low < lowest) {
@@ -216,21 +216,21 @@ void take_pieces(Walk e) {
                 }
                 if (low == lowest) {
                     if (pass == 1 && !too_many_pieces) {
-                        pieces[to + count] = vec2(from, until);
-                        piece_segments[to + count] = e.number;
+                        pieces[FIRST + to + count] = vec2(from, until);
+                        piece_segments[FIRST + to + count] = e.number;
                     }
                     ++count;
                 }
                 from = until;
             }
             if (walks) {
-                left += crossing_links[next] >> kLinkBits;
-                next = crossing_links[next] & kNoLink;
+                left += crossing_links[FIRST + next] >> kLinkBits;
+                next = crossing_links[FIRST + next] & kNoLink;
             }
             ++steps;
         }
         if (pass == 1) break;
-        int least = subgroupMin(lowest);
+        int least = least_of_lanes(lowest);
         if (least < level) {
             level = least;
             piece_count = 0;
@@ -238,22 +238,22 @@ void take_pieces(Walk e) {
         }
         int all;
         to = piece_count + begin_of(lowest == level ? count : 0, all);
-        too_many_pieces = too_many_pieces || piece_count + all > PIECE_SPACE;
+        too_many_pieces = too_many_pieces || piece_count + all > SPACE;
         if (!too_many_pieces) piece_count += all;
         has_pieces = has_pieces && lowest == level;
     }
-    turns -= subgroupMax(steps);
+    turns -= most_of_lanes(steps);
 }
 
 void cut_segments(int base) {
     piece_count = 0;
     level = kHidden / 2 - 1;
     too_many_pieces = false;
-    for (int first = 0; first < segment_count && !too_much; first += int(LANES)) {
+    for (int first = 0; first < segment_count && !too_much; first += LANES) {
         int i = first + int(LANE);
         int number = min(i, segment_count - 1);
-        vec4 ends = cells[number];
-        Walk e = Walk(number, i < segment_count && ends.xy != ends.zw, ends, names[number], base, 0, kNoLink);
+        vec4 ends = cells[FIRST + number];
+        Walk e = Walk(number, i < segment_count && ends.xy != ends.zw, ends, names[FIRST + number], base, 0, kNoLink);
         crossing_count = 0;
         look_at_all(e);
         take_pieces(e);

@@ -37,12 +37,18 @@ const int kHorizonLeft = 16;  // the box's left side cuts: start, end; then the 
 const int kShares = 256;      // the outline replaces a round light
 const int kBase = 512;        // times how often the lower left corner is occluded
 
-// Answers, after a head of two vectors and one for each space. Points whose segments exceed a space go on to the next one.
+// Answers, after a head of vectors and one for each space. Points whose segments exceed a space go on to the next one.
 //   0  place of the parts, number of their vectors, capacity; number of points that are left to the host
-//   1  number of points that see a part
-//   and for each space: number of its points, 1, 1: a dispatch; place of their names after the answers, four a vector
-const int kShadowSpaces = 3;
-const int kAnswersHead = 2 + kShadowSpaces;
+//   1  number of points that see a part; place of the lists of edges; number of points without any
+//   2  number of points of each space, in two vectors
+//   and for each space: number of its work groups, 1, 1: a dispatch; place of the points' names after the answers, four a vector
+const int kShadowSpaces = 5;
+const int kAnswersHead = 4 + kShadowSpaces;
+// In the first spaces a subgroup serves several points. The edges that such a point may see as segments are listed, four a vector. Their
+// number is x of vector 1 of its answer.
+const int kFewSpaces = 2;
+const int kMostListed = 44;
+const int kListVectors = 11;
 // An answer:
 //   0  begin of a ray, as the host has it; place of the point's state, and kAskRay
 //   1  vector of the ray to its end; the result so far

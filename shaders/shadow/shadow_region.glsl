@@ -3,27 +3,27 @@
 
 const float kThin = 1.0 / 4096.0;
 const int kTrials = 4;
-const int kNoPiece = 2147483647;
+const int kNoPiece = 1 << 20;
 
 bool region_is_wide() {
     float twice = 0.0;
     float perimeter = 0.0;
-    for (int i = int(LANE); i < piece_count; i += int(LANES)) {
+    for (int i = int(LANE); i < piece_count; i += LANES) {
         vec4 p = piece_ends(i) / shadow_cells();
         vec2 d = p.zw - p.xy;
         twice += p.x * d.y - p.y * d.x;
         perimeter += length(d);
     }
-    vec2 sums = subgroupAdd(vec2(twice, perimeter));
+    vec2 sums = sum_of_lanes(vec2(twice, perimeter));
     return sums.x > 2.0 * kThin * sums.y;
 }
 
 // Distance from a place along a unit direction to the next segment except `but`.
 float distance_to_next(vec2 from, vec2 n, int but) {
     float nearest = 1.0e30;
-    for (int i = int(LANE); i < segment_count; i += int(LANES)) {
-        vec2 a = cells[i].xy;
-        vec2 f = cells[i].zw - a;
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        vec2 a = cells[FIRST + i].xy;
+        vec2 f = cells[FIRST + i].zw - a;
         vec2 p = a - from;
         float det = n.x * f.y - n.y * f.x;
         float inverse = 1.0 / (det != 0.0 ? det : 1.0);
@@ -31,7 +31,7 @@ float distance_to_next(vec2 from, vec2 n, int but) {
         float t = (p.x * n.y - p.y * n.x) * inverse;
         if (i != but && det != 0.0 && distance > 0.0 && t >= 0.0 && t <= 1.0) nearest = min(nearest, distance);
     }
-    return subgroupMin(nearest);
+    return least_of_lanes(vec2(nearest)).x;
 }
 
 // Distance of a place from all segments, or 0 if its count is above the level or uncertain.
@@ -39,9 +39,9 @@ float room_at(vec2 q, int base) {
     float least2 = 1.0e30;
     int count = 0;
     bool certain = true;
-    for (int i = int(LANE); i < segment_count; i += int(LANES)) {
-        vec4 s = cells[i];
-        int weight = weight_of(marks[i]);
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        vec4 s = cells[FIRST + i];
+        int weight = weight_of(marks[FIRST + i]);
         vec2 f = s.zw - s.xy;
         vec2 p = q - s.xy;
         vec2 r = p - clamp(dot(p, f) / max(dot(f, f), 1.0), 0.0, 1.0) * f;
@@ -55,11 +55,11 @@ float room_at(vec2 q, int base) {
             certain = certain && abs(a - b) > 1.0e-6 * (abs(a) + abs(b));
             count += left_ray(weight, end_above, a > b);
         }
-        count += left_events(marks[i], s.y < q.y, s.w < q.y);
+        count += left_events(marks[FIRST + i], s.y < q.y, s.w < q.y);
     }
-    certain = !subgroupAny(!certain);
-    count = base + subgroupAdd(count);
-    least2 = subgroupMin(least2);
+    certain = !any_of_lanes(!certain);
+    count = base + sum_of_lanes(count);
+    least2 = least_of_lanes(vec2(least2)).x;
     return certain && count <= level ? sqrt(least2) : 0.0;
 }
 
@@ -71,7 +71,7 @@ vec3 place_inside(int base) {
     for (int trial = 0; trial < kTrials; trial++) {
         float longest = 0.0;
         int number = kNoPiece;
-        for (int i = int(LANE); i < piece_count; i += int(LANES)) {
+        for (int i = int(LANE); i < piece_count; i += LANES) {
             vec4 p = piece_ends(i);
             vec2 d = p.zw - p.xy;
             float length2 = dot(d, d);
@@ -80,14 +80,14 @@ vec3 place_inside(int base) {
                 number = i;
             }
         }
-        last = subgroupMax(longest);
-        number = subgroupMin(longest == last ? number : kNoPiece);
+        last = -least_of_lanes(vec2(-longest)).x;
+        number = least_of_lanes(longest == last ? number : kNoPiece);
         if (number == kNoPiece) break;
         last_number = number;
         vec4 p = piece_ends(number);
         vec2 n = vec2(p.y - p.w, p.z - p.x) * inversesqrt(last);
         vec2 middle = 0.5 * (p.xy + p.zw);
-        float distance = distance_to_next(middle, n, piece_segments[number]);
+        float distance = distance_to_next(middle, n, piece_segments[FIRST + number]);
         if (distance > 1.0e9) continue;
         vec2 q = middle + 0.5 * distance * n;
         float room = room_at(q, base);

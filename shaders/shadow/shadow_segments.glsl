@@ -1,13 +1,17 @@
 // A group's edges, the light's outline and the point's own horizons, as a point sees them: segments in cells.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-shared vec4 cells[SEGMENT_SPACE];  // start, end: whole numbers
-shared uvec2 names[SEGMENT_SPACE];
-shared int marks[SEGMENT_SPACE];  // the weight times kMarks, kLeftStart, kLeftEnd
+// Each set of lanes has SPACE places of an array, from FIRST on.
+#define ALL_SPACE (SPACE * int(POINTS))
+#define FIRST (MINE * SPACE)
+
+shared vec4 cells[ALL_SPACE];  // start, end: whole numbers
+shared uvec2 names[ALL_SPACE];
+shared int marks[ALL_SPACE];  // the weight times kMarks, kLeftStart, kLeftEnd
 int segment_count;
 bool too_much;  // the capacity is exceeded
 
-shared int piece_segments[PIECE_SPACE];  // of the pieces; before there are any: weights and numbers of edges that wait
+shared int piece_segments[ALL_SPACE];  // of the pieces; before there are any: weights and numbers of edges that wait
 const int kWaitingBits = 16;
 const int kWaiting = 1 << kWaitingBits;
 
@@ -37,13 +41,13 @@ void add_segment(vec4 ends, uvec2 named, int weight) {
 int gather_segments(int before) {
     int all;
     int to = before + begin_of(found, all);
-    too_much = too_much || before + all > SEGMENT_SPACE;
+    too_much = too_much || before + all > SPACE;
     if (too_much || !found) to = -1;
     found = false;
     if (to >= 0) {
-        cells[to] = found_cells;
-        names[to] = found_names;
-        marks[to] = found_mark;
+        cells[FIRST + to] = found_cells;
+        names[FIRST + to] = found_names;
+        marks[FIRST + to] = found_mark;
     }
     segment_count = before + (too_much ? 0 : all);
     return to;
@@ -53,41 +57,8 @@ int gather_segments(int before) {
 void keep_gathered(int before, int own, bool keep) {
     subgroupBarrier();
     found = own >= 0 && keep;
-    if (found) found_mark = marks[own];
+    if (found) found_mark = marks[FIRST + own];
     gather_segments(before);
-}
-
-// A point in front of a light's plane.
-struct Eye {
-    vec3 at;       // in the coordinates of the edges
-    vec3 eye;      // in the light's frame, below the light's plane: shadow_project
-    vec2 box;
-    float height;  // only geometry below it blocks
-    mat3 axes;     // axes of the light's frame
-    bool turned;   // the frame is not the edges' own
-    vec3 origin;   // origin of such a frame
-    vec2 extent;   // half sides of the light
-};
-
-// A vertex in the light's frame.
-vec3 place_of(Eye eye, vec3 v) { return eye.turned ? (v - eye.origin) * eye.axes : v; }
-
-const int kAboveOut = 16;  // in addition to one bit for each side: left, right, bottom, top
-
-struct End {
-    vec3 h;
-    vec2 cell;
-    int outside;
-};
-
-End look_at(Eye eye, vec3 v) {
-    End end;
-    end.h = shadow_project(eye.eye, vec3(0.0, 0.0, eye.eye.z), v);
-    end.cell = shadow_cell(end.h, eye.box, 0.0);
-    vec2 side = eye.box * end.h.z;
-    end.outside = (side.x + end.h.x <= 0.0 ? 1 : 0) | (side.x - end.h.x <= 0.0 ? 2 : 0) | (side.y + end.h.y <= 0.0 ? 4 : 0) |
-                  (side.y - end.h.y <= 0.0 ? 8 : 0) | (v.z >= eye.height ? kAboveOut : 0);
-    return end;
 }
 
 // Distance from a side, with the sign that `outside` has, so that all edges of a vertex agree.
@@ -124,36 +95,32 @@ void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight)
     add_segment(ends, named, weight);
 }
 
-// Returns 1 if the point sees the front of a plane, else -1.
-int facing_of(Eye eye, uint plane) {
-    vec4 p = uintBitsToFloat(groups[plane]);
-    return int(shadow_facing(p.xyz, p.w, eye.at));
-}
-
 // The change of the count from the right of an edge to its left: 0 if it is no silhouette.
-int weight_of_edge(Eye eye, uvec4 begins, uint incidences, uvec4 edge) {
+int weight_of_edge(Point point, uvec4 edge) {
+    Eye eye = point.view.eye;
     int flags = int(edge.w);
     int weight = 0;
     if ((flags & kManyWalks) != 0) {
         uint first = edge.y & 0xffffu;
         uint count = edge.y >> 16;
         for (uint i = first; i < first + count; i++) {
-            uint one = groups[incidences + i / 4u][i % 4u];
-            int facing = facing_of(eye, begins.y + (one & 0xffffu));
+            uint one = groups[point.incidences + i / 4u][i % 4u];
+            int facing = facing_of(eye, point.begins.y + (one & 0xffffu));
             weight -= (one & uint(kAgainst)) != 0u ? -facing : facing;
         }
     } else {
-        if ((flags & kWalks0) != 0) weight -= facing_of(eye, begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
-        if ((flags & kWalks1) != 0) weight -= facing_of(eye, begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
+        if ((flags & kWalks0) != 0) weight -= facing_of(eye, point.begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
+        if ((flags & kWalks1) != 0) weight -= facing_of(eye, point.begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
     }
     return weight;
 }
 
-void see_edge(Eye eye, uvec4 begins, uvec4 edge, int weight) {
+void see_edge(Point point, uvec4 edge, int weight) {
+    Eye eye = point.view.eye;
     // A loop of at most one turn, here and below: software devices skip such loops, but no branches.
     for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
-        uvec4 bits0 = groups[begins.x + (edge.x & 0xffffu)];
-        uvec4 bits1 = groups[begins.x + (edge.x >> 16)];
+        uvec4 bits0 = groups[point.begins.x + (edge.x & 0xffffu)];
+        uvec4 bits1 = groups[point.begins.x + (edge.x >> 16)];
         vec3 v0 = place_of(eye, uintBitsToFloat(bits0.xyz));
         vec3 v1 = place_of(eye, uintBitsToFloat(bits1.xyz));
         End a = look_at(eye, v0);
@@ -173,27 +140,42 @@ void see_edge(Eye eye, uvec4 begins, uvec4 edge, int weight) {
     }
 }
 
-// The segments of the group's edges. Few edges are silhouettes for a point. They wait in shared memory until all lanes project one.
-void see_edges(Eye eye, uvec4 begins, uint incidences) {
+#if FEW
+// The segments of the edges that shadow_edges.comp has listed for the point.
+void see_edges(Point point) {
+    uint list = lists + uint(kListVectors) * point.answer;
+    uint count = answers[uint(kShadowAnswer) * point.answer + 1u].x;
+    for (uint first = 0u; first < count && !too_much; first += LANES) {
+        uint i = first + LANE;
+        uvec4 edge = i < count ? groups[point.begins.z + answers[list + i / 4u][i % 4u]] : uvec4(0u);
+        see_edge(point, edge, weight_of_edge(point, edge));
+        gather_segments(segment_count);
+    }
+}
+#else
+// The segments of all edges of the group. Few of them are silhouettes for a point. They wait in shared memory until all lanes project one.
+void see_edges(Point point) {
     int waiting = 0;
-    for (uint first = 0u; first < begins.w && !too_much; first += LANES) {
+    for (uint first = 0u; first < point.begins.w && !too_much; first += LANES) {
         uint e = first + LANE;
-        int weight = e < begins.w ? weight_of_edge(eye, begins, incidences, groups[begins.z + e]) : 0;
+        int weight = e < point.begins.w ? weight_of_edge(point, groups[point.begins.z + e]) : 0;
         int all;
         int to = waiting + begin_of(weight != 0, all);
-        if (weight != 0) piece_segments[to] = kWaiting * weight + int(e);
+        if (weight != 0) piece_segments[FIRST + to] = kWaiting * weight + int(e);
         waiting += all;
-        if (waiting + int(LANES) <= PIECE_SPACE && first + LANES < begins.w) continue;
+        if (waiting + LANES <= SPACE && first + LANES < point.begins.w) continue;
         subgroupBarrier();
-        for (int i = 0; i < waiting && !too_much; i += int(LANES)) {
-            int one = i + int(LANE) < waiting ? piece_segments[i + int(LANE)] : 0;
-            see_edge(eye, begins, groups[begins.z + uint(one & (kWaiting - 1))], one >> kWaitingBits);
+        for (int i = 0; i < waiting && !too_much; i += LANES) {
+            int one = i + int(LANE) < waiting ? piece_segments[FIRST + i + int(LANE)] : 0;
+            see_edge(point, groups[point.begins.z + uint(one & (kWaiting - 1))], one >> kWaitingBits);
             gather_segments(segment_count);
         }
         waiting = 0;
     }
 }
+#endif
 
+#if !FEW
 // The place at which the light's plane cuts a triangle's side, which goes from one corner to the next.
 End cut_of(Eye eye, uvec4 from, uvec4 to) {
     vec3 a = place_of(eye, uintBitsToFloat(from.xyz));
@@ -236,24 +218,18 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
         int looks = 0;
         for (int i = first; i < own && !coincides; i++) {
             ++looks;
-            bool same = names[i] == names[own];
-            coincides = same || names[i] == names[own].yx;
-            int weight = weight_of(marks[own]);
-            if (coincides) atomicAdd(marks[i], kMarks * (same ? weight : -weight));
+            bool same = names[FIRST + i] == names[FIRST + own];
+            coincides = same || names[FIRST + i] == names[FIRST + own].yx;
+            int weight = weight_of(marks[FIRST + own]);
+            if (coincides) atomicAdd(marks[FIRST + i], kMarks * (same ? weight : -weight));
         }
         keep_gathered(before, own, !coincides);
-        turns -= subgroupMax(looks);
+        turns -= most_of_lanes(looks);
         too_much = too_much || segment_count - first > kMostSections || turns < 0;
     }
 }
 
-// The edges of a light's outline, in cells.
-struct Corners {
-    uint first;  // place of the group's
-    uint own;    // place of the point's, or 0
-    uint count;
-};
-vec4 corner_cells(Corners c, uint i) { return vec4(ivec4(groups[c.own > 0u ? c.own + i : c.first + uint(kShadowCorner) * i])); }
+#endif
 
 // Adds the outline, and the horizons that the host has found.
 void see_surroundings(Corners c, uint at, int flags) {

@@ -13,8 +13,8 @@ int turns;  // remaining budget
 // An edge takes as many turns as a triangle. A segment takes a look at all others, kSetOfPairs at a time, and six loops and their ends.
 // Region and record go through segments and pieces fourteen times.
 int turns_left(uint edges, uint triangles) {
-    int gathered = int(6u * (edges / LANES + triangles / LANES + 2u)) + kMostIncidences;
-    int own = SEGMENT_SPACE / int(LANES) + 1;
-    int cut = own * (SEGMENT_SPACE / kAtOnce + 3 * (SEGMENT_SPACE / kSetOfPairs + 1) + 6 + 14);
+    int gathered = int(6u * (edges / uint(LANES) + triangles / uint(LANES) + 2u)) + kMostIncidences;
+    int own = SPACE / LANES + 1;
+    int cut = own * (SPACE / kAtOnce + 3 * (SPACE / kSetOfPairs + 1) + 6 + 14);
     return kMostTurns - gathered - cut;
 }

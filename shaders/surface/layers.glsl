@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Widens the lobe along a direction. Returns the direction's cosine and sine, measured from the tangent.
-vec2 brush(inout Surface s, int material, Coordinates c) {
+vec2 brush(inout Surface s, int material, Textures t) {
     vec4 factors = texelFetch(materials, material + kMaterialCoat);
     float strength = factors.z;
     float angle = factors.w;
     if (!(strength > 0.0)) return vec2(1.0, 0.0);
-    int use = material + kMaterialTextures + kUse * kUseAnisotropy;
-    if (texelFetch(materials, use).x >= 0.0) {
-        vec3 map = texture_of(use, c).xyz;
-        vec2 along = 2.0 * map.xy - 1.0;
+    if (has_texture(t, kUseAnisotropy)) {
+        vec2 along = 2.0 * t.anisotropy.xy - 1.0;
         if (any(notEqual(along, vec2(0.0)))) angle += atan(along.y, along.x);
-        strength *= map.z;
+        strength *= t.anisotropy.z;
     }
     s.alpha.x = surface_brushed_alpha(s.alpha.x, strength);
     return vec2(cos(angle), sin(angle));
@@ -40,13 +38,11 @@ void scatter_between_facets(inout Surface s) {
 }
 
 // Adds sheen.
-void add_sheen(inout Surface s, int material, Coordinates c) {
+void add_sheen(inout Surface s, int material, Textures t) {
     vec4 factors = texelFetch(materials, material + kMaterialSheen);
-    int uses = material + kMaterialTextures;
-    if (!any(greaterThan(factors.xyz, vec3(0.0)))) return;
-    vec3 sheen = factors.xyz * texture_of(uses + kUse * kUseSheen, c).xyz;
+    vec3 sheen = factors.xyz * t.sheen;
     if (!any(greaterThan(sheen, vec3(0.0)))) return;
-    s.sheen_alpha = surface_alpha(factors.w * texture_of(uses + kUse * kUseSheenRoughness, c).w);
+    s.sheen_alpha = surface_alpha(factors.w * t.sheen_roughness);
     vec4 sizes = texelFetch(tables, 0);
     int first = 1 + int(dot(sizes.xy, sizes.xy));
     float albedo = table_albedo(first, sizes.zw, s.sheen_alpha, clamp(dot(s.normal, s.view), 0.0, 1.0), true);
@@ -54,12 +50,10 @@ void add_sheen(inout Surface s, int material, Coordinates c) {
 }
 
 // Adds the coat.
-void add_coat(inout Surface s, int material, Coordinates c) {
+void add_coat(inout Surface s, int material, Textures t) {
     vec4 factors = texelFetch(materials, material + kMaterialCoat);
-    int uses = material + kMaterialTextures;
-    if (!(factors.x > 0.0)) return;
-    float coat = factors.x * texture_of(uses + kUse * kUseCoat, c).x;
+    float coat = factors.x * t.coat;
     if (!(coat > 0.0)) return;
-    s.coat_alpha = surface_alpha(factors.y * texture_of(uses + kUse * kUseCoatRoughness, c).y);
+    s.coat_alpha = surface_alpha(factors.y * t.coat_roughness);
     s.weights = surface_with_coat(s.weights, coat, dot(s.coat_normal, s.view));
 }

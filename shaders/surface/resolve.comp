@@ -73,10 +73,51 @@ vec4 texture_of(int use, Coordinates c) {
     return sample_texture(use, f);
 }
 
-// Normal from a map, or the frame's own without one.
-vec3 bent_normal(int use, Coordinates c, SurfaceFrame frame) {
-    if (texelFetch(materials, use).x < 0.0) return frame.z;
-    return surface_bent_normal(frame, texture_of(use, c).xyz, texelFetch(materials, use + 2).z);
+// The textures of a material at a place.
+struct Textures {
+    int first;  // place of their uses
+    vec3 base;
+    vec2 rough_metal;
+    vec3 normal;
+    vec3 emission;
+    float specular;
+    vec3 specular_color;
+    vec3 sheen;
+    float sheen_roughness;
+    float coat;
+    float coat_roughness;
+    vec3 coat_normal;
+    vec3 anisotropy;
+};
+
+// One loop over the textures, so that the code of a look-up is there once.
+Textures textures_at(int first, Coordinates c) {
+    Textures t;
+    t.first = first;
+    for (int use = 0; use < (LAYERS != 0 ? kUses : kUseSheen); use++) {
+        vec4 v = texture_of(first + kUse * use, c);
+        if (use == kUseBase) t.base = v.xyz;
+        if (use == kUseMetallicRoughness) t.rough_metal = v.yz;
+        if (use == kUseNormal) t.normal = v.xyz;
+        if (use == kUseEmission) t.emission = v.xyz;
+        if (use == kUseSpecular) t.specular = v.w;
+        if (use == kUseSpecularColor) t.specular_color = v.xyz;
+        if (use == kUseSheen) t.sheen = v.xyz;
+        if (use == kUseSheenRoughness) t.sheen_roughness = v.w;
+        if (use == kUseCoat) t.coat = v.x;
+        if (use == kUseCoatRoughness) t.coat_roughness = v.y;
+        if (use == kUseCoatNormal) t.coat_normal = v.xyz;
+        if (use == kUseAnisotropy) t.anisotropy = v.xyz;
+    }
+    return t;
+}
+
+bool has_texture(Textures t, int use) { return texelFetch(materials, t.first + kUse * use).x >= 0.0; }
+
+// Normal by the map of a use, or the frame's own without one.
+vec3 bent_normal(Textures t, int use, SurfaceFrame frame) {
+    if (!has_texture(t, use)) return frame.z;
+    return surface_bent_normal(frame, use == kUseNormal ? t.normal : t.coat_normal, texelFetch(materials, t.first + kUse * use + 2).z);
 }
 
 struct Surface {
@@ -150,7 +191,6 @@ Surface surface_of(uint triangle, vec3 direction) {
     if (!(dot(up, up) > 0.5)) up = geometric;
 
     int material = int(mesh.x);
-    int uses = material + kMaterialTextures;
     Coordinates c;
     c.sets = sets;
     if (c.sets != 0) {  // footprint_on
@@ -169,7 +209,8 @@ Surface surface_of(uint triangle, vec3 direction) {
     s.sheen_alpha = s.coat_alpha = 1.0;
     vec4 rest = texelFetch(materials, material + kMaterialRest);
     int flags = int(rest.w);
-    vec3 base = texelFetch(materials, material + kMaterialBase).xyz * texture_of(uses + kUse * kUseBase, c).xyz;
+    Textures t = textures_at(material + kMaterialTextures, c);
+    vec3 base = texelFetch(materials, material + kMaterialBase).xyz * t.base;
     if (mesh.z > 0.5) base *= blended(at, kVertexColor).xyz;
     if (LAYERS != 0 && (flags & kUnlit) != 0) {
         s.normal = s.coat_normal = up * side;
@@ -179,31 +220,30 @@ Surface surface_of(uint triangle, vec3 direction) {
         return s;
     }
     vec4 emission = texelFetch(materials, material + kMaterialEmission);
-    emission.xyz = side > 0.0 || emission.w > 0.5 ? emission.xyz * texture_of(uses + kUse * kUseEmission, c).xyz : vec3(0.0);
+    emission.xyz = side > 0.0 || emission.w > 0.5 ? emission.xyz * t.emission : vec3(0.0);
 
     vec4 tangent = mesh.y > 0.5 ? blended(at, kVertexTangent) : vec4(0.0);
     SurfaceFrame frame = surface_frame(up, tangent, frame_from_normal(up)[0]);
-    s.normal = surface_towards(bent_normal(uses + kUse * kUseNormal, c, frame) * side, s.view, abs(towards));
+    s.normal = surface_towards(bent_normal(t, kUseNormal, frame) * side, s.view, abs(towards));
 
-    vec3 rough_metal = texture_of(uses + kUse * kUseMetallicRoughness, c).xyz;
-    float metallic = clamp(rest.x * rough_metal.z, 0.0, 1.0);
-    s.alpha = vec2(surface_alpha(rest.y * rough_metal.y));
+    float metallic = clamp(rest.x * t.rough_metal.y, 0.0, 1.0);
+    s.alpha = vec2(surface_alpha(rest.y * t.rough_metal.x));
     vec3 along = frame.x;
     if (LAYERS != 0) {
-        s.coat_normal = surface_towards(bent_normal(uses + kUse * kUseCoatNormal, c, frame) * side, s.view, abs(towards));
-        vec2 brushed = brush(s, material, c);
+        s.coat_normal = surface_towards(bent_normal(t, kUseCoatNormal, frame) * side, s.view, abs(towards));
+        vec2 brushed = brush(s, material, t);
         along = along * brushed.x + frame.y * brushed.y;
     }
     s.tangent = surface_tangent(along, s.normal, frame_from_normal(s.normal)[0]);
 
     vec4 colored = texelFetch(materials, material + kMaterialSpecularColor);
-    float specular = colored.w * texture_of(uses + kUse * kUseSpecular, c).w;
-    colored.xyz *= texture_of(uses + kUse * kUseSpecularColor, c).xyz;
+    float specular = colored.w * t.specular;
+    colored.xyz *= t.specular_color;
     s.weights = surface_weights(emission.xyz, base, metallic, surface_dielectric(specular, colored.xyz, rest.z));
     if (LAYERS != 0) {
         if ((flags & kScatters) != 0) scatter_between_facets(s);
-        add_sheen(s, material, c);
-        add_coat(s, material, c);
+        add_sheen(s, material, t);
+        add_coat(s, material, t);
     }
     return s;
 }

@@ -83,6 +83,8 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"shadow_fallback", stats.shadow_fallback},
           {"shadows_estimated", stats.shadows_estimated},
           {"shadow_on_host", stats.shadow_on_host},
+          {"shadow_pairs", stats.shadow_pairs},
+          {"submissions", stats.submissions},
           {"exact_tiles", stats.exact_tiles},
           {"estimated_shadow_error", stats.estimated_shadow_error},
           {"light_sum", stats.light_tree ? "tree" : "all"},

@@ -99,7 +99,7 @@ struct Job {
 }  // namespace
 
 std::string lack_of_devices(const Scene& scene, const RenderOptions& options) {
-  if (options.bounces != 0) return "it has no --bounces";
+  if (options.bounces != 0 && options.bound) return "it has no --bound";
   if (options.time_limit > 0) return "it has no --time-limit";
   if (options.lights == LightSum::tree) return "it has no --lights tree";
   return choose_method(scene, options).estimates() ? "it has no method " + options.method : std::string();
@@ -286,7 +286,8 @@ struct DeviceFrame::Parts {
       for (int tile = first; tile < std::min(first + batch, count); ++tile) jobs.push_back({tile, nullptr, false});
       const std::uint64_t now_done = done + jobs.size();
       for (int layer = 0; !jobs.empty(); ++layer) jobs = light(std::move(jobs), sample, layer, picture);
-      while (options.progress && done < now_done)
+      // With bounces the host's work tells the progress.
+      while (options.progress && options.bounces == 0 && done < now_done)
         options.progress(++done, static_cast<std::uint64_t>(count) * static_cast<std::uint64_t>(options.aa));
     }
     if (bounced && !stopped()) arena.execute([&] { bounced->add_to(picture); });
@@ -308,6 +309,7 @@ struct DeviceFrame::Parts {
       };
       stats.shadow_fallback = share(counts.fallback, points);
       stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
+      if (shadows) stats.shadow_pairs = shadows->pairs();
       if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
       if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
     }
@@ -377,9 +379,11 @@ const std::string& DeviceFrame::lacks() const { return parts_->lacks; }
 Picture DeviceFrame::render(RenderStats* stats) {
   if (!lacks().empty()) throw UsageError("--backend vulkan", "cannot render all of this picture: " + lacks(), "use --backend cpu");
   const auto start = Clock::now();
+  const std::size_t submitted = parts_->device->submissions();
   Picture picture = parts_->render();
   if (stats != nullptr) {
     parts_->report(*stats);
+    stats->submissions = parts_->device->submissions() - submitted;
     stats->total_ms = ms_since(start);
   }
   return picture;

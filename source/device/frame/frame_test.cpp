@@ -224,7 +224,25 @@ TEST_F(VulkanFrame, FindsPartsBehindAsManyEdgesAsThereIsSpaceFor) {
   EXPECT_EQ(by_host(213), 1);
 }
 
-// Holes between needles have four pieces each. They exceed the first space with 12 needles, the second one with 20, all with 32. Behind a
+// Most pairs of a pixel and a light see none of their group's edges, or few of them. Many triangles take the last space.
+TEST_F(VulkanFrame, SeesAtOnceWhatNoEdgeOccludes) {
+  RenderOptions options = small("ltc-compact");
+  options.backend = Backend::vulkan;
+  options.shadows = Shadows::on;
+  RenderStats stats;
+  render(scene_of("room"), options, &stats);
+  ASSERT_EQ(stats.shadow_pairs.size(), 6u);
+  EXPECT_GT(stats.shadow_pairs[0], 0u);
+  EXPECT_GT(stats.shadow_pairs[1], 0u);
+  EXPECT_GT(stats.shadow_pairs[2], 0u);
+  EXPECT_EQ(stats.shadow_pairs[5], 0u);
+  EXPECT_GT(stats.submissions, 0u);
+  render(under_triangles(212, kSquare, kFlatBeforeSquare), options, &stats);
+  EXPECT_EQ(stats.shadow_pairs[1], 0u);
+  EXPECT_GT(stats.shadow_pairs[5], 0u);
+}
+
+// Holes between needles have four pieces each. With 12, 20 and 32 needles they exceed more and more spaces, with 32 all. Behind a
 // plate that leaves few pieces, the crossings of 160 needles exceed all spaces (kSegments of shadows.cpp).
 TEST_F(VulkanFrame, GoesOnToMoreSpaceForPiecesAndCrossings) {
   RenderOptions options = small("ltc-compact");
@@ -280,6 +298,29 @@ TEST_F(VulkanFrame, LightsByPartsOfRoundLights) {
       EXPECT_TRUE(by_host == 0 || std::holds_alternative<Capsule>(light)) << name << by_host;
     }
   }
+}
+
+// The device has direct light. The host gathers the light between surfaces meanwhile, as it does for its own pictures.
+TEST_F(VulkanFrame, AddsTheLightBetweenSurfaces) {
+  RenderOptions options = small("auto");
+  options.bounces = kAllBounces;
+  options.bounce_preview = true;
+  for (const char* name : {"room", "ring"}) {
+    const Scene scene = scene_of(name);
+    expect_same(std::string(name) + ", bounces", scene, options);
+    options.backend = Backend::cpu;
+    const Picture cpu = render(scene, options);
+    options.backend = Backend::vulkan;
+    RenderStats stats;
+    const Picture device = render(scene, options, &stats);
+    EXPECT_FALSE(stats.device.empty());
+    EXPECT_GT(stats.patches, 0u);
+    EXPECT_EQ(device.layers.at("indirect"), cpu.layers.at("indirect")) << name;
+    EXPECT_EQ(device.layers.size(), cpu.layers.size()) << name;
+  }
+  EXPECT_EQ(lack_of_devices(scene_of("room"), options), "");
+  options.bound = true;
+  EXPECT_EQ(lack_of_devices(scene_of("room"), options), "it has no --bound");
 }
 
 // The search for visible parts, its rays and the lighting are one submission. A second one adds the light of points that are left to the

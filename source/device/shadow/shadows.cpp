@@ -19,17 +19,19 @@ constexpr std::size_t kMostGroups = 65535, kMostPoints = 65535, kMostLights = 16
                       kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
 constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
-// (docs/theory/device.md). Bytes of a segment and a piece in shared memory: shaders/shadow/shadow_segments.glsl,
-// shaders/shadow/shadow_count.glsl.
-constexpr std::array<std::size_t, kShadowSpaces> kSegments = {96, 208, 640};
+// (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes of a segment and a piece in shared memory:
+// shaders/shadow/shadow_segments.glsl, shaders/shadow/shadow_count.glsl.
+constexpr std::array<std::size_t, kShadowSpaces> kSegments = {16, 48, 96, 208, 640};
 constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 48;
+static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] && kMostListed == 4 * kListVectors);
 
 // Layout of Answers in shaders/shadow/shadow_parts.comp.
 struct AnswersHead {
   std::uint32_t parts_begin, parts_used, parts_room, left;
-  std::uint32_t found, unused[3];
+  std::uint32_t found, lists, seen_at_once, unused;
+  std::uint32_t points_of[8];
   struct Space {
-    std::uint32_t points, one_y, one_z, first_name;
+    std::uint32_t groups, one_y, one_z, first_name;
   } spaces[kShadowSpaces];
 };
 struct ShadowAnswer {
@@ -42,6 +44,13 @@ static_assert(sizeof(AnswersHead) == kAnswersHead * kVector && sizeof(ShadowAnsw
 
 constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow/shadow_rays.comp
 
+// Lanes of a subgroup that serve a point of a space.
+int lanes_of(const DeviceInfo& device, std::size_t space) {
+  constexpr std::uint32_t kTogether[] = {8, 4}, kLeastLanes = 4;
+  const std::uint32_t lanes = space < kFewSpaces ? std::max(device.subgroup / kTogether[space], kLeastLanes) : device.subgroup;
+  return static_cast<int>(std::min(device.subgroup, lanes));
+}
+
 std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
@@ -51,16 +60,19 @@ ShadowAnswer* answers_in(const Buffer& buffer) {
 
 }  // namespace
 
+DeviceShadows::DeviceShadows(Kept& kept, TileLighting& host, const SceneRays& rays)
+    : kept_(kept), rays_(rays), host_(host), pairs_(1 + kSegments.size()) {}
+
 DeviceShadows::Kept::Kept(const Device& d)
     : device(d),
-      program(d, {shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 6),
+      program(d, {shader("shadow_edges.comp"), shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 6),
       groups(d),
       answers(d, BufferUse::host_reads),
       parts(d),
       states(d) {}
 
 bool DeviceShadows::has(const DeviceInfo& device) {
-  return device.adds && device.int64 && device.subgroup > 0 && device.subgroup <= kSegments.front() &&
+  return device.adds && device.int64 && device.subgroup > 1 && device.subgroup <= kSegments[kFewSpaces] &&
          device.shared_memory >= kLeastSegments * kSegmentBytes;
 }
 
@@ -69,11 +81,11 @@ void DeviceShadows::upload_groups() {
   const std::size_t headers = begins_.back().group * kHeader;
   auto* to =
       static_cast<std::uint32_t*>(kept_.groups.fit_with_room((headers + begins_.back().row) * kVector, "the edges before lights").mapped());
-  names_.clear();
   std::size_t row = 0;
+  looks_ = 0;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     for (const TileShadows::Search& group : tiles_[i].groups) {
-      for (std::size_t k = 0; k < group.points; ++k) names_.push_back(number(row / kHeader * static_cast<std::size_t>(kGroupPoints) + k));
+      looks_ += std::uint64_t{group.points} * group.header[3];
       auto header = group.header;
       for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + begins_[i].row);
       header[9] += number(begins_[i].point);
@@ -101,11 +113,12 @@ void DeviceShadows::upload_states() {
 }
 
 void DeviceShadows::upload_points() {
-  const std::size_t count = begins_.back().point, list = (names_.size() + 3) / 4, first_list = count * kShadowAnswer;
-  AnswersHead head{number(begins_.back().record), 0, number(parts().bytes() / kVector - begins_.back().record), 0, 0, {}, {}};
-  for (std::size_t i = 0; i < kSegments.size(); ++i)
-    head.spaces[i] = {i == 0 ? number(names_.size()) : 0, 1, 1, number(first_list + i * list)};
-  Buffer& buffer = kept_.answers.fit_with_room(sizeof head + (first_list + kSegments.size() * list) * kVector, "points before lights");
+  const std::size_t count = begins_.back().point, names = (count + 3) / 4, first_list = count * kShadowAnswer,
+                    first_name = first_list + count * kListVectors;
+  AnswersHead head{
+      number(begins_.back().record), 0, number(parts().bytes() / kVector - begins_.back().record), 0, 0, number(first_list), 0, 0, {}, {}};
+  for (std::size_t i = 0; i < kSegments.size(); ++i) head.spaces[i] = {0, 1, 1, number(first_name + i * names)};
+  Buffer& buffer = kept_.answers.fit_with_room(sizeof head + (first_name + kSegments.size() * names) * kVector, "points before lights");
   buffer.write(&head, sizeof head);
   ShadowAnswer* answers = answers_in(buffer);
   for (std::size_t i = 0; i < tiles_.size(); ++i)
@@ -114,7 +127,6 @@ void DeviceShadows::upload_points() {
       const std::size_t state = (begins_[i].light + point.light) * kTilePixels + point.slot;
       answers[begins_[i].point + k] = {static_cast<Vec3f>(point.at.position), number(state), {}, kAskHost};
     }
-  std::memcpy(static_cast<void*>(answers + count), names_.data(), names_.size() * sizeof(std::uint32_t));
 }
 
 std::size_t DeviceShadows::upload(std::span<TileShadows> tiles) {
@@ -139,18 +151,26 @@ std::size_t DeviceShadows::upload(std::span<TileShadows> tiles) {
 
 ComputeProgram& DeviceShadows::record(const Buffer& gates) {
   std::vector<ComputeProgram::Dispatch> dispatches;
-  if (!names_.empty()) {
+  const std::size_t count = begins_.back().point;
+  if (count > 0) {
     const DeviceInfo& device = kept_.device.info();
-    const std::size_t count = begins_.back().point;
+    const int subgroup = static_cast<int>(device.subgroup);
+    std::array<int, kSegments.size()> spaces, together;
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
-      const int space = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i]));
-      dispatches.push_back({.pipeline = kept_.program.pipeline(0, {space, space, static_cast<int>(device.subgroup)}),
+      spaces[i] = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i]));
+      together[i] = subgroup / lanes_of(device, i);
+    }
+    dispatches.push_back({.pipeline = kept_.program.pipeline(0, {spaces[0], spaces[1], spaces[2], spaces[3], together[0], together[1]}),
+                          .groups_x = number(begins_.back().group),
+                          .units = looks_});
+    for (std::size_t i = 0; i < kSegments.size(); ++i) {
+      const int next = i + 1 < kSegments.size() ? together[i + 1] : 1;
+      dispatches.push_back({.pipeline = kept_.program.pipeline(1, {spaces[i], lanes_of(device, i), subgroup, i < kFewSpaces, next}),
                             .push = number(i),
                             .groups = &kept_.answers.get(),
-                            .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i),
-                            .units = i == 0 ? std::uint64_t{count} * device.subgroup : 0});  // few points go on to more space
+                            .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i)});
     }
-    dispatches.push_back({kept_.program.pipeline(1), number((count + kThreads - 1) / kThreads), 1, number(count)});
+    dispatches.push_back({kept_.program.pipeline(2), number((count + kThreads - 1) / kThreads), 1, number(count)});
   }
   kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get(), &gates},
                        dispatches);
@@ -209,8 +229,10 @@ DeviceShadows::Outcome DeviceShadows::finish(const Each& each) {
   }
   wanted_ = 0;
   most_tiles_ = SIZE_MAX;
-  points_ += names_.size() - head.left;
+  points_ += begins_.back().point - head.left;
   found_ += head.found;
+  pairs_.front() += head.seen_at_once;
+  for (std::size_t i = 0; i < kSegments.size(); ++i) pairs_[i + 1] += head.points_of[i];
   if (head.left == 0) return Outcome::done;
   each(tiles_.size(), [&](std::size_t i) { ask_host(tiles_[i], begins_[i].point); });
   return Outcome::left;

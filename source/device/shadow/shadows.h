@@ -30,7 +30,7 @@ class DeviceShadows {
   static bool has(const DeviceInfo& device);
 
   // All arguments must outlive this object.
-  DeviceShadows(Kept& kept, TileLighting& host, const SceneRays& rays) : kept_(kept), rays_(rays), host_(host) {}
+  DeviceShadows(Kept& kept, TileLighting& host, const SceneRays& rays);
 
   // Uploads the points of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
   // one is too many.
@@ -54,6 +54,8 @@ class DeviceShadows {
   // Pairs of a surface and a light that the device has answered, and how many of these see a part of the light.
   std::uint64_t points() const { return points_; }
   std::uint64_t found() const { return found_; }
+  // RenderStats::shadow_pairs.
+  const std::vector<std::uint64_t>& pairs() const { return pairs_; }
 
  private:
   // First places of a tile's data among those of all.
@@ -68,13 +70,14 @@ class DeviceShadows {
   Kept& kept_;
   const SceneRays& rays_;
   TileLighting& host_;
-  std::span<TileShadows> tiles_;      // of the last upload()
-  std::vector<Begin> begins_;         // of each, and the end
-  std::vector<std::uint32_t> names_;  // of the points
-  std::size_t wanted_ = 0;            // vectors that the parts need, if a search has shown it
+  std::span<TileShadows> tiles_;  // of the last upload()
+  std::vector<Begin> begins_;     // of each, and the end
+  std::uint64_t looks_ = 0;       // of points at the edges of their groups
+  std::size_t wanted_ = 0;        // vectors that the parts need, if a search has shown it
   std::size_t most_tiles_ = SIZE_MAX;
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;
+  std::vector<std::uint64_t> pairs_;
 };
 
 }  // namespace steradian::vulkan

@@ -46,9 +46,10 @@ constexpr int kMaxPairs = 1 << 16;
 
 class Renderer {
  public:
-  Renderer(const Scene& scene, const RenderOptions& options, RenderCache* cache)
+  Renderer(const Scene& scene, const RenderOptions& options, RenderCache* cache, LightOf of)
       : scene_(scene),
         options_(options),
+        of_(of),
         threads_(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
         method_(choose_method(scene, options)),
         cache_(cache),
@@ -187,8 +188,9 @@ class Renderer {
       for (int index = 0; index < tile_count(); ++index)
         if (!options_.part.holds(area(index).x, area(index).y, options_.width)) state.done[static_cast<std::size_t>(index)] = 1;
       if (method_.estimates()) picture.layers["variance"].resize(picture.pixels.size());
-      if (many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
-      if (is_limited() || lighting_.bounds_shadows()) picture.layers["shadow_bound"].resize(picture.pixels.size());
+      const bool has_direct = of_ == LightOf::all_ways;
+      if (has_direct && many_lights_) picture.layers["light_bound"].resize(picture.pixels.size());
+      if (has_direct && (is_limited() || lighting_.bounds_shadows())) picture.layers["shadow_bound"].resize(picture.pixels.size());
       if (options_.bounces != 0 && !method_.estimates()) AllLight::begin(picture, options_);
     }
     if (state.done.size() != tiles || picture.width != options_.width || picture.height != options_.height ||
@@ -302,7 +304,7 @@ class Renderer {
   }
 
   // True if blocks of tiles are lit together.
-  bool in_blocks() const { return many_lights_ && !lighting_.has_shadows() && method_.exact_diffuse; }
+  bool in_blocks() const { return of_ == LightOf::all_ways && many_lights_ && !lighting_.has_shadows() && method_.exact_diffuse; }
 
   // Adds all light of a tile except many lights' diffuse light, which its block adds. Returns false if there is no such light.
   bool light_tile_of_block(SurfaceTile& tile, TileArea a) {
@@ -405,6 +407,12 @@ class Renderer {
     const TileArea a = area(index);
     EstimatedShadows* estimate = nullptr;
     const float weight = 1.0f / static_cast<float>(options_.aa);
+    if (of_ == LightOf::bounces) {
+      tile.radiance = {};
+      all_light_->add(tile, {a, sample, layer, shares, weight}, picture);
+      add_to_picture(tile.radiance, a, shares, weight, picture.pixels, options_.width);
+      return 0;
+    }
     bool bounded = many_lights_ != nullptr;
     if (sum == Sum::block) {
       bounded = light_tile_of_block(tile, a);
@@ -493,6 +501,7 @@ class Renderer {
   const Clock::time_point start_ = Clock::now();
   const Scene& scene_;
   const RenderOptions& options_;
+  const LightOf of_;
   const int threads_;
   const DirectMethod method_;
   RenderCache* const cache_;  // null: none
@@ -519,8 +528,9 @@ class Renderer {
 
 }  // namespace
 
-Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderCache* cache, RenderStats* stats, RenderState* state) {
-  Renderer renderer(scene, options, cache);
+Picture render_on_cpu(const Scene& scene, const RenderOptions& options, RenderCache* cache, RenderStats* stats, RenderState* state,
+                      LightOf of) {
+  Renderer renderer(scene, options, cache, of);
   RenderState own;
   RenderState& kept = state != nullptr ? *state : own;
   Picture picture = renderer.render(kept);
