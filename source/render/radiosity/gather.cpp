@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/lattices.h"
+#include "lobes/ggx_energy.h"
 #include "lobes/lobe.h"
 #include "render/radiosity/bounce_rays.h"
 #include "render/environment/environment_light.h"  // mean_grazing
@@ -35,6 +36,11 @@ Vec3f error_of_quarters(const std::array<Vec3f, 4>& values, Vec3f mean) {
   Vec3f squares{};
   for (const Vec3f& v : values) squares += (v - mean) * (v - mean);
   return {std::sqrt(squares.x / 12), std::sqrt(squares.y / 12), std::sqrt(squares.z / 12)};
+}
+
+Vec3d ratio(Vec3d a, Vec3d b) {
+  const auto one = [](double x, double y) { return y > 0 ? x / y : 1.0; };
+  return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
 }
 
 // Fraction of a lobe's light that its own directions gather.
@@ -205,8 +211,9 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       traced |= 1u << i;
     });
     const std::size_t quarter = first / every % 4;
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::all),
-                          [&](std::size_t i) { quarters[i][quarter] += light[i]; });
+    const std::uint32_t visible = traced & ~rays_.blocked_among(rays, traced, Casters::all);
+    light_.patches().clear_meshes().tint(rays_, rays, visible, light);
+    SixteenSurfaces::each(visible, [&](std::size_t i) { quarters[i][quarter] += light[i]; });
   }
 }
 
@@ -232,10 +239,9 @@ Gather::Result Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t as
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
       if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
-      light[i][quarter] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * cosine[i];
-      const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
-      light[i][quarter] += radiance;
-      basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
+      const Vec3f weighted = rays.tint(i) * cosine[i], radiance = light_.radiance(met[i]) * weighted;
+      light[i][quarter] += light_.glossy_radiance(met[i].side, -cells[k].direction[i]) * weighted + radiance;
+      basis[i] += radiance - light_.coarse_radiance(met[i]) * weighted;
     }
   }
   add_bright(surfaces, asked, sample, level, bright);
@@ -279,6 +285,8 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     lobes::Lobe lobe;
     double fraction;  // of the lobe that these directions gather
     float wider;      // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss their highlights
+    std::optional<Vec3d> albedo;
+    Vec3d weights;  // sum over the directions, which the albedo corrects
   };
   std::array<std::optional<Walker>, kLanes> walkers;
   BounceRays rays(rays_, light_.patches());
@@ -290,8 +298,12 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
     if (!lobe.above_surface()) continue;
     rays.start(i, s);
-    walkers[i] = Walker{frame, lobe, static_cast<double>(gathered_fraction(*of[i])),
-                        static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2)};
+    walkers[i] = Walker{frame,
+                        lobe,
+                        static_cast<double>(gathered_fraction(*of[i])),
+                        static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) * 2),
+                        lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
+                        Vec3d{}};
   }
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
   for (std::size_t k = 0; k < count; ++k) {
@@ -304,17 +316,22 @@ Gather::Result Gather::glossy(const SixteenSurfaces& surfaces, const std::array<
       if (!(l.z > 0)) continue;
       const double pdf = lobe.pdf(l);
       if (!(pdf > 0)) continue;
-      weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) * (walkers[i]->fraction / (pdf * static_cast<double>(count))));
+      const Vec3d whole = lobe.radiance(lobe.evaluate(l)) * (1 / (pdf * static_cast<double>(count)));
+      walkers[i]->weights += whole;
+      weight[i] = static_cast<Vec3f>(whole * walkers[i]->fraction);
       to[i] = static_cast<Vec3f>(walkers[i]->frame.to_world(l));
       rays.set(i, to[i]);
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i)
       if (met[i].side != kNoSide)
-        halves[i][k % 2] += (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider)) * weight[i];
+        halves[i][k % 2] +=
+            (light_.radiance(met[i]) + light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider)) * weight[i] * rays.tint(i);
   }
   Result result;
   for (std::size_t i = 0; i < kLanes; ++i) {
+    if (walkers[i] && walkers[i]->albedo)
+      for (Vec3f& half : halves[i]) half = half * static_cast<Vec3f>(ratio(*walkers[i]->albedo, walkers[i]->weights));
     result.radiance[i] = halves[i][0] + halves[i][1];
     const Vec3f d = halves[i][0] - halves[i][1];  // each half stands for half of the light
     result.error[i] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};

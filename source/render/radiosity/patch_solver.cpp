@@ -122,6 +122,11 @@ class PatchSolver {
   std::vector<Vec3f> from_glossy_;           // by side: mean radiance that glossy lobes of other sides send there
   std::size_t links_per_side_ = 0;
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
+  struct Absorbed {
+    std::uint32_t met;  // side
+    Vec3f fraction;     // that the glass before it takes
+  };
+  std::vector<std::vector<Absorbed>> absorbed_;  // by side: its rays through glass
 };
 
 void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
@@ -322,6 +327,7 @@ void PatchSolver::find_links(std::size_t rays) {
   links_per_side_ = rays;
   links_.resize(rays * patches().side_count());
   from_glossy_.resize(patches().side_count());
+  absorbed_.resize(patches().side_count());
   const std::vector<Vec3d> directions = cosine_directions(rays);
   WorkSteps steps(part(shares_.glossy, shares_.links), patches().side_count());
   each(patches().side_count(), [&](std::size_t side) {
@@ -341,7 +347,10 @@ void PatchSolver::find_links(std::size_t rays) {
       const auto met = bounce.trace();
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
         links_[side * rays + k + i] = met[i].side;
-        if (met[i].side != kNoSide) from_glossy_[side] += light_.glossy_radiance(met[i].side, -to[i]) * (1 / static_cast<float>(rays));
+        if (met[i].side == kNoSide) continue;
+        const Vec3f tint = bounce.tint(i);
+        from_glossy_[side] += light_.glossy_radiance(met[i].side, -to[i]) * tint * (1 / static_cast<float>(rays));
+        if (bounce.any_tint() && tint != Vec3f{1, 1, 1}) absorbed_[side].push_back({met[i].side, Vec3f{1, 1, 1} - tint});
       }
     }
   });
@@ -368,6 +377,7 @@ void PatchSolver::iterate() {
         const std::uint32_t met = links_[side * links_per_side_ + k];
         if (met != kNoSide) sum += bounce[met];
       }
+      for (const Absorbed& ray : absorbed_[side]) sum = sum - bounce[ray.met] * ray.fraction;
       // Light from glossy lobes of other sides is direct light that has bounced once.
       next[side] = reflectance_[side] * (sum * over_links + (light_.iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
     });

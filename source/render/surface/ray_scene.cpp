@@ -18,6 +18,7 @@ constexpr unsigned kSeenByCamera = 1;
 constexpr unsigned kCastsShadow = 2;
 constexpr unsigned kHasEdges = 4;
 constexpr unsigned kCutOut = 8;
+constexpr unsigned kClear = 16;
 
 void* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, std::size_t count) {
   void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, item, count);
@@ -74,7 +75,8 @@ struct RayScene::AlphaTest {
 namespace {
 
 unsigned mask_of(const Mesh& mesh, const Scene& scene) {
-  if (mesh.is_light_shape || !mesh.casts_shadow) return kSeenByCamera;
+  if (mesh.is_light_shape) return kSeenByCamera;
+  if (!mesh.casts_shadow) return kSeenByCamera | kClear;
   const bool cut_out = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
   return kSeenByCamera | kCastsShadow | (cut_out ? kCutOut : kHasEdges);
 }
@@ -83,6 +85,7 @@ unsigned mask_of(Casters casters) {
   switch (casters) {
     case Casters::with_edges: return kHasEdges;
     case Casters::cut_outs: return kCutOut;
+    case Casters::clear: return kClear;
     case Casters::all: break;
   }
   return kCastsShadow;

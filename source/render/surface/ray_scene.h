@@ -22,8 +22,9 @@ namespace steradian {
 
 // RayScene: intersection of rays with a scene, on Embree.
 
-// Meshes that may block a ray, never shapes of lights: every mesh; meshes whose edges cast exact shadows; cut-outs, which have no edges.
-enum class Casters { all, with_edges, cut_outs };
+// Meshes that may block a ray, never shapes of lights: every mesh that casts shadows; those of them whose edges cast exact shadows;
+// cut-outs, which have no edges. clear: the meshes that cast none, which only tint light.
+enum class Casters { all, with_edges, cut_outs, clear };
 
 // Unit of length for Embree, a power of two. Embree treats values below 1e-18 as zero, among them areas times lengths of directions; floats
 // do so below 1e-38. In this unit the scene's size, its largest coordinate, is about 1 / 256 to 256. Lengths are the same floats, except
