@@ -37,11 +37,11 @@ def contents(path):
 class Cycles:
     """The scene in Blender, with the file's lights. Only inside Blender."""
 
-    def __init__(self, path, width, height, bounces, caustics=True):
+    def __init__(self, path, width, height, bounces, caustics=True, aa=1):
         import bpy
         import numpy
 
-        self.bpy, self.numpy, self.scene, self.caustics = bpy, numpy, bpy.context.scene, caustics
+        self.bpy, self.numpy, self.scene, self.caustics, self.aa = bpy, numpy, bpy.context.scene, caustics, aa
         numpy.bool = bool  # Blender's importer asks numpy for it, and Debian's numpy no longer has it
         bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
         bpy.ops.object.select_all(action="SELECT")
@@ -125,7 +125,7 @@ class Cycles:
         self.scene.camera = camera
 
     def set_sampler(self, width, height, bounces):
-        """No clamp, no filter of glossy light, no denoiser, middles of pixels: what converges to the light itself."""
+        """No clamp, no filter of glossy light, no denoiser: what converges to the light itself, in the middles of pixels or all over them."""
         scene = self.scene
         scene.world = scene.world or self.bpy.data.worlds.new("none")
         scene.world.use_nodes = True
@@ -138,7 +138,8 @@ class Cycles:
         cycles.use_denoising = cycles.use_adaptive_sampling = False
         cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
         cycles.caustics_reflective = cycles.caustics_refractive = self.caustics
-        cycles.pixel_filter_type, cycles.filter_width = "BOX", 0.01
+        # Cycles' box is one pixel wide, whatever the width.
+        cycles.pixel_filter_type, cycles.filter_width = "BOX" if self.aa > 1 else "GAUSSIAN", 0.01
         cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = bounces
 
     def render(self, samples, seed, path):
@@ -160,8 +161,8 @@ class Cycles:
 class Program:
     """Ours, in a process of its own."""
 
-    def __init__(self, program, scene, size, bounces, folder):
-        self.command = [program, "render", scene, "--size", size, *(["--bounces", "all"] if bounces else [])]
+    def __init__(self, program, scene, size, bounces, folder, aa=1):
+        self.command = [program, "render", scene, "--size", size, "--aa", str(aa), *(["--bounces", "all"] if bounces else [])]
         self.folder = folder
 
     def render(self, *options):
@@ -307,8 +308,8 @@ def equal(pictures, name, seconds, peer, cycles, mine, kept, folder):
 def look(name, options, folder):
     """Both pictures once, with --look samples of Cycles: how much they differ. Two seeds share the samples, so their noise is known."""
     scene, (width, height) = scene_file(name), map(int, options.size.split("x"))
-    mine, seconds = Program(options.program, scene, options.size, options.bounces, folder).render()
-    cycles = Cycles(scene, width, height, 64 if options.bounces else 0, options.caustics == "on")
+    mine, seconds = Program(options.program, scene, options.size, options.bounces, folder, options.aa).render()
+    cycles = Cycles(scene, width, height, 64 if options.bounces else 0, options.caustics == "on", options.aa)
     numpy, kept = cycles.numpy, without_lights(cycles.numpy, mine, contents(scene))
     halves = [cycles.render(options.look // 2, seed, Path(folder) / "cycles.exr") for seed in (1, 2)]
     theirs, used = (halves[0][0] + halves[1][0]) / 2, halves[0][1] + halves[1][1]
@@ -343,6 +344,7 @@ def parsed(arguments):
     parser.add_argument("--samples", default="16,64,256,1024", help="a pixel, of Cycles and of our sampling; default: %(default)s")
     parser.add_argument("--pictures", help="folder for a picture of both at equal processor time; default: none")
     parser.add_argument("--look", type=int, metavar="SAMPLES", help="only compare one picture of ours with one of Cycles of so many samples")
+    parser.add_argument("--aa", type=int, default=1, help="of ours, with --look: more than 1 compares whole pixels; default: their middles")
     parser.add_argument("--caustics", choices=["on", "off"], default="on", help="of Cycles, with --look; default: %(default)s")
     parser.add_argument("--paths", help="folder that keeps the references; default: none")
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
