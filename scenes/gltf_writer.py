@@ -110,12 +110,13 @@ class Gltf:
         self.json["materials"].append(m)
         return len(self.json["materials"]) - 1
 
-    def picture(self, name, data, material):
-        """Makes a PNG the emissive texture of a material."""
+    def picture(self, name, data, material, use="emissiveTexture"):
+        """Makes a PNG the texture of a material: its emissive or its base colour."""
         self.json.setdefault("images", []).append({"name": name, "bufferView": self.view(data), "mimeType": "image/png"})
         self.json.setdefault("samplers", []).append({"magFilter": 9729, "wrapS": 33071, "wrapT": 33071})
         self.json.setdefault("textures", []).append({"source": len(self.json["images"]) - 1, "sampler": len(self.json["samplers"]) - 1})
-        self.json["materials"][material]["emissiveTexture"] = {"index": len(self.json["textures"]) - 1}
+        m = self.json["materials"][material]
+        (m["pbrMetallicRoughness"] if use == "baseColorTexture" else m)[use] = {"index": len(self.json["textures"]) - 1}
 
     def diffuse(self, name, color):
         return self.material(name, color, specular=0.0)

@@ -11,6 +11,7 @@ import sys
 
 import all_light_scenes
 import atrium_scene
+import glass_scenes
 import large_scenes
 import neon_scene
 from gltf_writer import DOWN, HALF, TO_MINUS_X, TO_PLUS_X, TO_PLUS_Z, Gltf, Shape, box, lathe, looking, plate, png, rounded, sphere, tube
@@ -314,60 +315,6 @@ def office():
     return g
 
 
-def glass():
-    """Balls of glass and chrome, a block of green glass, a thin pane and a torus in a room with a lamp."""
-    g = Gltf()
-    w, d, h = 1.6, 1.6, 2.2
-    white, red, blue = g.diffuse("white", (0.75, 0.74, 0.72)), g.diffuse("red", (0.6, 0.12, 0.1)), g.diffuse("blue", (0.12, 0.2, 0.55))
-    dark = g.diffuse("dark", (0.15, 0.14, 0.13))
-    for name, corners, material in (
-            ("ceiling", ((-w, h, -d), (w, h, -d), (w, h, d), (-w, h, d)), white),
-            ("back", ((-w, 0, -d), (w, 0, -d), (w, h, -d), (-w, h, -d)), white),
-            ("left", ((-w, 0, d), (-w, 0, -d), (-w, h, -d), (-w, h, d)), red),
-            ("right", ((w, 0, -d), (w, 0, d), (w, h, d), (w, h, -d)), blue),
-            ("front", ((w, 0, d), (-w, 0, d), (-w, h, d), (w, h, d)), white)):
-        g.node(name, mesh=g.mesh(name, plate(*corners), material))
-    for color, material in (("light", white), ("dark", dark)):
-        tiles = Shape()
-        n = 8
-        for i in range(n):
-            for j in range(n):
-                if (i + j) % 2 != (color == "dark"):
-                    continue
-                x0, x1, z0, z1 = -w + 2 * w * i / n, -w + 2 * w * (i + 1) / n, -d + 2 * d * j / n, -d + 2 * d * (j + 1) / n
-                tiles.quad((x0, 0, z1), (x1, 0, z1), (x1, 0, z0), (x0, 0, z0))
-        g.node(color + " tiles", mesh=g.mesh(color + " tiles", tiles, material))
-
-    def transmitting(name, color, thickness, **volume):
-        material = g.material(name, color, 0.0, 0.0)
-        g.use("KHR_materials_transmission")
-        extensions = g.json["materials"][material].setdefault("extensions", {})
-        extensions["KHR_materials_transmission"] = {"transmissionFactor": 1.0}
-        if thickness > 0:
-            g.use("KHR_materials_volume")
-            g.use("KHR_materials_ior")
-            extensions["KHR_materials_volume"] = {"thicknessFactor": thickness, **volume}
-            extensions["KHR_materials_ior"] = {"ior": 1.5}
-        return material
-    ball = g.mesh("glass ball", sphere(96, 48), transmitting("glass", (1.0, 1.0, 1.0), 1.0))
-    g.node("glass ball", mesh=ball, translation=[-0.45, 0.35, 0.35], scale=[0.35, 0.35, 0.35])
-    chrome = g.with_material("chrome ball", ball, g.material("chrome", (0.9, 0.9, 0.9), 1.0, 0.0))
-    g.node("chrome ball", mesh=chrome, translation=[0.6, 0.4, -0.5], scale=[0.4, 0.4, 0.4])
-    green = transmitting("green glass", (1.0, 1.0, 1.0), 1.0, attenuationColor=[0.3, 0.8, 0.4], attenuationDistance=0.3)
-    g.node("block", mesh=g.mesh("block", box(0.35, 0.001, 0.35, 0.65, 0.4, 0.65), green))
-    g.node("pane", mesh=g.mesh("pane", plate((-1.3, 0.0, -0.3), (-0.6, 0.0, -0.6), (-0.6, 0.9, -0.6), (-1.3, 0.9, -0.3)),
-                               transmitting("pane", (0.9, 0.75, 0.4), 0.0)))
-
-    def ring_path(t):
-        return [0.22 * math.cos(2 * math.pi * t), 0.0, 0.22 * math.sin(2 * math.pi * t)]
-    g.node("torus", mesh=g.mesh("torus", tube(ring_path, 0.07, 64, 24), g.material("copper", (0.8, 0.45, 0.3), 1.0, 0.12)),
-           translation=[0.05, 0.071, 0.75])
-    g.area_light("lamp", {"type": "rect", "color": [1.0, 0.95, 0.88], "intensity": 40.0, "size": 0.8, "rect": {"aspect": 1.0}},
-                 translation=[0.0, 2.19, 0.0], rotation=DOWN)
-    g.camera("main", [0.2, 1.0, 1.55], [0.0, 0.5, -0.2], 0.95)
-    return g
-
-
 def lamp_shade():
     """A bulb in a cone that is open at both ends, on a table's edge of things to cast shadows."""
     g = Gltf()
@@ -409,8 +356,8 @@ def grille():
     return g
 
 
-SCENES = {"glass": glass, "room": room, "office": office, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes, "lobes": lobes,
-          "ring": ring, **all_light_scenes.SCENES, **atrium_scene.SCENES, **large_scenes.SCENES, **neon_scene.SCENES}
+SCENES = {"room": room, "office": office, "lamp_shade": lamp_shade, "grille": grille, "gallery": gallery, "morph": morph, "plane": plane, "diffuse_floor": diffuse_floor, "glossy_floor": glossy_floor, "textured_floor": textured_floor, "tubes": tubes, "lobes": lobes,
+          "ring": ring, **all_light_scenes.SCENES, **atrium_scene.SCENES, **glass_scenes.SCENES, **large_scenes.SCENES, **neon_scene.SCENES}
 
 
 def main():

@@ -37,11 +37,11 @@ def contents(path):
 class Cycles:
     """The scene in Blender, with the file's lights. Only inside Blender."""
 
-    def __init__(self, path, width, height, bounces):
+    def __init__(self, path, width, height, bounces, caustics=True, aa=1):
         import bpy
         import numpy
 
-        self.bpy, self.numpy, self.scene = bpy, numpy, bpy.context.scene
+        self.bpy, self.numpy, self.scene, self.caustics, self.aa = bpy, numpy, bpy.context.scene, caustics, aa
         numpy.bool = bool  # Blender's importer asks numpy for it, and Debian's numpy no longer has it
         bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
         bpy.ops.object.select_all(action="SELECT")
@@ -125,7 +125,7 @@ class Cycles:
         self.scene.camera = camera
 
     def set_sampler(self, width, height, bounces):
-        """No clamp, no filter of glossy light, no denoiser, middles of pixels: what converges to the light itself."""
+        """No clamp, no filter of glossy light, no denoiser: what converges to the light itself, in the middles of pixels or all over them."""
         scene = self.scene
         scene.world = scene.world or self.bpy.data.worlds.new("none")
         scene.world.use_nodes = True
@@ -137,7 +137,9 @@ class Cycles:
         cycles = scene.cycles
         cycles.use_denoising = cycles.use_adaptive_sampling = False
         cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
-        cycles.pixel_filter_type, cycles.filter_width = "BOX", 0.01
+        cycles.caustics_reflective = cycles.caustics_refractive = self.caustics
+        # Cycles' box is one pixel wide, whatever the width.
+        cycles.pixel_filter_type, cycles.filter_width = "BOX" if self.aa > 1 else "GAUSSIAN", 0.01
         cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = bounces
 
     def render(self, samples, seed, path):
@@ -159,8 +161,8 @@ class Cycles:
 class Program:
     """Ours, in a process of its own."""
 
-    def __init__(self, program, scene, size, bounces, folder):
-        self.command = [program, "render", scene, "--size", size, *(["--bounces", "all"] if bounces else [])]
+    def __init__(self, program, scene, size, bounces, folder, aa=1):
+        self.command = [program, "render", scene, "--size", size, "--aa", str(aa), *(["--bounces", "all"] if bounces else [])]
         self.folder = folder
 
     def render(self, *options):
@@ -274,12 +276,17 @@ def shown(numpy, picture, scale):
     return numpy.where(light > 0.0031308, 1.055 * numpy.maximum(light, 1e-9) ** (1 / 2.4) - 0.055, 12.92 * light)
 
 
+def exposure(pixels):
+    """What makes their mean a middle grey."""
+    lit = pixels.mean(axis=1)
+    return 0.25 / lit[lit > 0].mean()
+
+
 def write_both(path, numpy, mine, theirs, kept):
     """Ours on the left, Cycles' on the right. Returns the relative distance of what a screen shows of both, where no light is seen."""
     import png_files
 
-    lit = mine[kept].mean(axis=1)
-    scale = 0.25 / lit[lit > 0].mean()
+    scale = exposure(mine[kept])
     ours, others = shown(numpy, mine, scale), shown(numpy, theirs, scale)
     if path:
         middle = mine.shape[1] // 2
@@ -299,14 +306,19 @@ def equal(pictures, name, seconds, peer, cycles, mine, kept, folder):
 
 
 def look(name, options, folder):
-    """Both pictures once, with --look samples of Cycles, with caustics: how much they differ."""
+    """Both pictures once, with --look samples of Cycles: how much they differ. Two seeds share the samples, so their noise is known."""
     scene, (width, height) = scene_file(name), map(int, options.size.split("x"))
-    mine, seconds = Program(options.program, scene, options.size, options.bounces, folder).render()
-    cycles = Cycles(scene, width, height, 64 if options.bounces else 0)
-    theirs, used = cycles.render(options.look, 1, Path(folder) / "cycles.exr")
-    kept = without_lights(cycles.numpy, mine, contents(scene))
-    distance = write_both(options.pictures and Path(options.pictures) / f"{name}.png", cycles.numpy, mine, theirs, kept)
-    print(f"LOOK {name}: mean, ours / Cycles {mine[kept].mean() / theirs[kept].mean():.4f}; relative L2 of what a screen shows {distance:.4f}; "
+    mine, seconds = Program(options.program, scene, options.size, options.bounces, folder, options.aa).render()
+    cycles = Cycles(scene, width, height, 64 if options.bounces else 0, options.caustics == "on", options.aa)
+    numpy, kept = cycles.numpy, without_lights(cycles.numpy, mine, contents(scene))
+    halves = [cycles.render(options.look // 2, seed, Path(folder) / "cycles.exr") for seed in (1, 2)]
+    theirs, used = (halves[0][0] + halves[1][0]) / 2, halves[0][1] + halves[1][1]
+    distance = write_both(options.pictures and Path(options.pictures) / f"{name}.png", numpy, mine, theirs, kept)
+    scale = exposure(mine[kept])
+    ours, *others = (shown(numpy, picture, scale)[kept] for picture in (mine, halves[0][0], halves[1][0]))
+    product = ((ours - others[0]) * (ours - others[1])).sum() / (others[0] * others[1]).sum()
+    print(f"LOOK {name}: caustics {options.caustics}; mean, ours / Cycles {mine[kept].mean() / theirs[kept].mean():.4f}; "
+          f"relative L2 of what a screen shows {distance:.4f}, without noise {max(product, 0) ** 0.5:.4f}; "
           f"ours {seconds:.1f} s, Cycles with {options.look} samples {used:.0f} s", flush=True)
 
 
@@ -332,6 +344,8 @@ def parsed(arguments):
     parser.add_argument("--samples", default="16,64,256,1024", help="a pixel, of Cycles and of our sampling; default: %(default)s")
     parser.add_argument("--pictures", help="folder for a picture of both at equal processor time; default: none")
     parser.add_argument("--look", type=int, metavar="SAMPLES", help="only compare one picture of ours with one of Cycles of so many samples")
+    parser.add_argument("--aa", type=int, default=1, help="of ours, with --look: more than 1 compares whole pixels; default: their middles")
+    parser.add_argument("--caustics", choices=["on", "off"], default="on", help="of Cycles, with --look; default: %(default)s")
     parser.add_argument("--paths", help="folder that keeps the references; default: none")
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
     return parser.parse_args(arguments)

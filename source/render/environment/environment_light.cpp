@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "core/lattices.h"
+#include "lobes/ggx_energy.h"
 #include "lobes/lobe.h"
+#include "lobes/visible_facets.h"
 #include "steradian/area_light.h"  // luminance
 
 namespace steradian::environment {
@@ -44,13 +46,12 @@ double integrate_mean_grazing(double cos_view) {
   return sum / (kSteps * kSteps);
 }
 
-// Points of the unit disc, with the square of their radius.
-std::vector<Vec3f> points_of_disc(int count) {
-  std::vector<Vec3f> points;
+std::vector<Vec2f> points_of_disc(int count) {
+  std::vector<Vec2f> points;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const auto [u, v] = fibonacci_place(i, static_cast<std::size_t>(count), 0);
     const double r = std::sqrt(u), phi = 2 * std::numbers::pi * v;
-    points.push_back(static_cast<Vec3f>(Vec3d{r * std::cos(phi), r * std::sin(phi), u}));
+    points.push_back({static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi))});
   }
   return points;
 }
@@ -129,7 +130,7 @@ double EnvironmentLight::measured_residual(const DirectionGrid& whole, const Dir
       const auto alpha = static_cast<float>(metal.alpha_x);
       Vec3f sum{};
       each_ggx_cone(frame, static_cast<Vec3f>(view), alpha, alpha, LobeCones::kFew, 0,
-                    [&](Vec3f, Vec3f radiance, float) { sum += radiance; });
+                    [&](Vec3f, Vec3f radiance, float f0, float f90) { sum += radiance * (f0 + f90); });
       const double cones = luminance(static_cast<Vec3d>(sum));
       squares += (cones - of_rest) * (cones - of_rest);
       mean += of_all;
@@ -148,41 +149,38 @@ Vec3f EnvironmentLight::diffuse(const SurfaceLobe& of, Vec3f to_view) const {
   return static_cast<Vec3f>(lobe.albedo * irradiance * (passed / std::numbers::pi));
 }
 
-// Finds the cones of a GGX lobe by half vectors that are visible from the view, in float.
+// Finds the cones of a GGX lobe by facets that are visible from the view, in float. Those of an isotropic lobe add up to its directional
+// albedo.
 //
 //   view   in the lobe's frame, above its surface
-//   use    use(axis, the map's mean in the cone times G2 / G1, (1 - v.h)^5)
-// Source: the visible normals and their density: Heitz, "Sampling the GGX distribution of visible normals", 2018, algorithm 1.
+//   use    use(axis, the map's mean in the cone, weight of F0, weight of F90)
 template <class Use>
 void EnvironmentLight::each_ggx_cone(const Frame& frame, Vec3f view, float ax, float ay, int count, double turn, Use use) const {
-  static const std::vector<Vec3f> few = points_of_disc(LobeCones::kFew), most = points_of_disc(LobeCones::kMost);
+  static const std::vector<Vec2f> few = points_of_disc(LobeCones::kFew), most = points_of_disc(LobeCones::kMost);
+  const std::vector<Vec2f>& points = count == LobeCones::kFew ? few : most;
   const auto turn_x = static_cast<float>(std::cos(2 * std::numbers::pi * turn)),
              turn_y = static_cast<float>(std::sin(2 * std::numbers::pi * turn));
-  const auto stretched_length = [&](Vec3f w) { return std::sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z); };
+  const auto turned = [&](std::size_t i) {
+    return Vec2f{points[i].x * turn_x - points[i].y * turn_y, points[i].x * turn_y + points[i].y * turn_x};
+  };
+  std::array<lobes::FacetDirection, LobeCones::kMost> facets;
+  std::size_t found = 0;
+  lobes::LobeValue sum{};
+  lobes::each_visible_facet(view, ax, ay, points.size(), turned, [&](const lobes::FacetDirection& facet) {
+    facets[found++] = facet;
+    sum += {static_cast<double>(facet.weight), static_cast<double>(facet.weight * facet.grazing)};
+  });
+  const double over = 1.0 / count;
+  const lobes::LobeValue energy = ax == ay ? lobes::ggx_energy(static_cast<double>(ax), static_cast<double>(view.z)) : sum * over;
+  const auto ratio = [](double whole, double part) { return part > 0 ? static_cast<float>(whole / part) : 0.0f; };
+  const float of_f0 = ratio(energy.plain - energy.fresnel, sum.plain - sum.fresnel), of_f90 = ratio(energy.fresnel, sum.fresnel);
   const Vec3f fx = static_cast<Vec3f>(frame.x), fy = static_cast<Vec3f>(frame.y), fz = static_cast<Vec3f>(frame.z);
-  const float view_length = stretched_length(view);
-  const Vec3f v = Vec3f{ax * view.x, ay * view.y, view.z} * (1 / view_length);
-  const float square = v.x * v.x + v.y * v.y;
-  const Vec3f t1 = square > 0 ? Vec3f{-v.y, v.x, 0} * (1 / std::sqrt(square)) : Vec3f{1, 0, 0}, t2 = cross(v, t1);
-  const float s = 0.5f * (1 + v.z);
-  for (const Vec3f& disc : count == LobeCones::kFew ? few : most) {
-    const float p1 = disc.x * turn_x - disc.y * turn_y, disc_y = disc.x * turn_y + disc.y * turn_x;
-    const float p2 = (1 - s) * std::sqrt(std::max(1 - p1 * p1, 0.0f)) + s * disc_y;
-    const Vec3f n = t1 * p1 + t2 * p2 + v * std::sqrt(std::max(1 - p1 * p1 - p2 * p2, 0.0f));
-    const Vec3f h = normalized(Vec3f{ax * n.x, ay * n.y, std::max(n.z, 1e-6f)});
-    const float v_dot_h = dot(view, h);
-    const Vec3f l = h * (2 * v_dot_h) - view;
-    if (!(l.z > 0) || !(v_dot_h > 0)) continue;
-    const float light_length = stretched_length(l);
-    // G2 / G1 = l.z (|Av| + v.z) / (l.z |Av| + v.z |Al|), where |Aw| is the length in the stretched space.
-    const float weight = l.z * (view_length + view.z) / (l.z * view_length + view.z * light_length) / static_cast<float>(count);
-    // Density per solid angle: G1 D / (4 v.z), G1 = 2 v.z / (v.z + |Av|).
-    const float k = h.x * h.x / (ax * ax) + h.y * h.y / (ay * ay) + h.z * h.z;
-    const float pdf = 1 / (2 * (view.z + view_length) * static_cast<float>(std::numbers::pi) * ax * ay * k * k);
-    const float width = 0.5f / std::sqrt(static_cast<float>(count) * pdf * static_cast<float>(std::numbers::pi));
-    const Vec3f axis = fx * l.x + fy * l.y + fz * l.z;
-    const float c = std::max(1 - v_dot_h, 0.0f), grazing = c * c * c * c * c;
-    use(axis, filtered_.mean(axis, width) * weight, grazing);
+  for (std::size_t i = 0; i < found; ++i) {
+    const lobes::FacetDirection& facet = facets[i];
+    // A disc of solid angle 1 / (n density) varies by a quarter of its radius' square in each direction.
+    const float width = 0.5f / std::sqrt(static_cast<float>(count) * facet.density * static_cast<float>(std::numbers::pi));
+    const Vec3f axis = fx * facet.to.x + fy * facet.to.y + fz * facet.to.z;
+    use(axis, filtered_.mean(axis, width), facet.weight * (1 - facet.grazing) * of_f0, facet.weight * facet.grazing * of_f90);
   }
 }
 
@@ -198,7 +196,7 @@ LobeCones EnvironmentLight::cones_of(const SurfaceLobe& of, const Surface& surfa
     const Vec3f f0 = static_cast<Vec3f>(material.f0), f90 = static_cast<Vec3f>(material.f90);
     each_ggx_cone(frame, static_cast<Vec3f>(local_view), static_cast<float>(material.alpha_x), static_cast<float>(material.alpha_y), count,
                   turn,
-                  [&](Vec3f axis, Vec3f radiance, float grazing) { result.add(axis, radiance * (f0 * (1 - grazing) + f90 * grazing)); });
+                  [&](Vec3f axis, Vec3f radiance, float of_f0, float of_f90) { result.add(axis, radiance * (f0 * of_f0 + f90 * of_f90)); });
     return result;
   }
   const lobes::Lobe lobe(lobes::in_frame(material, frame), local_view);

@@ -50,8 +50,9 @@ struct EnvironmentShadows::VisibleFractions {
   std::array<float, kLanes> half_difference;
 };
 
-EnvironmentShadows::EnvironmentShadows(const EnvironmentLight& light, const RayScene& rays, const RenderOptions& options)
-    : light_(light), rays_(rays), terminator_(options.terminator) {
+EnvironmentShadows::EnvironmentShadows(const EnvironmentLight& light, const Scene& scene, const RayScene& rays,
+                                       const RenderOptions& options)
+    : light_(light), rays_(rays), clear_(scene), terminator_(options.terminator) {
   const std::size_t count = directions_for(options.quality);
   const auto width = static_cast<float>(std::sqrt(1.0 / static_cast<double>(count)));  // of a disc of the solid angle of one direction
   for (int set = 0; set < std::min(options.aa, kSets); ++set) {
@@ -63,8 +64,10 @@ EnvironmentShadows::EnvironmentShadows(const EnvironmentLight& light, const RayS
   }
 }
 
-// Tests one direction a surface. What lies below the horizon of its triangle is blocked.
-std::uint32_t EnvironmentShadows::blocked(const Origins& origins, const std::array<Vec3f, kLanes>& directions, std::uint32_t asked) const {
+// Tests one direction a surface, and tints the light of those that no mesh blocks, which it returns. What lies below the horizon of its
+// triangle is blocked.
+std::uint32_t EnvironmentShadows::lets_pass(const Origins& origins, const std::array<Vec3f, kLanes>& directions, std::uint32_t asked,
+                                            Colors& light) const {
   const double far = 8 * static_cast<double>(rays_.reach());  // beyond every mesh
   RayScene::Sixteen sixteen;
   std::uint32_t below = 0;
@@ -75,7 +78,9 @@ std::uint32_t EnvironmentShadows::blocked(const Origins& origins, const std::arr
       sixteen.set(i, origins.position[i], static_cast<Vec3d>(directions[i]) * far);
     }
   });
-  return below | rays_.blocked_among(sixteen, asked & ~below, Casters::all);
+  const std::uint32_t above = asked & ~below, visible = above & ~rays_.blocked_among(sixteen, above, Casters::all);
+  clear_.tint(rays_, sixteen, visible, light);
+  return visible;
 }
 
 EnvironmentShadows::VisibleFractions EnvironmentShadows::diffuse_fractions(const Surfaces& surfaces, const Origins& origins,
@@ -99,10 +104,10 @@ EnvironmentShadows::VisibleFractions EnvironmentShadows::diffuse_fractions(const
     if (above == 0) continue;
     std::array<Vec3f, kLanes> directions;
     directions.fill(direction.to);
-    const std::uint32_t hidden = blocked(origins, directions, above);
     Sums& half = halves[d % 2];
-    SixteenSurfaces::each(above, [&](std::size_t i) { half.light[i] += direction.light * cosine[i]; });
-    SixteenSurfaces::each(above & ~hidden, [&](std::size_t i) { half.visible[i] += direction.light * cosine[i]; });
+    Colors light;
+    SixteenSurfaces::each(above, [&](std::size_t i) { half.light[i] += light[i] = direction.light * cosine[i]; });
+    SixteenSurfaces::each(lets_pass(origins, directions, above, light), [&](std::size_t i) { half.visible[i] += light[i]; });
   }
   VisibleFractions result;
   const auto ratio = [](float part, float whole) { return whole > 0 ? part / whole : 0.0f; };
@@ -124,18 +129,19 @@ void EnvironmentShadows::add_visible(const std::array<LobeCones, kLanes>& cones,
   std::array<std::array<double, 2>, kLanes> light{}, visible{};  // luminance, by half
   for (std::size_t c = 0; c < LobeCones::kMost; ++c) {
     std::array<Vec3f, kLanes> axes;
+    Colors reflected;
     std::uint32_t asked = 0;
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (c >= cones[i].count) continue;
       axes[i] = cones[i].cones[c].axis;
+      reflected[i] = cones[i].cones[c].reflected;
       asked |= 1u << i;
-      light[i][c % 2] += luminance(static_cast<Vec3d>(cones[i].cones[c].reflected));
+      light[i][c % 2] += luminance(static_cast<Vec3d>(reflected[i]));
     }
     if (asked == 0) break;
-    SixteenSurfaces::each(asked & ~blocked(origins, axes, asked), [&](std::size_t i) {
-      const Vec3f reflected = cones[i].cones[c].reflected;
-      result[i] += reflected;
-      visible[i][c % 2] += luminance(static_cast<Vec3d>(reflected));
+    SixteenSurfaces::each(lets_pass(origins, axes, asked, reflected), [&](std::size_t i) {
+      result[i] += reflected[i];
+      visible[i][c % 2] += luminance(static_cast<Vec3d>(reflected[i]));
     });
   }
   for (std::size_t i = 0; i < kLanes; ++i)

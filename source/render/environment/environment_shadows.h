@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/environment/environment_light.h"
+#include "render/surface/clear_meshes.h"
 #include "render/surface/gbuffer.h"
 #include "render/surface/ray_scene.h"
 #include "steradian/render.h"
@@ -31,7 +32,7 @@ class EnvironmentShadows {
   using Surfaces = SixteenSurfaces;
 
   // All must outlive this object.
-  EnvironmentShadows(const EnvironmentLight& light, const RayScene& rays, const RenderOptions& options);
+  EnvironmentShadows(const EnvironmentLight& light, const Scene& scene, const RayScene& rays, const RenderOptions& options);
 
   // Radiance that each surface reflects to its view. sample: number of the primary sample, which turns the directions of the rays.
   std::array<Vec3f, kLanes> reflected(const Surfaces& surfaces, int sample, HalvesOfRays& halves) const;
@@ -43,13 +44,15 @@ class EnvironmentShadows {
   };
   struct Origins;
   struct VisibleFractions;
-  std::uint32_t blocked(const Origins& origins, const std::array<Vec3f, kLanes>& directions, std::uint32_t asked) const;
+  using Colors = std::array<Vec3f, kLanes>;
+  std::uint32_t lets_pass(const Origins& origins, const std::array<Vec3f, kLanes>& directions, std::uint32_t asked, Colors& light) const;
   void add_visible(const std::array<LobeCones, kLanes>& cones, const Origins& origins, std::array<Vec3f, kLanes>& result,
                    std::array<double, kLanes>& half_difference) const;
   VisibleFractions diffuse_fractions(const Surfaces& surfaces, const Origins& origins, std::uint32_t asked, int sample) const;
 
   const EnvironmentLight& light_;
   const RayScene& rays_;
+  const ClearMeshes clear_;
   const Terminator terminator_;
   std::vector<std::vector<Direction>> sets_;  // directions of the whole sphere, by primary sample
 };

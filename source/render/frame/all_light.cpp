@@ -30,10 +30,9 @@ AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, std::un
       eye_(surfaces.camera().origin()),
       patches_(std::move(patches)),
       bounds_(std::move(bounds)),
-      gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options),
-              {options.bounce_preview ? 0 : options.bounce_error, options.bounce_strict, options.aa}),
-      mirror_images_(kMostLayers, radiosity::MirrorImage(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
-                                                         kFar * static_cast<float>(surfaces.rays().reach()))),
+      gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), {options.bounce_error, options.bounce_strict, options.aa}),
+      mirror_images_(kMostTurns, radiosity::MirrorImage(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
+                                                        kFar * static_cast<float>(surfaces.rays().reach()))),
       surfaces_(surfaces),
       add_direct_(std::move(add_direct)) {}
 
@@ -71,13 +70,13 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
   TilePlane reach;
   reach.fill(std::numeric_limits<float>::infinity());
   const auto shown = std::make_unique<SurfaceTile>();
-  for (int layer = 0; layer < kMostLayers; ++layer) {
-    if (layer > 0) surfaces_.look_through(*shown, ways);
+  ways.restart();
+  do {
     clear_kinds(*shown);
     shown->seed = seed;
     for (std::size_t i = 0; i < kTilePixels; ++i) put_nothing(*shown, i);
     surfaces_.passed_rays().fill(ways, PassedRays::Lamps::hidden, *shown);
-    if (!shown->any_surface) break;
+    if (!shown->any_surface) continue;
     add_direct_(*shown);
     TileVector error_of_shown{};
     // The mirror is a bounce of its own.
@@ -87,7 +86,7 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const float way = length(get(shown->position, i) - get(ways.origin, i));
       onwards[i] = ways.length[i] + way;
-      if (layer == 0 && shown->material[i] != nullptr) reach[i] = way;
+      if (ways.turn == 0 && shown->material[i] != nullptr) reach[i] = way;
     }
     const auto deeper = std::make_unique<radiosity::Mirrors>();
     if (depth > 1 && !last && radiosity::find_mirrors(surfaces_.rays(), *shown, onwards, *deeper))
@@ -97,8 +96,7 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
       steradian::add(light, i, get(shown->radiance, i) * get(ways.shares, i));
       steradian::add(error, i, get(error_of_shown, i) * get(ways.shares, i));
     }
-    if (!shown->any_passing) break;
-  }
+  } while (surfaces_.passed_rays().go_on(*shown, ways));
   return reach;
 }
 

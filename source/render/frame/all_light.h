@@ -26,7 +26,7 @@ class AllLight {
   // Place of a tile's surfaces in the picture.
   struct Seen {
     TileArea area;
-    int sample, layer;         // layer: number of the surfaces before them that let light through
+    int sample, layer;         // layer: number of the pixels' surfaces before them, along all ways
     const TileVector* shares;  // fraction of their light that arrives at the camera; null: all
     float weight;              // of the sample
   };

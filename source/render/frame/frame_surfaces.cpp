@@ -22,7 +22,7 @@ FrameSurfaces::FrameSurfaces(const Scene& scene, const RenderOptions& options, c
       rays_(parts.rays),
       environment_(prepare_environment(fitted)),
       environment_shadows_(environment_ != nullptr && options.shadows != Shadows::off
-                               ? std::make_unique<const environment::EnvironmentShadows>(*environment_, *rays_, options)
+                               ? std::make_unique<const environment::EnvironmentShadows>(*environment_, scene, *rays_, options)
                                : nullptr),
       maps_(parts.maps),
       shading_{surface_packs_for(active_simd()), options.shadows != Shadows::off ? options.terminator : Terminator::strict, maps_.get(),

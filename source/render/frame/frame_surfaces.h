@@ -17,8 +17,6 @@
 
 namespace steradian {
 
-inline constexpr int kMostLayers = 8;  // layers of surfaces that let light pass, with what lies behind them
-
 class FrameSurfaces {
  public:
   // Scene, options and table must outlive this object. fitted: as lobes_of. estimates: paths estimate the light.
@@ -36,7 +34,7 @@ class FrameSurfaces {
   // Fills a tile with the surfaces through the places of a primary sample, and the background around them. behind: distances to look past;
   // null for the nearest surfaces. Returns the distances of the surfaces.
   TilePlane fill(int index, int sample, SurfaceTile& tile, const TilePlane* behind = nullptr);
-  // Moves rays past the surfaces of a tile, then fills it with the next ones.
+  // Fills a tile with the surfaces that moved rays meet.
   const PassedRays& passed_rays() const { return passed_; }
   void look_through(const SurfaceTile& tile, PassedRays::Ways& ways) const { passed_.look_through(tile, ways); }
   void fill_behind(int index, int sample, SurfaceTile& tile, PassedRays::Ways& ways);

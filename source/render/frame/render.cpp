@@ -490,10 +490,9 @@ class Renderer {
     if (!tile->any_passing) return squares;
     const auto ways = std::make_unique<PassedRays::Ways>();
     PassedRays::begin(distances, *ways);
-    for (int layer = 1; layer < kMostLayers && tile->any_passing; ++layer) {
-      surfaces_.look_through(*tile, *ways);
+    while (surfaces_.passed_rays().go_on(*tile, *ways)) {
       surfaces_.fill_behind(index, s, *tile, *ways);
-      squares += light_tile(*tile, index, s, layer, pairs, &ways->shares, picture, Sum::tile, work);
+      squares += light_tile(*tile, index, s, ways->turn, pairs, &ways->shares, picture, Sum::tile, work);
     }
     return squares;
   }

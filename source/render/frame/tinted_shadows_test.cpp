@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "support/meshes.h"
+#include "steradian/environment.h"
 #include "steradian/render.h"
 #include "support/boxes.h"
 
@@ -111,6 +113,71 @@ TEST(TintedShadows, LeaveOtherLightAsItIs) {
   const Picture without = render(scene, options);
   for (std::size_t i = 0; i < with.pixels.size(); ++i)
     EXPECT_NEAR(double{with.pixels[i].x}, double{without.pixels[i].x}, 1e-6 * double{without.pixels[i].x});
+}
+
+// A floor in a bubble under a white sky: every ray to the sky passes one face.
+TEST(TintedShadows, TintTheSkysLight) {
+  Scene scene = floor_below(ball_mesh({0, 0, 0}, 6, 0, 48, 24), glass({0.9f, 0.5f, 0.1f, 1}));
+  scene.area_lights.clear();
+  scene.environment = std::make_shared<const Environment>(white_environment());
+  RenderOptions options;
+  options.width = options.height = 16;
+  options.shadows = Shadows::on;
+  scene.cameras = {camera_at({0, 1, 2}, {0, -0.6, -1}, 0.4)};
+  for (const bool metal : {false, true}) {
+    scene.materials[0].metallic = metal ? 1.0f : 0.0f;
+    scene.materials[0].base_color = metal ? Vec4f{1, 1, 1, 1} : Vec4f{0.8f, 0.8f, 0.8f, 1};
+    scene.materials[0].roughness = metal ? 0.1f : 1.0f;  // of an albedo within 1e-3 of 1
+    for (const Vec3f& p : render(scene, options).pixels) {
+      const float light = metal ? 1.0f : 0.8f;
+      ASSERT_NEAR(p.x, 0.9f * light, 1e-3f) << metal;
+      ASSERT_NEAR(p.y, 0.5f * light, 1e-3f) << metal;
+      ASSERT_NEAR(p.z, 0.1f * light, 1e-3f) << metal;
+    }
+  }
+}
+
+// A floor under a pane that sees a lit ceiling through it, and nothing else: light that reaches it has passed the pane an odd number of
+// times.
+TEST(TintedShadows, TintLightBetweenSurfaces) {
+  const Vec3f tint{0.9f, 0.5f, 0.25f};
+  Scene scene = floor_below(quad_mesh({-9, 1, 9}, {9, 1, 9}, {9, 1, -9}, {-9, 1, -9}, 0), glass({tint.x, tint.y, tint.z, 1}));
+  scene.meshes.push_back(quad_mesh({-3, 3, 3}, {-3, 3, -3}, {3, 3, -3}, {3, 3, 3}, 0));
+  scene.area_lights.clear();
+  PunctualLight lamp;
+  lamp.intensity = {5, 5, 5};
+  lamp.kind = PunctualKind::spot;
+  lamp.direction = {0, 1, 0};
+  lamp.cos_inner = 0.5;
+  lamp.cos_outer = 0.2;
+  // Four light the ceiling evenly: places that stand for bright patches would depend on the bounces.
+  for (const double x : {-1.5, 1.5})
+    for (const double z : {-1.5, 1.5}) {
+      lamp.position = {x, 1.1, z};
+      scene.punctual_lights.push_back(lamp);
+    }
+  scene.cameras = {camera_at({0, 0.7, 2}, {0, -0.6, -1}, 0.4)};
+  RenderOptions options;
+  options.width = options.height = 16;
+  options.shadows = Shadows::on;
+  const auto light = [&](int bounces) {
+    options.bounces = bounces;
+    Vec3d sum{};
+    for (const Vec3f& p : render(scene, options).pixels) sum += static_cast<Vec3d>(p);
+    return sum;
+  };
+  const Vec3d one = light(1), three = light(3) - one;
+  scene.meshes.erase(scene.meshes.begin() + 1);
+  const Vec3d plain_one = light(1), plain_three = light(3) - plain_one;
+  // Without the pane the patches are a little smaller, which changes the light by less than 1 %.
+  const auto expect = [](Vec3d with, Vec3d without, Vec3d ratio) {
+    EXPECT_NEAR(with.x / without.x, ratio.x, 0.01 * ratio.x);
+    EXPECT_NEAR(with.y / without.y, ratio.y, 0.01 * ratio.y);
+    EXPECT_NEAR(with.z / without.z, ratio.z, 0.01 * ratio.z);
+  };
+  const auto t = static_cast<Vec3d>(tint);
+  expect(one, plain_one, t);
+  expect(three, plain_three, t * t * t);
 }
 
 }  // namespace steradian::tinted_shadows_test

@@ -31,6 +31,8 @@ std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
     ray.tfar[i] = std::numeric_limits<float>::infinity();
     packet_.hit.geomID[i] = packet_.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
+  tint_.fill({1, 1, 1});
+  any_tint_ = false;
   constexpr int kMostPassed = 8;
   for (int passed = 0; passed <= kMostPassed; ++passed) {
     rays_.intersect(valid, packet_);
@@ -44,7 +46,8 @@ std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
         met[i] = mesh;
         continue;
       }
-      again = true;
+      again = any_tint_ = true;
+      tint_[i] = tint_[i] * patches_.clear_meshes().at_face(mesh);
       ray.tnear[i] = ray.tfar[i] * (1 + 2e-5f);
       ray.tfar[i] = std::numeric_limits<float>::infinity();
       packet_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;

@@ -29,13 +29,17 @@ class BounceRays {
   }
   // Traces the rays that were set since the last call. Returns the place that each meets; its side may be kNoSide.
   std::array<PatchPlace, kLanes> trace();
+  // Fraction of the light that comes to a lane through the glass that its ray has passed in the last call.
+  Vec3f tint(std::size_t lane) const { return tint_[lane]; }
+  bool any_tint() const { return any_tint_; }
   // Length of a ray to what it met in the last call.
   float distance(std::size_t lane) const { return packet_.ray.tfar[lane]; }
 
  private:
   const RayScene& rays_;
   const Patches& patches_;
-  std::array<Vec3f, kLanes> origin_{}, normal_{};
+  std::array<Vec3f, kLanes> origin_{}, normal_{}, tint_{};
+  bool any_tint_ = false;
   RTCRayHit16 packet_{};
   std::uint32_t asked_ = 0;
 };

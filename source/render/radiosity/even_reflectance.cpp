@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/lattices.h"
-#include "lobes/lobe.h"
+#include "lobes/ggx_energy.h"
 #include "render/environment/environment_light.h"  // mean_grazing
 #include "steradian/albedo.h"
 
@@ -35,28 +34,6 @@ struct GgxFractions {
   float all, grazing;
 };
 
-GgxFractions integrate_ggx(double alpha) {
-  constexpr std::size_t kDirections = 256;
-  Material m;
-  m.brdf = Brdf::ggx;
-  m.alpha_x = m.alpha_y = alpha;
-  double all = 0, grazing = 0;
-  const auto add = [&](double cosine, double weight) {
-    const lobes::Lobe lobe(m, {std::sqrt(1 - cosine * cosine), 0, cosine});
-    for (std::size_t i = 0; i < kDirections; ++i) {
-      const auto [u, v] = fibonacci_place(i, kDirections, 0);
-      const Vec3d l = lobe.sample(u, v);
-      const double pdf = l.z > 0 ? lobe.pdf(l) : 0;
-      if (!(pdf > 0)) continue;
-      const lobes::LobeValue value = lobe.evaluate(l);
-      all += value.plain * weight / (pdf * kDirections);
-      grazing += value.fresnel * weight / (pdf * kDirections);
-    }
-  };
-  for (int i = 0; i < kViews; ++i) add((i + 0.5) / kViews, 2 * (i + 0.5) / (kViews * kViews));
-  return {static_cast<float>(all), static_cast<float>(grazing)};
-}
-
 // The same by linear steps of the roughness.
 GgxFractions ggx_fractions(float alpha_x, float alpha_y) {
   constexpr int kSteps = 32;
@@ -64,7 +41,10 @@ GgxFractions ggx_fractions(float alpha_x, float alpha_y) {
     std::array<GgxFractions, kSteps + 1> t;
     for (int k = 0; k <= kSteps; ++k) {
       const double roughness = static_cast<double>(k) / kSteps;
-      t[static_cast<std::size_t>(k)] = integrate_ggx(std::max(roughness * roughness, 1e-3));
+      GgxFractions& f = t[static_cast<std::size_t>(k)];
+      const double alpha = std::max(roughness * roughness, 1e-3);
+      f.all = static_cast<float>(mean_over_views([&](double cosine) { return lobes::ggx_energy(alpha, cosine).plain; }));
+      f.grazing = static_cast<float>(mean_over_views([&](double cosine) { return lobes::ggx_energy(alpha, cosine).fresnel; }));
     }
     return t;
   }();

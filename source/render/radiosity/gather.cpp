@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/lattices.h"
+#include "lobes/ggx_energy.h"
 #include "lobes/lobe.h"
 #include "render/radiosity/bounce_rays.h"
 #include "render/environment/environment_light.h"  // mean_grazing
@@ -39,6 +40,11 @@ Vec3f error_of_quarters(const std::array<Vec3f, 4>& values, Vec3f mean) {
   Vec3f squares{};
   for (const Vec3f& v : values) squares += (v - mean) * (v - mean);
   return {std::sqrt(squares.x / 12), std::sqrt(squares.y / 12), std::sqrt(squares.z / 12)};
+}
+
+Vec3d ratio(Vec3d a, Vec3d b) {
+  const auto one = [](double x, double y) { return y > 0 ? x / y : 1.0; };
+  return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
 }
 
 // Fraction of a lobe's light that its own directions gather.
@@ -121,8 +127,9 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
       traced |= 1u << i;
     });
     const std::size_t quarter = first / every % 4;
-    SixteenSurfaces::each(traced & ~rays_.blocked_among(rays, traced, Casters::and_lights),
-                          [&](std::size_t i) { quarters[i][quarter] += light[i]; });
+    const std::uint32_t visible = traced & ~rays_.blocked_among(rays, traced, Casters::and_lights);
+    light_.patches().clear_meshes().tint(rays_, rays, visible, light);
+    SixteenSurfaces::each(visible, [&](std::size_t i) { quarters[i][quarter] += light[i]; });
   }
 }
 
@@ -130,6 +137,7 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
 struct Gather::Lit {
   Result result;
   std::array<Vec3f, kLanes> standard{};
+  std::array<Vec3f, kLanes> widened{};  // change by the width that lobes seen by few rays are given
   // Puts the diffuse light of a surface, whose mean radiance from all sides is given.
   void put(std::size_t i, const SixteenSurfaces& surfaces, const FittedValue& mean) {
     const Surface& s = surfaces.surface[i];
@@ -141,9 +149,14 @@ struct Gather::Lit {
 };
 
 bool Gather::is_within(const Lit& lit) const {
-  return tolerance_ == 0 || std::all_of(lit.standard.begin(), lit.standard.end(), [&](Vec3f error) {
-           return std::max({error.x, error.y, error.z}) <= tolerance_;
-         });
+  const auto all_below = [](const std::array<Vec3f, kLanes>& errors, float most) {
+    return std::all_of(errors.begin(), errors.end(), [&](Vec3f e) {
+      return std::max({std::fabs(e.x), std::fabs(e.y), std::fabs(e.z)}) <= most;
+    });
+  };
+  constexpr float kWidened = 0.02f;  // of the mean light: highlights that are spread by more need more directions
+  return all_below(lit.widened, kWidened * static_cast<float>(light_.mean_radiance())) &&
+         (tolerance_ == 0 || all_below(lit.standard, tolerance_));
 }
 
 // The light of bright sides at each surface.
@@ -191,10 +204,9 @@ Gather::Sums Gather::quarter_sums(const SixteenSurfaces& surfaces, std::uint32_t
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
       if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
-      sums.light[i][part] += light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays) * cosine[i];
-      const Vec3f radiance = light_.radiance(met[i]) * cosine[i];
-      sums.light[i][part] += radiance;
-      sums.basis[i] += radiance - light_.coarse_radiance(met[i]) * cosine[i];
+      const Vec3f weighted = rays.tint(i) * cosine[i], radiance = light_.radiance(met[i]) * weighted;
+      sums.light[i][part] += light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays) * weighted + radiance;
+      sums.basis[i] += radiance - light_.coarse_radiance(met[i]) * weighted;
     }
   }
   return sums;
@@ -284,6 +296,8 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     lobes::Lobe lobe;
     double fraction;  // of the lobe that these directions gather
     float wider;      // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss narrow highlights
+    std::optional<Vec3d> albedo;
+    Vec3d weights;  // sum over the directions, which the albedo corrects
   };
   std::array<std::optional<Walker>, kLanes> walkers;
   BounceRays rays(rays_, light_.patches());
@@ -295,12 +309,16 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
     if (!lobe.above_surface()) continue;
     rays.start(i, s);
-    walkers[i] = Walker{frame, lobe, static_cast<double>(gathered_fraction(*of[i])),
-                        static_cast<float>(std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25) *
-                                           std::exp2(1.0 - static_cast<double>(level)))};
+    const double width = std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25);
+    walkers[i] = Walker{frame,
+                        lobe,
+                        static_cast<double>(gathered_fraction(*of[i])),
+                        static_cast<float>(width * std::exp2(1.0 - static_cast<double>(level))),
+                        lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
+                        Vec3d{}};
   }
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
-  std::array<Vec3f, kLanes> widened{};  // change by the added width
+  Lit lit;
   for (std::size_t k = 0; k < count; ++k) {
     const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
     std::array<Vec3f, kLanes> weight{}, to{};
@@ -311,25 +329,30 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
       if (!(l.z > 0)) continue;
       const double pdf = lobe.pdf(l);
       if (!(pdf > 0)) continue;
-      weight[i] = static_cast<Vec3f>(lobe.radiance(lobe.evaluate(l)) * (walkers[i]->fraction / (pdf * static_cast<double>(count))));
+      const Vec3d whole = lobe.radiance(lobe.evaluate(l)) * (1 / (pdf * static_cast<double>(count)));
+      walkers[i]->weights += whole;
+      weight[i] = static_cast<Vec3f>(whole * walkers[i]->fraction);
       to[i] = static_cast<Vec3f>(walkers[i]->frame.to_world(l));
       rays.set(i, to[i]);
     }
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
-      halves[i][k % 2] += light_.radiance(met[i]) * weight[i];
+      const Vec3f weighted = weight[i] * rays.tint(i);
+      halves[i][k % 2] += light_.radiance(met[i]) * weighted;
       if (!light_.has_lobe(met[i].side)) continue;
       const Vec3f of_lobe = light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider);
-      halves[i][k % 2] += of_lobe * weight[i];
-      widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * weight[i];
+      halves[i][k % 2] += of_lobe * weighted;
+      lit.widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * weighted;
     }
   }
-  Lit lit;
   for (std::size_t i = 0; i < kLanes; ++i) {
+    if (walkers[i] && walkers[i]->albedo)
+      for (Vec3f& half : halves[i]) half = half * static_cast<Vec3f>(ratio(*walkers[i]->albedo, walkers[i]->weights));
     lit.result.radiance[i] = halves[i][0] + halves[i][1];
     // Each half stands for half of the light.
-    lit.result.error[i] = lit.standard[i] = absolute(halves[i][0] - halves[i][1]) + absolute(widened[i]);
+    lit.standard[i] = absolute(halves[i][0] - halves[i][1]) + absolute(lit.widened[i]);
+    lit.result.error[i] = lit.standard[i];
   }
   return lit;
 }
@@ -339,7 +362,7 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
 template <class Of>
 void Gather::refine(Of of, Result& sum) const {
   Lit lit;
-  for (std::size_t level = strict_ ? grids_.size() - 1 : 0; level < grids_.size(); ++level) {
+  for (std::size_t level = strict_ ? kFinest : 0; level <= kFinest; ++level) {
     lit = of(level);
     if (is_within(lit)) break;
   }

@@ -72,7 +72,7 @@ class Gather {
   static void add(const Result& result, Result& sum);
   void add_grids(int rows);
 
-  static constexpr int kFinest = 2;  // level; each has four times the directions of the one before
+  static constexpr std::size_t kFinest = 2;  // level; each has four times the directions of the one before
   const PatchLight& light_;
   const RayScene& rays_;
   const bool strict_;

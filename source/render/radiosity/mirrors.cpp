@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "lobes/ggx_energy.h"
+
 namespace steradian::radiosity {
 namespace {
 
@@ -29,9 +31,9 @@ std::optional<Mirror> mirror_of(const Surface& surface, Vec3f view) {
     const float cosine = dot(lobe.normal, view);
     if (!(cosine > 0) || (mirror && !(lobe.normal == mirror->normal))) continue;
     if (!mirror) mirror = Mirror{lobe.normal, normalized(lobe.normal * (2 * cosine) - view), {}};
-    const float grazing = std::pow(std::max(1 - cosine, 0.0f), 5.0f);
-    const Vec3f weight =
-        (static_cast<Vec3f>(m.f0) * (1 - grazing) + static_cast<Vec3f>(m.f90) * grazing) * mirrored_fraction(alpha_x, alpha_y);
+    const lobes::LobeValue energy = lobes::ggx_energy(std::sqrt(m.alpha_x * m.alpha_y), static_cast<double>(cosine));
+    const auto weight = static_cast<Vec3f>((m.f0 * (energy.plain - energy.fresnel) + m.f90 * energy.fresnel) *
+                                           static_cast<double>(mirrored_fraction(alpha_x, alpha_y)));
     mirror->weight += weight;
     mirror->alpha_x += alpha_x * sum(weight);
     mirror->alpha_y += alpha_y * sum(weight);

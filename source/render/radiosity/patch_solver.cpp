@@ -119,6 +119,11 @@ class PatchSolver {
   std::size_t links_per_side_ = 0;
   std::vector<Vec3d> directions_;     // of the rays of a side, before the turn of its frame
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
+  struct Absorbed {
+    std::size_t ray;
+    Vec3f fraction;  // that the glass before it takes
+  };
+  std::vector<std::vector<Absorbed>> absorbed_;  // by side: its rays through glass
 };
 
 void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
@@ -319,6 +324,7 @@ void PatchSolver::find_links(std::size_t rays) {
   directions_ = cosine_directions(rays);
   links_.resize(rays * patches().side_count());
   from_glossy_.resize(patches().side_count());
+  absorbed_.resize(patches().side_count());
   WorkSteps steps(part(shares_.glossy, shares_.links), patches().side_count());
   each(patches().side_count(), [&](std::size_t side) {
     steps.advance();
@@ -335,8 +341,10 @@ void PatchSolver::find_links(std::size_t rays) {
       const auto met = bounce.trace();
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
         links_[side * rays + k + i] = met[i].side;
-        if (met[i].side != kNoSide)
-          from_glossy_[side] += light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays) * (1 / static_cast<float>(rays));
+        if (met[i].side == kNoSide) continue;
+        const Vec3f tint = bounce.tint(i), of_lobe = light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays);
+        from_glossy_[side] += of_lobe * tint * (1 / static_cast<float>(rays));
+        if (bounce.any_tint() && tint != Vec3f{1, 1, 1}) absorbed_[side].push_back({k + i, Vec3f{1, 1, 1} - tint});
       }
     }
   });
@@ -363,6 +371,7 @@ void PatchSolver::iterate() {
         const std::uint32_t met = links_[side * links_per_side_ + k];
         if (met != kNoSide) sum += bounce[met];
       }
+      for (const Absorbed& a : absorbed_[side]) sum = sum - bounce[links_[side * links_per_side_ + a.ray]] * a.fraction;
       // Light from glossy lobes of other sides is direct light that has bounced once.
       next[side] = reflectance_[side] * (sum * over_links + (light_.iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
     });
@@ -423,11 +432,14 @@ void PatchSolver::turn_bounces() {
       found[k] = {surface, bounced * share, {}, {}};
       const Frame frame = frame_of_rays(surface, side);
       const float per_ray = std::numbers::pi_v<float> / static_cast<float>(links_per_side_);
+      std::vector<Vec3f> tints(links_per_side_, {1, 1, 1});
+      for (const Absorbed& a : absorbed_[side]) tints[a.ray] = tints[a.ray] - a.fraction;
       for (std::size_t i = 0; i < links_per_side_; ++i) {
         const std::uint32_t met = links_[side * links_per_side_ + i];
         if (met == kNoSide) continue;
         const auto to = static_cast<Vec3f>(frame.to_world(directions_[i]));
-        const Vec3f irradiance = (light_.sides_[met].radiance + light_.glossy_radiance(met, -to, GlossySides::kFewRays)) * per_ray;
+        const Vec3f irradiance =
+            (light_.sides_[met].radiance + light_.glossy_radiance(met, -to, GlossySides::kFewRays)) * tints[i] * per_ray;
         found[k].irradiance += irradiance;
         if (weighs(irradiance)) found[k].incident.push_back({to, irradiance, per_ray / static_cast<float>(directions_[i].z), kFromSides});
       }

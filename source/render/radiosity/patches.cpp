@@ -25,7 +25,7 @@ std::uint32_t patches_before(std::uint32_t row, std::uint32_t cells) { return ro
 
 }  // namespace
 
-Patches::Patches(const Scene& scene, std::size_t wanted) {
+Patches::Patches(const Scene& scene, std::size_t wanted) : clear_(scene) {
   for (const Mesh& mesh : scene.meshes) lets_through_.push_back(light_passes(scene, mesh));
   std::vector<float> edges;
   for (const Mesh& mesh : scene.meshes)

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/surface/clear_meshes.h"
 #include "render/surface/ray_scene.h"
 #include "steradian/scene.h"
 
@@ -38,6 +39,7 @@ class Patches {
 
   // True if light goes through a mesh, which then neither meets bounced light nor sends any.
   bool lets_through(std::size_t mesh) const { return lets_through_[mesh] != 0; }
+  const ClearMeshes& clear_meshes() const { return clear_; }
 
   // The middle of a side's patch, or of a part that stands for a split side, as barycentric coordinates of its triangle.
   struct Site {
@@ -81,10 +83,11 @@ class Patches {
   std::vector<std::size_t> first_grid_;  // by mesh
   std::vector<Site> sites_;
   std::vector<std::uint8_t> lets_through_;  // by mesh
-  float size_ = 0;                          // of the patches that large triangles are cut into
-  std::size_t grid_patches_ = 0;            // those of the grids come first
-  std::vector<std::uint32_t> wholes_;       // of the patches after them: the patch that each was split from
-  std::vector<std::uint32_t> split_of_;     // by side of the grids: index below, or kNoSide; empty: no side is split
+  ClearMeshes clear_;
+  float size_ = 0;                       // of the patches that large triangles are cut into
+  std::size_t grid_patches_ = 0;         // those of the grids come first
+  std::vector<std::uint32_t> wholes_;    // of the patches after them: the patch that each was split from
+  std::vector<std::uint32_t> split_of_;  // by side of the grids: index below, or kNoSide; empty: no side is split
   std::vector<Split> splits_;
 };
 

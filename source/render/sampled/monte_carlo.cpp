@@ -78,6 +78,8 @@ DirectSampler::DirectSampler(const Scene& scene, const RayScene* shadows, const 
 
 DirectSampler::~DirectSampler() = default;
 
+Vec3d DirectSampler::beyond(Vec3d from, Vec3d direction) { return from + direction * kBeyond * (1 + length(from)); }
+
 std::size_t DirectSampler::light_count() const { return lights_.size() + scene_.punctual_lights.size(); }
 
 Estimate DirectSampler::estimate(const Surface& surface, Vec3f view, LobeChoice choice, int spp, reference::Random& random) {
@@ -109,7 +111,7 @@ Estimate DirectSampler::estimate_environment(const Frame& frame, Vec3d p, Vec3d 
     if (!(l.z > 0)) return;
     const double pdf = scratch_->find_densities(around_->pdf(direction), l);
     if (!(pdf > 0) || (shadows_ != nullptr && (!above(geometric, direction) || shadows_->blocked_towards(p, direction)))) return;
-    mean.add(evaluate(lobes, l) * around_->radiance(direction) / pdf, scratch_->densities);
+    mean.add(evaluate(lobes, l) * around_->radiance(direction) * through(p, beyond(p, direction)) / pdf, scratch_->densities);
   };
   for (int i = 0; i < spp; ++i) {
     const double u = random.uniform(), v = random.uniform();
@@ -142,7 +144,7 @@ Vec3d DirectSampler::visit_lights(const Frame& frame, const Surface& surface, Pu
       if (light.kind == PunctualKind::directional ? shadows_->blocked_towards(p, to) : shadows_->between(p, light.position, Casters::all))
         continue;
     }
-    const Vec3d there = light.kind == PunctualKind::directional ? p + to * kBeyond * (1 + length(p)) : light.position;
+    const Vec3d there = light.kind == PunctualKind::directional ? beyond(p, to) : light.position;
     punctual(l, light.intensity * incident.irradiance.v * through(p, there));
   }
 
@@ -256,7 +258,7 @@ void DirectSampler::find_incident(const Surface& surface, int places, reference:
     const auto [u, v] = r2_place(shift + i);
     const Vec3d to = around_->sample(u, v);
     if (shadows_ != nullptr && (!above(geometric, to) || shadows_->blocked_towards(p, to))) continue;
-    add({frame.to_local(to), around_->pdf(to), around_->radiance(to)});
+    add({frame.to_local(to), around_->pdf(to), around_->radiance(to) * through(p, beyond(p, to))});
   }
   std::erase_if(found, [](const IncidentLight& light) { return !weighs(light.irradiance); });
 }

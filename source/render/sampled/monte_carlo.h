@@ -48,6 +48,7 @@ class DirectSampler {
   DirectSampler(const DirectSampler&) = delete;
 
   const ClassicTable* fitted() const { return fitted_; }
+  const ClearMeshes& clear_meshes() const { return clear_; }
 
   // Light that the surface sends towards the viewer, without its emission. spp: sample pairs per light. Each thread needs its own object,
   // which keeps scratch memory.
@@ -72,6 +73,8 @@ class DirectSampler {
   Vec3d visit_lights(const Frame& frame, const Surface& surface, Punctual punctual, Area area);
   // Estimates the environment's light by scratch_->lobes, which share the frame's normal.
   Estimate estimate_environment(const Frame& frame, Vec3d position, Vec3d geometric, int spp, reference::Random& random) const;
+  // A place outside of the scene.
+  static Vec3d beyond(Vec3d from, Vec3d direction);
   // Fraction of light that comes from one place to another through clear meshes.
   Vec3d through(Vec3d from, Vec3d to) const { return shadows_ != nullptr ? clear_.passes_between(*shadows_, from, to) : Vec3d{1, 1, 1}; }
   // True if a direction lies above the triangle's horizon, or if that horizon occludes nothing (smooth terminator).

@@ -56,8 +56,9 @@ class LobesAt {
   std::vector<LobeInFrame> lobes_;
 };
 
-// The surface in a direction from another; none if the ray leaves the scene, or meets a surface that reflects nothing.
-std::optional<Surface> next_surface(const PathScene& in, const Surface& from, Vec3f direction) {
+// The surface in a direction from another; none if the ray leaves the scene, or meets a surface that reflects nothing. Multiplies the
+// throughput by what clear surfaces on the way pass.
+std::optional<Surface> next_surface(const PathScene& in, const Surface& from, Vec3f direction, Vec3d& throughput) {
   // Below its own triangle a surface sees nothing.
   if (!(dot(direction, from.geometric_normal) > 0)) return {};
   constexpr int kMostPassed = 8;
@@ -68,6 +69,7 @@ std::optional<Surface> next_surface(const PathScene& in, const Surface& from, Ve
     const Mesh& mesh = in.scene.meshes[hit.hit.geomID];
     const Surface next = surface_at(in.scene, mesh, hit.hit.primID, hit.hit.u, hit.hit.v, -direction);
     if (!light_passes(in.scene, mesh)) return next.material->unlit ? std::nullopt : std::optional(next);
+    throughput = throughput * wide(in.sampler.clear_meshes().at_face(hit.hit.geomID));
     origin = static_cast<Vec3f>(in.rays.off_surface(wide(next.position), -wide(next.geometric_normal)));
   }
   return {};
@@ -76,7 +78,7 @@ std::optional<Surface> next_surface(const PathScene& in, const Surface& from, Ve
 // Light that a path brings from its first direction on, per unit of its weight.
 Vec3d follow(const PathScene& in, const Surface& receiver, Vec3f direction, int bounces, reference::Random& random) {
   Vec3d sum{}, throughput{1, 1, 1};
-  std::optional<Surface> surface = next_surface(in, receiver, direction);
+  std::optional<Surface> surface = next_surface(in, receiver, direction, throughput);
   const int most = bounces == kAllBounces ? kMostBounces : bounces;
   for (int bounce = 1; surface && bounce <= most; ++bounce) {
     sum += throughput * in.sampler.estimate(*surface, -direction, LobeChoice::all, 1, random).mean;
@@ -93,7 +95,7 @@ Vec3d follow(const PathScene& in, const Surface& receiver, Vec3f direction, int 
       throughput = throughput / survives;
     }
     direction = next->to;
-    surface = next_surface(in, *surface, direction);
+    surface = next_surface(in, *surface, direction, throughput);
   }
   return sum;
 }

@@ -79,4 +79,16 @@ Vec3d ClearMeshes::passes_between(const RayScene& rays, Vec3d from, Vec3d to) co
   return fraction;
 }
 
+void ClearMeshes::tint(const RayScene& rays, RayScene::Sixteen& sixteen, std::uint32_t asked, Sixteen& light) const {
+  if (empty()) return;
+  const std::uint32_t through = rays.blocked_among(sixteen, asked, Casters::clear);
+  const RTCRay16& r = sixteen.rays;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    if ((through >> i & 1) == 0) continue;
+    const auto from = static_cast<Vec3d>(Vec3f{r.org_x[i], r.org_y[i], r.org_z[i]});
+    const auto along = static_cast<Vec3d>(Vec3f{r.dir_x[i], r.dir_y[i], r.dir_z[i]});
+    light[i] = light[i] * static_cast<Vec3f>(passes_between(rays, from, from + along));
+  }
+}
+
 }  // namespace steradian

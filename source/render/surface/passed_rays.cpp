@@ -11,8 +11,9 @@
 namespace steradian {
 namespace {
 
-constexpr float kLeastShare = 1e-3f;  // least fraction of the light from behind; less is black
-constexpr int kMostFaces = 8;         // of a solid that a ray meets from within; then it ends
+constexpr float kLeastShare = 1e-3f;   // least fraction of the light from behind; less is black
+constexpr int kMostFaces = 8;          // of a solid that a ray meets from within; then it ends
+constexpr float kLeastWithin = 1e-2f;  // least fraction of the light that goes on reflected within; less leaves
 
 bool lets_through(const SurfaceMaterial& m) { return m.transmission > 0 && m.specular_override.empty(); }
 
@@ -21,6 +22,15 @@ Vec3f front_of(const Mesh& mesh, unsigned triangle) {
   const auto corner = [&](std::size_t c) { return mesh.positions[mesh.indices[3 * std::size_t{triangle} + c]]; };
   return cross(corner(1) - corner(0), corner(2) - corner(0));
 }
+
+// Fraction that a smooth face reflects, of unpolarised light (Fresnel). eta: ratio of the indices, before over behind.
+float reflected_by_face(float eta, float cosine, float cosine_behind) {
+  const float across = (eta * cosine - cosine_behind) / (eta * cosine + cosine_behind);
+  const float along = (cosine - eta * cosine_behind) / (cosine + eta * cosine_behind);
+  return (across * across + along * along) / 2;
+}
+
+float largest(Vec3f v) { return std::max({v.x, v.y, v.z}); }
 
 }  // namespace
 
@@ -37,7 +47,56 @@ void PassedRays::begin(const TilePlane& distances, Ways& ways) {
   for (TilePlane* plane : {&ways.shares.x, &ways.shares.y, &ways.shares.z}) plane->fill(1);
   ways.behind = distances;
   ways.bent.fill(0);
+  ways.restart();
+}
+
+void PassedRays::Ways::restart() {
+  lobes.clear();
+  asides.clear();
+  layer = turn = 0;
+}
+
+bool PassedRays::go_on(const SurfaceTile& tile, Ways& ways) const {
+  if (++ways.turn == kMostTurns) return false;
+  if (tile.any_passing && ++ways.layer < kMostLayers) {
+    look_through(tile, ways);
+    return true;
+  }
+  if (ways.asides.empty()) return false;
+  begin_aside(ways);
+  return true;
+}
+
+// Begins the next waiting ray of each slot.
+void PassedRays::begin_aside(Ways& ways) {
+  std::vector<Ways::Aside> waiting;
+  std::vector<std::size_t> ended;
+  ways.layer = 0;
   ways.lobes.clear();
+  ways.behind.fill(0);
+  ways.bent.fill(0);
+  for (TilePlane* plane : {&ways.shares.x, &ways.shares.y, &ways.shares.z}) plane->fill(0);
+  for (const Ways::Aside& aside : ways.asides) {
+    if (ways.bent[aside.slot] != 0) {
+      waiting.push_back(aside);
+      continue;
+    }
+    put(ways.shares, aside.slot, aside.ray.weight);
+    go_along(aside.ray, aside.slot, ways);
+    if (!aside.lobe) continue;
+    ways.lobes.push_back({aside.slot, *aside.lobe});
+    ended.push_back(aside.slot);
+  }
+  for (const std::size_t slot : ended) ways.bent[slot] = 0;
+  ways.asides = std::move(waiting);
+}
+
+void PassedRays::go_along(const Ray& ray, std::size_t slot, Ways& ways) {
+  ways.behind[slot] = 0;
+  ways.bent[slot] = 1;
+  put(ways.origin, slot, ray.origin);
+  put(ways.direction, slot, ray.direction);
+  ways.length[slot] = ray.length;
 }
 
 namespace {
@@ -53,13 +112,14 @@ PassedRays::Ray PassedRays::before_face(Vec3f position, Vec3f view, float length
 }
 
 // Follows a ray from just before the face of a solid to where it is outside of all solids, or to what stands in one. At a face the ray goes
-// on refracted. Light that is reflected within counts as leaving there too, so that a solid that does not absorb loses none. Where all is
-// reflected, the ray follows the reflection.
+// on refracted. Light that is reflected within and that `reflected` does not take counts as leaving there too, so that a solid that does
+// not absorb loses none. Where all is reflected, the ray follows the reflection.
 template <class Facet>
-PassedRays::Faces PassedRays::pass_solid(Ray& ray, Facet facet) const {
+PassedRays::Faces PassedRays::pass_solid(Inner& inside, Facet facet, std::vector<Inner>* reflected) const {
   Faces faces;
-  std::vector<const SurfaceMaterial*> within;  // solids that the ray is in, the innermost last
-  for (int face = 0; face <= kMostFaces; ++face) {
+  Ray& ray = inside.ray;
+  std::vector<const SurfaceMaterial*>& within = inside.within;
+  for (int& face = inside.faces; face <= kMostFaces; ++face) {
     RTCRayHit hit;
     if (!rays_.intersect(ray.origin, ray.direction, hit)) return faces;
     const Mesh& mesh = scene_.meshes[hit.hit.geomID];
@@ -79,14 +139,28 @@ PassedRays::Faces PassedRays::pass_solid(Ray& ray, Facet facet) const {
     const float cosine = dot(normal, -ray.direction), rest = 1 - eta * eta * (1 - cosine * cosine);
     ray.length += hit.ray.tfar;
     faces.last = rest < 0 ? s.geometric_normal : -s.geometric_normal;
+    const auto reflect = [&](Inner& in) {
+      in.ray.direction = normalized(in.ray.direction + normal * (2 * cosine));
+      if (!(dot(in.ray.direction, s.geometric_normal) > 0))
+        in.ray.direction = normalized(in.ray.direction - s.geometric_normal * (2 * dot(in.ray.direction, s.geometric_normal)));
+      in.ray.origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(s.geometric_normal)));
+      if (in.within.empty() && !enters) in.within.push_back(&m);
+    };
     if (rest < 0) {
-      ray.direction = normalized(ray.direction + normal * (2 * cosine));
-      if (!(dot(ray.direction, s.geometric_normal) > 0))
-        ray.direction = normalized(ray.direction - s.geometric_normal * (2 * dot(ray.direction, s.geometric_normal)));
-      ray.origin = static_cast<Vec3f>(rays_.off_surface(static_cast<Vec3d>(s.position), static_cast<Vec3d>(s.geometric_normal)));
-      if (within.empty() && !enters) within.push_back(&m);
+      reflect(inside);
       continue;
     }
+    if (reflected != nullptr && !enters && !RoughGlass::blurs(s)) {
+      const float fraction = std::min(m.specular, 1.0f) * reflected_by_face(eta, cosine, std::sqrt(rest));
+      if (face < kMostFaces && largest(ray.weight) * fraction > kLeastWithin) {
+        Inner& other = reflected->emplace_back(inside);
+        ++other.faces;
+        other.ray.weight = ray.weight * fraction;
+        reflect(other);
+        ray.weight = ray.weight * (1 - fraction);
+      }
+    }
+    if (reflected != nullptr && !enters && RoughGlass::blurs(s)) faces.within = RoughGlass::reflected_within(s, -ray.direction, eta);
     const Vec3f bent = normalized(ray.direction * eta + normal * (eta * cosine - std::sqrt(rest)));
     if (dot(bent, s.geometric_normal) < 0)
       ray.direction = bent;  // a smooth normal may bend it out of its triangle: then it goes straight on
@@ -106,8 +180,8 @@ bool PassedRays::is_random(const Surface& surface) const {
 }
 
 PassedRays::Ray PassedRays::pass_at_random(const Surface& face, Vec3f view, reference::Random& random) const {
-  Ray ray = before_face(face.position, view, 0);
-  pass_solid(ray, [&](const Surface& s, Vec3f to_view, int) {
+  Inner inside{before_face(face.position, view, 0)};
+  pass_solid(inside, [&](const Surface& s, Vec3f to_view, int) {
     Material m;
     m.brdf = Brdf::ggx;
     m.alpha_x = static_cast<double>(s.alpha_x);
@@ -119,24 +193,24 @@ PassedRays::Ray PassedRays::pass_at_random(const Surface& face, Vec3f view, refe
     const Vec3d half = lobes::Lobe(m, v).sample(a, b) + v;
     return length(half) > 0 ? static_cast<Vec3f>(frame.to_world(normalized(half))) : s.normal;
   });
-  return ray;
+  return inside.ray;
 }
 
 // How facets that are tilted to one side change the direction of a ray, face by face.
 RoughGlass::Exit PassedRays::exit_of(const Ray& start, const Ray& end, const Faces& faces) const {
   constexpr float kMostTilt = 0.5f;
-  RoughGlass::Exit exit{end.origin, end.direction, faces.last, {}};
+  RoughGlass::Exit exit{end.origin, end.direction, faces.last, faces.within, {}};
   for (int face = 0; face < faces.count; ++face)
     for (const bool along : {true, false}) {
-      Ray ray = start;
+      Inner inside{start};
       float alpha = 0;
-      const Faces met = pass_solid(ray, [&](const Surface& s, Vec3f, int number) {
+      const Faces met = pass_solid(inside, [&](const Surface& s, Vec3f, int number) {
         if (number != face || !RoughGlass::blurs(s)) return s.normal;
         alpha = along ? s.alpha_x : s.alpha_y;
         return normalized(s.normal + (along ? s.tangent : cross(s.normal, s.tangent)) * std::min(alpha, kMostTilt));
       });
       if (!(alpha > 0)) continue;
-      const Vec3f change = (ray.direction - end.direction) * (alpha / std::min(alpha, kMostTilt));
+      const Vec3f change = (inside.ray.direction - end.direction) * (alpha / std::min(alpha, kMostTilt));
       // A tilted ray that meets other faces tells nothing of the lobe about this one.
       if (met.count == faces.count && is_finite(change)) exit.changes.push_back(change);
     }
@@ -148,7 +222,7 @@ void PassedRays::look_through(const SurfaceTile& tile, Ways& ways) const {
   ways.lobes.clear();
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     Vec3f share = get(ways.shares, i) * get(tile.passes, i);
-    if (tile.material[i] == nullptr || !(std::max({share.x, share.y, share.z}) > kLeastShare)) {
+    if (tile.material[i] == nullptr || !(largest(share) > kLeastShare)) {
       put(ways.shares, i, {});
       ways.behind[i] = 0;
       ways.bent[i] = 0;
@@ -167,33 +241,37 @@ void PassedRays::look_through(const SurfaceTile& tile, Ways& ways) const {
     }
     const Vec3f position = get(tile.position, i), view = get(tile.view, i), normal = get(tile.geometric_normal, i);
     const auto past = static_cast<float>(rays_.offset_from_surface(static_cast<Vec3d>(position)));
-    Ray ray{position - normal * past,
-            -view,
-            {1, 1, 1},
-            ways.bent[i] != 0 ? ways.length[i] + length(position - get(ways.origin, i)) : ways.behind[i]};
-    Faces faces;
-    Ray start;
-    if (solid) {
-      start = ray = before_face(position, view, ray.length);
-      faces = pass_solid(ray, smooth_facet);
-    }
-    share = share * ray.weight;
-    const bool random = solid && is_random(surface_in(tile, i)), ends = random || !(std::max({share.x, share.y, share.z}) > kLeastShare);
-    if (!ends && rough_glass_ && faces.widest > 0) {
+    const float way = ways.bent[i] != 0 ? ways.length[i] + length(position - get(ways.origin, i)) : ways.behind[i];
+    if (!solid) {
       put(ways.shares, i, share);
-      ways.lobes.push_back({i, rough_glass_->behind_solid(surface_in(tile, i), exit_of(start, ray, faces))});
-      ways.behind[i] = 0;
-      ways.bent[i] = 0;
-      put(ways.origin, i, ray.origin);
-      ways.length[i] = ray.length;
+      go_along({position - normal * past, -view, {}, way}, i, ways);
       continue;
     }
-    put(ways.shares, i, ends ? Vec3f{} : share);
-    ways.behind[i] = 0;
-    ways.bent[i] = ends ? 0 : 1;
-    put(ways.origin, i, ray.origin);
-    put(ways.direction, i, ray.direction);
-    ways.length[i] = ray.length;
+    const Surface face = surface_in(tile, i);
+    const bool ends = is_random(face);
+    Inner inside{before_face(position, view, way)};
+    const Ray start = inside.ray;
+    // The weights are shares, so that little light within is known as such.
+    inside.ray.weight = ends ? Vec3f{} : share;
+    std::vector<Inner> reflected;
+    const Faces faces = pass_solid(inside, smooth_facet, rough_ != Rough::sharp ? &reflected : nullptr);
+    for (std::size_t k = 0; k < reflected.size(); ++k) {
+      Inner other = std::move(reflected[k]);
+      pass_solid(other, smooth_facet, &reflected);
+      if (largest(other.ray.weight) > kLeastShare) ways.asides.push_back({i, other.ray});
+    }
+    const Ray& ray = inside.ray;
+    const bool is_seen = largest(ray.weight) > kLeastShare;
+    put(ways.shares, i, is_seen ? ray.weight : Vec3f{});
+    go_along(ray, i, ways);
+    const bool has_lobe = is_seen && rough_glass_ && faces.widest > 0;
+    if (has_lobe) {
+      ways.lobes.push_back({i, rough_glass_->behind_solid(face, exit_of(start, ray, faces))});
+      const float before = RoughGlass::front_share(faces.within);
+      const RoughGlass::Lobe lobe = rough_glass_->before_solid(face, view, past);
+      if (before > 0) ways.asides.push_back({i, {lobe.surface.position, -view, ray.weight * before, way}, lobe});
+    }
+    if (has_lobe || !is_seen) ways.bent[i] = 0;
   }
 }
 

@@ -18,7 +18,8 @@ constexpr unsigned kSeenByCamera = 1;
 constexpr unsigned kCastsShadow = 2;
 constexpr unsigned kHasEdges = 4;
 constexpr unsigned kCutOut = 8;
-constexpr unsigned kLight = 16;  // shows a light, and shadow rays pass it
+constexpr unsigned kClear = 16;
+constexpr unsigned kLight = 32;  // shows a light, and shadow rays pass it
 
 void* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t item, std::size_t count) {
   void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, item, count);
@@ -75,7 +76,7 @@ struct RayScene::AlphaTest {
 namespace {
 
 unsigned mask_of(const Mesh& mesh, const Scene& scene) {
-  if (mesh.is_light_shape || !mesh.casts_shadow) return light_passes(scene, mesh) ? kSeenByCamera : kSeenByCamera | kLight;
+  if (mesh.is_light_shape || !mesh.casts_shadow) return kSeenByCamera | (light_passes(scene, mesh) ? kClear : kLight);
   const bool cut_out = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
   return kSeenByCamera | kCastsShadow | (cut_out ? kCutOut : kHasEdges);
 }
@@ -85,6 +86,7 @@ unsigned mask_of(Casters casters) {
     case Casters::with_edges: return kHasEdges;
     case Casters::cut_outs: return kCutOut;
     case Casters::and_lights: return kCastsShadow | kLight;
+    case Casters::clear: return kClear;
     case Casters::all: break;
   }
   return kCastsShadow;

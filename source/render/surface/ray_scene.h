@@ -22,9 +22,9 @@ namespace steradian {
 
 // RayScene: intersection of rays with a scene, on Embree.
 
-// Meshes that may block a ray: every mesh that casts shadows; those whose edges cast exact shadows; cut-outs, which have no edges; all that
-// stops light between surfaces: shapes of lights, too.
-enum class Casters { all, with_edges, cut_outs, and_lights };
+// Meshes that may block a ray: every mesh that casts shadows; those of them whose edges cast exact shadows; cut-outs, which have no edges;
+// all that stops light between surfaces, also shapes of lights. clear: the meshes that only tint light.
+enum class Casters { all, with_edges, cut_outs, and_lights, clear };
 
 // Unit of length for Embree, a power of two. Embree treats values below 1e-18 as zero, among them areas times lengths of directions; floats
 // do so below 1e-38. In this unit the scene's size, its largest coordinate, is about 1 / 256 to 256. Lengths are the same floats, except

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lattices.h"
+#include "lobes/lobe.h"
 #include "steradian/albedo.h"
 
 namespace steradian {
@@ -53,6 +55,38 @@ RoughGlass::Lobe RoughGlass::behind_wall(const Surface& wall, Vec3f view, float 
   return lobe;
 }
 
+float RoughGlass::reflected_within(const Surface& face, Vec3f to_ray, float eta) {
+  constexpr std::size_t kFacets = 64;
+  // Facets of the first face have turned the ray by this fraction of their tilt.
+  const double turned = 1 - 1 / static_cast<double>(eta), wider = std::sqrt(1 + turned * turned);
+  Material m;
+  m.brdf = Brdf::ggx;
+  m.alpha_x = std::min(static_cast<double>(face.alpha_x) * wider, 1.0);
+  m.alpha_y = std::min(static_cast<double>(face.alpha_y) * wider, 1.0);
+  const Frame frame = Frame::from_normal_and_tangent(static_cast<Vec3d>(face.normal), static_cast<Vec3d>(face.tangent));
+  const Vec3d view = frame.to_local(static_cast<Vec3d>(to_ray));
+  if (!(view.z > 0) || !(eta > 1)) return 0;
+  const lobes::Lobe lobe(m, view);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kFacets; ++i) {
+    const auto [u, v] = fibonacci_place(i, kFacets, 0);
+    const Vec3d half = lobe.sample(u, v) + view;
+    const double cosine = length(half) > 0 ? dot(normalized(half), view) : 1,
+                 sine = static_cast<double>(eta) * std::sqrt(1 - std::min(cosine * cosine, 1.0));
+    count += sine > 1 ? 1 : 0;
+  }
+  return static_cast<float>(count) / kFacets;
+}
+
+RoughGlass::Lobe RoughGlass::before_solid(const Surface& face, Vec3f view, float offset) const {
+  Lobe lobe{lobe_of(face), view};
+  lobe.surface.position = face.position + face.geometric_normal * offset;
+  lobe.surface.normal = lobe.surface.coat_normal = face.normal;
+  lobe.surface.geometric_normal = face.geometric_normal;
+  lobe.surface.albedo = {1, 1, 1};
+  return lobe;
+}
+
 RoughGlass::Lobe RoughGlass::behind_solid(const Surface& face, const Exit& exit) const {
   Lobe lobe{lobe_of(face), exit.direction};
   Surface& s = lobe.surface;
@@ -73,7 +107,9 @@ RoughGlass::Lobe RoughGlass::behind_solid(const Surface& face, const Exit& exit)
   s.tangent = static_cast<Vec3f>(frame.x * std::cos(turn) + frame.y * std::sin(turn));
   s.alpha_x = width(middle + apart);
   s.alpha_y = width(middle - apart);
-  s.f0 = s.f90 = lossless(s, lobe.view);
+  s.f0 = s.f90 = lossless(s, lobe.view) * (1 - exit.within);
+  const float evenly = exit.within - front_share(exit.within);
+  s.albedo = {evenly, evenly, evenly};
   return lobe;
 }
 

@@ -31,10 +31,20 @@ class RoughGlass {
   // Light that leaves a solid. Each change is that of the direction by facets of one face, tilted one width of the lobe to one side.
   struct Exit {
     Vec3f position, direction, normal;  // normal: of the last face
+    float within = 0;                   // fraction that facets of the last face reflect within
     std::vector<Vec3f> changes;
   };
+  // Fraction of the light that facets of a face reflect totally.
+  //
+  //   to_ray  direction from the face to where the ray comes from
+  //   eta     index before the face over the one behind it
+  static float reflected_within(const Surface& face, Vec3f to_ray, float eta);
   // face: where the ray has entered.
   Lobe behind_solid(const Surface& face, const Exit& exit) const;
+  // Light that was reflected within leaves in all directions, by turns before and behind the solid. This is what leaves before it, for a
+  // fraction of front_share of all.
+  Lobe before_solid(const Surface& face, Vec3f view, float offset) const;
+  static float front_share(float within) { return within / (1 + within); }
 
  private:
   Surface lobe_of(const Surface& face) const;
