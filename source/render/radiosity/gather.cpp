@@ -75,7 +75,8 @@ Gather::Gather(const PatchLight& light, const RayScene& rays, const Fineness& fi
       samples_(std::min(options.samples, kMostShifts)),
       lobe_rays_(fineness.lobe_rays),
       tolerance_(static_cast<float>(options.error * light.mean_radiance())) {
-  for (int level = 0; level <= (options.error > 0 || strict_ ? kFinest : 0); ++level) add_grids(fineness.rows << level);
+  const std::size_t finest = options.error > 0 || strict_ ? kFinest : 0;
+  for (std::size_t level = 0; level <= finest; ++level) add_grids(fineness.rows << level);
   const auto rays_over_sphere = static_cast<float>(grids_[0][0].size());
   near_ = std::sqrt(kLanes * light.bright_area() * rays_over_sphere / (4 * std::numbers::pi_v<float>));
 }
@@ -137,7 +138,6 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
 struct Gather::Lit {
   Result result;
   std::array<Vec3f, kLanes> standard{};
-  std::array<Vec3f, kLanes> widened{};  // change by the width that lobes seen by few rays are given
   // Puts the diffuse light of a surface, whose mean radiance from all sides is given.
   void put(std::size_t i, const SixteenSurfaces& surfaces, const FittedValue& mean) {
     const Surface& s = surfaces.surface[i];
@@ -149,14 +149,9 @@ struct Gather::Lit {
 };
 
 bool Gather::is_within(const Lit& lit) const {
-  const auto all_below = [](const std::array<Vec3f, kLanes>& errors, float most) {
-    return std::all_of(errors.begin(), errors.end(), [&](Vec3f e) {
-      return std::max({std::fabs(e.x), std::fabs(e.y), std::fabs(e.z)}) <= most;
-    });
-  };
-  constexpr float kWidened = 0.02f;  // of the mean light: highlights that are spread by more need more directions
-  return all_below(lit.widened, kWidened * static_cast<float>(light_.mean_radiance())) &&
-         (tolerance_ == 0 || all_below(lit.standard, tolerance_));
+  return tolerance_ == 0 || std::all_of(lit.standard.begin(), lit.standard.end(), [&](Vec3f error) {
+           return std::max({error.x, error.y, error.z}) <= tolerance_;
+         });
 }
 
 // The light of bright sides at each surface.
@@ -318,7 +313,7 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
                         Vec3d{}};
   }
   std::array<std::array<Vec3f, 2>, kLanes> halves{};
-  Lit lit;
+  std::array<Vec3f, kLanes> widened{};  // change by the added width
   for (std::size_t k = 0; k < count; ++k) {
     const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
     std::array<Vec3f, kLanes> weight{}, to{};
@@ -343,26 +338,27 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
       if (!light_.has_lobe(met[i].side)) continue;
       const Vec3f of_lobe = light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider);
       halves[i][k % 2] += of_lobe * weighted;
-      lit.widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * weighted;
+      widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * weighted;
     }
   }
+  Lit lit;
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (walkers[i] && walkers[i]->albedo)
       for (Vec3f& half : halves[i]) half = half * static_cast<Vec3f>(ratio(*walkers[i]->albedo, walkers[i]->weights));
     lit.result.radiance[i] = halves[i][0] + halves[i][1];
     // Each half stands for half of the light.
-    lit.standard[i] = absolute(halves[i][0] - halves[i][1]) + absolute(lit.widened[i]);
+    lit.standard[i] = absolute(halves[i][0] - halves[i][1]) + absolute(widened[i]);
     lit.result.error[i] = lit.standard[i];
   }
   return lit;
 }
 
-// Adds the first result of of(level), from the coarsest level on, whose standard errors are all within the tolerance, or that of the finest
-// level.
+// Adds the first result of of(level), from the coarsest level on, whose standard errors are all within the tolerance, or that of the
+// finest.
 template <class Of>
 void Gather::refine(Of of, Result& sum) const {
   Lit lit;
-  for (std::size_t level = strict_ ? kFinest : 0; level <= kFinest; ++level) {
+  for (std::size_t level = strict_ ? grids_.size() - 1 : 0; level < grids_.size(); ++level) {
     lit = of(level);
     if (is_within(lit)) break;
   }
