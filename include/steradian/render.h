@@ -69,8 +69,7 @@ struct RenderOptions {
   double time_limit = 0;
   // Light that other surfaces send, after this number of bounces at most (kAllBounces: any number). Excludes `indirect`.
   int bounces = 0;
-  double bounce_error =
-      3e-3;  // with bounces: standard error of a pixel over the scene's mean light, as far as 16 times the directions reach
+  double bounce_error = 0;     // with bounces: standard error of a pixel over the scene's mean light, as far as 16 times the rays reach
   bool bounce_strict = false;  // with bounces: each pixel gathers by itself, in 16 times the directions
   // With bounces: the layers "lower" and "upper" enclose the picture by a proof, and "bounce_bound" is how far it may be from either. For
   // scenes of flat diffuse surfaces and polygon lights only; others are an Error (docs/bounds.md).

@@ -200,7 +200,7 @@ Gather::Sums Gather::quarter_sums(const SixteenSurfaces& surfaces, std::uint32_t
       if (met[i].side == kNoSide) continue;
       if (light_.is_bright(met[i].side) && rays.distance(i) > near_) continue;
       const Vec3f weighted = rays.tint(i) * cosine[i], radiance = light_.radiance(met[i]) * weighted;
-      sums.light[i][part] += light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays) * weighted + radiance;
+      sums.light[i][part] += light_.glossy_radiance(met[i].side, -to[i]) * weighted + radiance;
       sums.basis[i] += radiance - light_.coarse_radiance(met[i]) * weighted;
     }
   }

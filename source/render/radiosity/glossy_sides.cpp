@@ -10,7 +10,8 @@ namespace steradian::radiosity {
 namespace {
 
 constexpr float kNarrowest = 0.05f;  // alpha: narrower lobes are those of mirrors
-constexpr float kSmall = 0.5f;       // half radius of a cone over the lobe's width, or over that of a lobe seen by few rays
+constexpr float kForFewRays = 0.18f;
+constexpr float kSmall = 0.5f;  // half radius of a cone over the lobe's width, or over that of a lobe seen by few rays
 
 // Half vectors turn by half of the radius of a cone of directions.
 float half_radius(float solid_angle) { return 0.5f * std::sqrt(solid_angle / std::numbers::pi_v<float>); }
@@ -45,7 +46,7 @@ std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<Incide
     const float wider = half_radius(solid_angle);
     places_.add(l, light * (scale / l.z), std::hypot(alpha_x, wider), std::hypot(alpha_y, wider));
   };
-  const float widest = kSmall * std::max(std::min(alpha_x, alpha_y), kFewRays);
+  const float widest = kSmall * std::max(std::min(alpha_x, alpha_y), kForFewRays);
   for (std::size_t begin = 0, end; begin < incident.size(); begin = end) {
     float solid_angle = incident[begin].solid_angle;
     for (end = begin + 1; end < incident.size() && incident[end].light == incident[begin].light; ++end) {
@@ -56,7 +57,7 @@ std::uint32_t GlossySides::keep(const Surface& surface, const std::vector<Incide
   }
   while ((places_.x.size() - first) % GlossyPlaces::kStep != 0) places_.add({0, 0, 1}, {}, 1, 1);
   lobes_.push_back({static_cast<Vec3f>(frame.x), static_cast<Vec3f>(frame.y), static_cast<Vec3f>(frame.z), surface.f0, surface.f90, first,
-                    places_.x.size() - first});
+                    places_.x.size() - first, std::sqrt(std::max(kForFewRays * kForFewRays - alpha_x * alpha_y, 0.0f))});
   return static_cast<std::uint32_t>(lobes_.size() - 1);
 }
 

@@ -18,7 +18,6 @@ namespace steradian::radiosity {
 class GlossySides {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
-  static constexpr float kFewRays = 0.17f;  // width to add to a lobe where the rays that see it cover all sides: few meet a narrower one
 
   // True if a surface's glossy lobe is one that these sides can keep.
   static bool has_lobe(const Surface& surface);
@@ -28,14 +27,19 @@ class GlossySides {
   std::uint32_t keep(const Surface& surface, const std::vector<IncidentLight>& incident, Vec3f irradiance, float turn,
                      std::uint32_t besides = kNone);
 
-  // Radiance that a lobe sends in a direction of the scene. wider: width to add to the lobe, for few rays.
+  // Radiance that a lobe sends in a direction of the scene. wider: width to add to the lobe.
   Vec3f radiance(std::uint32_t lobe, Vec3f to, float wider) const { return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, wider); }
+  // The same for rays that cover all sides. Few meet a narrow lobe, which is widened for them.
+  Vec3f radiance_for_few_rays(std::uint32_t lobe, Vec3f to) const {
+    return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, lobes_[lobe].wider);
+  }
 
  private:
   struct KeptLobe {
     Vec3f x, y, z;  // frame
     Vec3f f0, f90;
     std::size_t first, count;  // places
+    float wider;               // for few rays
   };
   Vec3f sent(const KeptLobe& lobe, Vec3f to, float wider) const;
 

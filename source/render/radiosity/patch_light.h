@@ -28,10 +28,10 @@ class PatchLight {
   }
   // Radiance that a side's glossy lobe sends on in a direction. It comes on top of radiance(). wider: width to add to it.
   Vec3f glossy_radiance(std::uint32_t side, Vec3f to, float wider) const { return glossy_.radiance(sides_[side].glossy, to, wider); }
+  // The same for rays that cover all sides.
+  Vec3f glossy_radiance(std::uint32_t side, Vec3f to) const { return glossy_.radiance_for_few_rays(sides_[side].glossy, to); }
   bool has_lobe(std::uint32_t side) const { return sides_[side].glossy != GlossySides::kNone; }
-  Vec3f radiance_towards(const BrightPlace& place, Vec3f to) const {
-    return sides_[place.side].radiance + glossy_radiance(place.side, to, GlossySides::kFewRays);
-  }
+  Vec3f radiance_towards(const BrightPlace& place, Vec3f to) const { return sides_[place.side].radiance + glossy_radiance(place.side, to); }
   // Mean radiance over the group of sides around it: what patches of twice the size would send.
   Vec3f coarse_radiance(PatchPlace at) const { return sides_[at.side].coarse; }
   // Sides many times brighter than the mean of all that send light. Their light comes from bright_places().

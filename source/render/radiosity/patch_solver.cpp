@@ -342,7 +342,7 @@ void PatchSolver::find_links(std::size_t rays) {
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
         links_[side * rays + k + i] = met[i].side;
         if (met[i].side == kNoSide) continue;
-        const Vec3f tint = bounce.tint(i), of_lobe = light_.glossy_radiance(met[i].side, -to[i], GlossySides::kFewRays);
+        const Vec3f tint = bounce.tint(i), of_lobe = light_.glossy_radiance(met[i].side, -to[i]);
         from_glossy_[side] += of_lobe * tint * (1 / static_cast<float>(rays));
         if (bounce.any_tint() && tint != Vec3f{1, 1, 1}) absorbed_[side].push_back({k + i, Vec3f{1, 1, 1} - tint});
       }
@@ -438,8 +438,7 @@ void PatchSolver::turn_bounces() {
         const std::uint32_t met = links_[side * links_per_side_ + i];
         if (met == kNoSide) continue;
         const auto to = static_cast<Vec3f>(frame.to_world(directions_[i]));
-        const Vec3f irradiance =
-            (light_.sides_[met].radiance + light_.glossy_radiance(met, -to, GlossySides::kFewRays)) * tints[i] * per_ray;
+        const Vec3f irradiance = (light_.sides_[met].radiance + light_.glossy_radiance(met, -to)) * tints[i] * per_ray;
         found[k].irradiance += irradiance;
         if (weighs(irradiance)) found[k].incident.push_back({to, irradiance, per_ray / static_cast<float>(directions_[i].z), kFromSides});
       }
