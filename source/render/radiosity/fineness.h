@@ -17,7 +17,7 @@ struct Fineness {
 
 inline Fineness fineness_of(Quality quality) {
   switch (quality) {
-    case Quality::draft: return {8'000, 64, 64, 10, 64};
+    case Quality::draft: return {8'000, 64, 64, 12, 64};
     case Quality::high: return {120'000, 256, 0, 32, 64};
     case Quality::normal: break;
   }
