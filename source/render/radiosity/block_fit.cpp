@@ -123,6 +123,9 @@ bool fit_square(const std::array<std::array<Gathered, BlockFit::kLanes>, 4>& mea
   // One fit takes away 3 of the 64 degrees of freedom, four fits 12. What four explain more than one is chance where the mean square of
   // the 9 is at most so many times that of the 52: in a thousandth of all cases it is more.
   constexpr float kBetter = 3.6f;
+  // Noise of a pixel over the light. Where few directions meet what shines, those that meet none would be served, and the others asked
+  // again: the mean would be too dark.
+  constexpr float kNoise = 0.3f;
   std::array<LinearFit::Point, 4 * BlockFit::kLanes> points;
   std::array<std::array<Vec3f, BlockFit::kLanes>, 4> of_blocks;
   Vec3f squares_of_blocks{};
@@ -136,8 +139,11 @@ bool fit_square(const std::array<std::array<Gathered, BlockFit::kLanes>, 4>& mea
   }
   LinearFit fit(points);
   const Vec3f variance = fit.variance(), of_rays = fit.of_rays(), explained = fit.squares() - squares_of_blocks;
+  const Vec3f mean = fit.at(3.5f, 3.5f);
+  if (!weighs(mean)) return false;
   const auto is_plane = [&](float Vec3f::*c) {
-    return explained.*c / 9 <= kBetter * squares_of_blocks.*c / 52 && variance.*c <= LinearFit::kDoubt * of_rays.*c;
+    return variance.*c <= kNoise * kNoise * mean.*c * mean.*c && explained.*c / 9 <= kBetter * squares_of_blocks.*c / 52 &&
+           variance.*c <= LinearFit::kDoubt * of_rays.*c;
   };
   if (!is_plane(&Vec3f::x) || !is_plane(&Vec3f::y) || !is_plane(&Vec3f::z)) return false;
   fit.shrink_slopes();

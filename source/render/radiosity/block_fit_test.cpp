@@ -64,9 +64,21 @@ TEST(BlockFit, RefusesStepsAndBends) {
     EXPECT_FALSE(fit_square(noisy([](double x, double y) { return plane(x, y) + (x > 5.5 ? 8 * kNoise : 0); }, seed), fitted)) << seed;
     EXPECT_FALSE(fit_square(noisy([](double x, double y) { return plane(x, y) + 0.4 * kNoise * x * x; }, seed), fitted)) << seed;
     // One pixel beside all others.
-    EXPECT_FALSE(
-        fit_square(noisy([](double x, double y) { return plane(x, y) + (x == 3 && y == 5 ? 25 * kNoise : 0); }, seed), fitted))
+    EXPECT_FALSE(fit_square(noisy([](double x, double y) { return plane(x, y) + (x == 3 && y == 5 ? 25 * kNoise : 0); }, seed), fitted))
         << seed;
+  }
+}
+
+// Few pixels see a small light: one of eight, or none.
+TEST(BlockFit, RefusesRareLight) {
+  for (const float light : {0.0f, 1.0f}) {
+    Means means;
+    each_pixel([&](std::size_t b, std::size_t i, double, double) {
+      const float value = i % 8 == b ? light : 0;
+      means[b][i] = {{value, value, value}, {light, light, light}};
+    });
+    Fitted fitted;
+    EXPECT_FALSE(fit_square(means, fitted)) << light;
   }
 }
 
