@@ -124,8 +124,8 @@ bool fit_square(const std::array<std::array<Gathered, BlockFit::kLanes>, 4>& mea
   // the 9 is at most so many times that of the 52: in a thousandth of all cases it is more.
   constexpr float kBetter = 3.6f;
   // Noise of a pixel over the light. Where few directions meet what shines, those that meet none would be served, and the others asked
-  // again: the mean would be too dark.
-  constexpr float kNoise = 0.3f;
+  // again: the mean would be too dark. It also bounds the steps from square to square.
+  constexpr float kNoise = 0.15f;
   std::array<LinearFit::Point, 4 * BlockFit::kLanes> points;
   std::array<std::array<Vec3f, BlockFit::kLanes>, 4> of_blocks;
   Vec3f squares_of_blocks{};

@@ -13,7 +13,7 @@ namespace {
 using Means = std::array<std::array<Gathered, BlockFit::kLanes>, 4>;
 using Fitted = std::array<std::array<FittedValue, BlockFit::kLanes>, 4>;
 
-constexpr double kNoise = 0.01;  // standard deviation
+constexpr double kNoise = 0.01;  // standard deviation; the light is about 1
 
 // Calls use(block, lane, x, y) for all pixels.
 template <class Use>

@@ -228,7 +228,9 @@ Gather::Lit Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked
                             const Sums* first) const {
   Sums all;
   for (std::size_t round = 0; round < 4; ++round) {
-    std::array<std::size_t, kLanes> quarters = first_quarters(block);
+    // Rays that are traced together are nearest where all take the same quarter.
+    std::array<std::size_t, kLanes> quarters{};
+    if (first != nullptr) quarters = first_quarters(block);
     for (std::size_t& quarter : quarters) quarter ^= round;
     const Sums sums = round == 0 && first != nullptr ? *first : quarter_sums(surfaces, asked, grid(level, sample), quarters);
     SixteenSurfaces::each(asked, [&](std::size_t i) {
