@@ -66,8 +66,7 @@ LobeValue ggx_energy(double alpha, double cosine) {
 
 std::optional<Vec3d> known_albedo(const Material& m, double cosine) {
   if (m.brdf != Brdf::ggx || m.alpha_x != m.alpha_y || !m.shadowing || m.multiple_scattering || m.fitted != nullptr) return {};
-  const LobeValue energy = ggx_energy(m.alpha_x, cosine);
-  return m.f0 * (energy.plain - energy.fresnel) + m.f90 * energy.fresnel;
+  return coloured(ggx_energy(m.alpha_x, cosine), m.f0, m.f90);
 }
 
 }  // namespace steradian::lobes

@@ -12,6 +12,9 @@ namespace steradian::lobes {
 // to the normal.
 LobeValue ggx_energy(double alpha, double cosine);
 
+// The light of a lobe whose integrals are given.
+inline Vec3d coloured(LobeValue integral, Vec3d f0, Vec3d f90) { return f0 * (integral.plain - integral.fresnel) + f90 * integral.fresnel; }
+
 // Directional albedo of a material. There is none for lobes other than isotropic GGX.
 std::optional<Vec3d> known_albedo(const Material& material, double cosine);
 

@@ -29,33 +29,24 @@ float lost_to_boundary() {
   return lost;
 }
 
-// Fractions of even light that a GGX lobe reflects with F = 1, and with F = (1 - v.h)^5.
-struct GgxFractions {
-  float all, grazing;
-};
-
-// The same by linear steps of the roughness.
-GgxFractions ggx_fractions(float alpha_x, float alpha_y) {
+// The fraction of even light that a GGX lobe reflects, by linear steps of its roughness.
+Vec3f reflected_by_ggx(float alpha_x, float alpha_y, Vec3f f0, Vec3f f90) {
   constexpr int kSteps = 32;
-  static const std::array<GgxFractions, kSteps + 1> table = [] {
-    std::array<GgxFractions, kSteps + 1> t;
+  static const std::array<lobes::LobeValue, kSteps + 1> table = [] {
+    std::array<lobes::LobeValue, kSteps + 1> t;
     for (int k = 0; k <= kSteps; ++k) {
-      const double roughness = static_cast<double>(k) / kSteps;
-      GgxFractions& f = t[static_cast<std::size_t>(k)];
-      const double alpha = std::max(roughness * roughness, 1e-3);
-      f.all = static_cast<float>(mean_over_views([&](double cosine) { return lobes::ggx_energy(alpha, cosine).plain; }));
-      f.grazing = static_cast<float>(mean_over_views([&](double cosine) { return lobes::ggx_energy(alpha, cosine).fresnel; }));
+      const double roughness = static_cast<double>(k) / kSteps, alpha = std::max(roughness * roughness, 1e-3);
+      t[static_cast<std::size_t>(k)] = {mean_over_views([&](double cosine) { return lobes::ggx_energy(alpha, cosine).plain; }),
+                                        mean_over_views([&](double cosine) { return lobes::ggx_energy(alpha, cosine).fresnel; })};
     }
     return t;
   }();
-  const float place = std::clamp(std::sqrt(std::sqrt(alpha_x * alpha_y)), 0.0f, 1.0f) * kSteps;
+  const double place = std::clamp(std::sqrt(std::sqrt(static_cast<double>(alpha_x * alpha_y))), 0.0, 1.0) * kSteps;
   const auto first = std::min(static_cast<std::size_t>(place), std::size_t{kSteps - 1});
-  const float after = place - static_cast<float>(first);
-  const GgxFractions a = table[first], b = table[first + 1];
-  return {a.all + (b.all - a.all) * after, a.grazing + (b.grazing - a.grazing) * after};
+  const double after = place - static_cast<double>(first);
+  const lobes::LobeValue mean = table[first] * (1 - after) + table[first + 1] * after;
+  return static_cast<Vec3f>(lobes::coloured(mean, static_cast<Vec3d>(f0), static_cast<Vec3d>(f90)));
 }
-
-Vec3f reflected(Vec3f f0, Vec3f f90, GgxFractions by) { return f0 * (by.all - by.grazing) + f90 * by.grazing; }
 
 Vec3f within_one(Vec3f c) { return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)}; }
 
@@ -69,9 +60,9 @@ Vec3f EvenReflectance::glossy_share() const {
 EvenReflectance even_reflectance(const Surface& s) {
   if (s.material->unlit) return {};
   Vec3f glossy{};
-  if (weighs(s.f0 + s.f90)) glossy = reflected(s.f0, s.f90, ggx_fractions(s.alpha_x, s.alpha_y));
+  if (weighs(s.f0 + s.f90)) glossy = reflected_by_ggx(s.alpha_x, s.alpha_y, s.f0, s.f90);
   Vec3f others = s.albedo * (1 - s.fresnel_loss * lost_to_boundary());
-  if (s.coat > 0) others += reflected({kCoatF0, kCoatF0, kCoatF0}, {1, 1, 1}, ggx_fractions(s.coat_alpha, s.coat_alpha)) * s.coat;
+  if (s.coat > 0) others += reflected_by_ggx(s.coat_alpha, s.coat_alpha, {kCoatF0, kCoatF0, kCoatF0}, {1, 1, 1}) * s.coat;
   if (weighs(s.sheen)) {
     const auto alpha = static_cast<double>(s.sheen_alpha);
     others += s.sheen * static_cast<float>(mean_over_views([&](double cosine) { return charlie_albedo(alpha, cosine); }));

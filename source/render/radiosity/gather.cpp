@@ -306,11 +306,12 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     const lobes::Lobe lobe(lobes::in_frame(of[i]->material, frame), normalized(frame.to_local(static_cast<Vec3d>(surfaces.view[i]))));
     if (!lobe.above_surface()) continue;
     rays.start(i, s);
+    // Half of its width is about the distance between 64 directions of a lobe, in half vectors.
     const double width = std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25);
     walkers[i] = Walker{frame,
                         lobe,
                         static_cast<double>(gathered_fraction(*of[i])),
-                        static_cast<float>(width * std::exp2(1.0 - static_cast<double>(level))),
+                        static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(level))),
                         lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
                         Vec3d{}};
   }

@@ -32,8 +32,7 @@ std::optional<Mirror> mirror_of(const Surface& surface, Vec3f view) {
     if (!(cosine > 0) || (mirror && !(lobe.normal == mirror->normal))) continue;
     if (!mirror) mirror = Mirror{lobe.normal, normalized(lobe.normal * (2 * cosine) - view), {}};
     const lobes::LobeValue energy = lobes::ggx_energy(std::sqrt(m.alpha_x * m.alpha_y), static_cast<double>(cosine));
-    const auto weight = static_cast<Vec3f>((m.f0 * (energy.plain - energy.fresnel) + m.f90 * energy.fresnel) *
-                                           static_cast<double>(mirrored_fraction(alpha_x, alpha_y)));
+    const auto weight = static_cast<Vec3f>(lobes::coloured(energy, m.f0, m.f90) * static_cast<double>(mirrored_fraction(alpha_x, alpha_y)));
     mirror->weight += weight;
     mirror->alpha_x += alpha_x * sum(weight);
     mirror->alpha_y += alpha_y * sum(weight);

@@ -9,9 +9,8 @@
 #include <numbers>
 
 #include "core/float_mode.h"
-#include "core/lattices.h"
-#include "core/random.h"
 #include "render/radiosity/even_reflectance.h"
+#include "render/radiosity/side_rays.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/area_light.h"  // luminance
 
@@ -28,40 +27,6 @@ Patches patches_for(const Scene& scene, const RayScene& rays, std::size_t wanted
   Patches patches(scene, wanted);
   patches.split(scene, rays);
   return patches;
-}
-
-// Directions about a normal in proportion to its cosine: a lattice of the disc, lifted. Those that are traced together are neighbours.
-std::vector<Vec3d> cosine_directions(std::size_t count) {
-  std::vector<Vec3d> directions;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto [square, v] = fibonacci_place(i, count, 0);
-    const double r = std::sqrt(square), phi = 2 * std::numbers::pi * v;
-    directions.push_back({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - square)});
-  }
-  // A curve through the disc: the bits of its two coordinates in turn.
-  const auto along_curve = [](Vec3d d) {
-    const auto x = static_cast<unsigned>((d.x + 1) * 127), y = static_cast<unsigned>((d.y + 1) * 127);
-    unsigned place = 0;
-    for (unsigned bit = 0; bit < 8; ++bit) place |= (x >> bit & 1) << 2 * bit | (y >> bit & 1) << (2 * bit + 1);
-    return place;
-  };
-  std::sort(directions.begin(), directions.end(), [&](Vec3d a, Vec3d b) { return along_curve(a) < along_curve(b); });
-  return directions;
-}
-
-// A frame about a normal, turned by an angle.
-Frame turned_frame(Vec3d normal, double angle) {
-  Frame frame = Frame::from_normal(normal);
-  const Vec3d x = frame.x, y = frame.y;
-  frame.x = x * std::cos(angle) + y * std::sin(angle);
-  frame.y = y * std::cos(angle) - x * std::sin(angle);
-  return frame;
-}
-
-// The frame of the directions of a side's rays. Each side turns them by its own angle.
-Frame frame_of_rays(const Surface& surface, std::size_t side) {
-  reference::Random random(side);
-  return turned_frame(normalized(static_cast<Vec3d>(surface.geometric_normal)), 2 * std::numbers::pi * random.uniform());
 }
 
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
@@ -105,6 +70,18 @@ class PatchSolver {
   void find_coarse();
   void find_bright_sides();
   float area_of(std::uint32_t side) const;
+  // Mean luminance of a radiance over the sides that have any; 0 if none has.
+  template <class Radiance>
+  double mean_of_lit(Radiance radiance) const {
+    double power = 0, area = 0;
+    for (std::uint32_t side = 0; side < static_cast<std::uint32_t>(patches().side_count()); ++side) {
+      const double light = luminance(static_cast<Vec3d>(radiance(side)));
+      if (!(light > 0)) continue;
+      power += light * static_cast<double>(area_of(side));
+      area += static_cast<double>(area_of(side));
+    }
+    return area > 0 ? power / area : 0;
+  }
   float turn_of(std::uint32_t side) const;
 
   const Scene& scene_;
@@ -116,8 +93,7 @@ class PatchSolver {
   std::vector<Vec3f> reflectance_, direct_;  // by side
   std::vector<Vec3f> even_glossy_;           // by side: mean radiance of its glossy lobe, where light_ keeps it by direction
   std::vector<Vec3f> from_glossy_;           // by side: mean radiance that glossy lobes of other sides send there
-  std::size_t links_per_side_ = 0;
-  std::vector<Vec3d> directions_;     // of the rays of a side, before the turn of its frame
+  SideRays side_rays_;
   std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
   struct Absorbed {
     std::size_t ray;
@@ -275,13 +251,8 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
   constexpr std::size_t kBatch = 4096;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
   even_glossy_.resize(sides);
-  double power = 0, area = 0;
-  for (std::uint32_t side = 0; side < sides; ++side) {
-    power += luminance(static_cast<Vec3d>(direct_[side])) * static_cast<double>(area_of(side));
-    area += weighs(direct_[side]) ? static_cast<double>(area_of(side)) : 0;
-  }
-  if (!(area > 0)) return;
-  const double least = kLeast * power / area;
+  const double least = kLeast * mean_of_lit([&](std::uint32_t side) { return direct_[side]; });
+  if (!(least > 0)) return;
   WorkSteps steps(part(shares_.refined, shares_.glossy), sides);
   struct Found {
     Surface surface;
@@ -320,8 +291,7 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
 }
 
 void PatchSolver::find_links(std::size_t rays) {
-  links_per_side_ = rays;
-  directions_ = cosine_directions(rays);
+  side_rays_ = SideRays(rays);
   links_.resize(rays * patches().side_count());
   from_glossy_.resize(patches().side_count());
   absorbed_.resize(patches().side_count());
@@ -329,13 +299,13 @@ void PatchSolver::find_links(std::size_t rays) {
   each(patches().side_count(), [&](std::size_t side) {
     steps.advance();
     const Surface surface = surface_of(static_cast<std::uint32_t>(side));
-    const Frame frame = frame_of_rays(surface, side);
+    const Frame frame = SideRays::frame(surface, side);
     BounceRays bounce(rays_, patches());
     for (std::size_t i = 0; i < BounceRays::kLanes; ++i) bounce.start(i, surface);
     for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
       std::array<Vec3f, BounceRays::kLanes> to;
       for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
-        to[i] = static_cast<Vec3f>(frame.to_world(directions_[k + i]));
+        to[i] = static_cast<Vec3f>(frame.to_world(side_rays_.direction(k + i)));
         bounce.set(i, to[i]);
       }
       const auto met = bounce.trace();
@@ -358,7 +328,7 @@ void PatchSolver::find_links(std::size_t rays) {
 void PatchSolver::iterate() {
   const int bounces = options_.bounces;
   const std::size_t sides = patches().side_count();
-  const float over_links = 1.0f / static_cast<float>(links_per_side_);
+  const float over_links = 1.0f / static_cast<float>(side_rays_.count());
   std::vector<Vec3f> bounce = direct_, next(sides);  // radiance after exactly so many bounces
   const auto largest_of = [](Vec3f v) { return std::max({v.x, v.y, v.z}); };
   float largest_reflectance = 0;
@@ -367,11 +337,11 @@ void PatchSolver::iterate() {
   for (light_.iterations_ = 0; light_.iterations_ < most && !stopped();) {
     each(sides, [&](std::size_t side) {
       Vec3f sum{};
-      for (std::size_t k = 0; k < links_per_side_; ++k) {
-        const std::uint32_t met = links_[side * links_per_side_ + k];
+      for (std::size_t k = 0; k < side_rays_.count(); ++k) {
+        const std::uint32_t met = links_[side * side_rays_.count() + k];
         if (met != kNoSide) sum += bounce[met];
       }
-      for (const Absorbed& a : absorbed_[side]) sum = sum - bounce[links_[side * links_per_side_ + a.ray]] * a.fraction;
+      for (const Absorbed& a : absorbed_[side]) sum = sum - bounce[links_[side * side_rays_.count() + a.ray]] * a.fraction;
       // Light from glossy lobes of other sides is direct light that has bounced once.
       next[side] = reflectance_[side] * (sum * over_links + (light_.iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
     });
@@ -402,13 +372,8 @@ void PatchSolver::turn_bounces() {
   constexpr double kLeast = 0.02;  // of the mean radiance
   constexpr std::size_t kBatch = 4096;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
-  double power = 0, area = 0;
-  for (std::uint32_t side = 0; side < sides; ++side) {
-    power += luminance(static_cast<Vec3d>(light_.sides_[side].radiance)) * static_cast<double>(area_of(side));
-    area += weighs(light_.sides_[side].radiance) ? static_cast<double>(area_of(side)) : 0;
-  }
-  if (!(area > 0)) return;
-  const double least = kLeast * power / area;
+  const double least = kLeast * mean_of_lit([&](std::uint32_t side) { return light_.sides_[side].radiance; });
+  if (!(least > 0)) return;
   struct Found {
     Surface surface;
     Vec3f turned, irradiance;
@@ -430,17 +395,18 @@ void PatchSolver::turn_bounces() {
       const Vec3f share = even_reflectance(surface).glossy_share();
       if (std::max({share.x, share.y, share.z}) < kMetal || luminance(static_cast<Vec3d>(bounced * share)) <= least) return;
       found[k] = {surface, bounced * share, {}, {}};
-      const Frame frame = frame_of_rays(surface, side);
-      const float per_ray = std::numbers::pi_v<float> / static_cast<float>(links_per_side_);
-      std::vector<Vec3f> tints(links_per_side_, {1, 1, 1});
+      const Frame frame = SideRays::frame(surface, side);
+      const float per_ray = std::numbers::pi_v<float> / static_cast<float>(side_rays_.count());
+      std::vector<Vec3f> tints(side_rays_.count(), {1, 1, 1});
       for (const Absorbed& a : absorbed_[side]) tints[a.ray] = tints[a.ray] - a.fraction;
-      for (std::size_t i = 0; i < links_per_side_; ++i) {
-        const std::uint32_t met = links_[side * links_per_side_ + i];
+      for (std::size_t i = 0; i < side_rays_.count(); ++i) {
+        const std::uint32_t met = links_[side * side_rays_.count() + i];
         if (met == kNoSide) continue;
-        const auto to = static_cast<Vec3f>(frame.to_world(directions_[i]));
+        const auto to = static_cast<Vec3f>(frame.to_world(side_rays_.direction(i)));
         const Vec3f irradiance = (light_.sides_[met].radiance + light_.glossy_radiance(met, -to)) * tints[i] * per_ray;
         found[k].irradiance += irradiance;
-        if (weighs(irradiance)) found[k].incident.push_back({to, irradiance, per_ray / static_cast<float>(directions_[i].z), kFromSides});
+        if (weighs(irradiance))
+          found[k].incident.push_back({to, irradiance, per_ray / static_cast<float>(side_rays_.direction(i).z), kFromSides});
       }
     });
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -496,16 +462,9 @@ void PatchSolver::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
   constexpr std::size_t kPlaces = 1024;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
-  const auto brightness = [&](std::uint32_t side) {
-    return luminance(static_cast<Vec3d>(light_.sides_[side].radiance + even_glossy_[side]));
-  };
-  double power = 0, area = 0;
-  for (std::uint32_t side = 0; side < sides; ++side) {
-    if (!(brightness(side) > 0)) continue;
-    power += brightness(side) * static_cast<double>(area_of(side));
-    area += static_cast<double>(area_of(side));
-  }
-  light_.mean_radiance_ = area > 0 ? power / area : 0;
+  const auto radiance = [&](std::uint32_t side) { return light_.sides_[side].radiance + even_glossy_[side]; };
+  const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance(side))); };
+  light_.mean_radiance_ = mean_of_lit(radiance);
   const double least = kBright * light_.mean_radiance_;
   std::vector<std::uint8_t> bright(sides);
   double bright_power = 0, bright_area = 0;
