@@ -7,7 +7,7 @@
 #include "render/certificate/bounce_bounds.h"
 #include "render/frame/frame_surfaces.h"
 #include "render/radiosity/gather.h"
-#include "render/radiosity/mirror_image.h"
+#include "render/radiosity/mirror/mirror_image.h"
 #include "render/radiosity/patch_solver.h"
 #include "render/tile/pass_clock.h"
 

@@ -12,7 +12,7 @@
 #include "lobes/lobe.h"
 #include "render/radiosity/bounce_rays.h"
 #include "render/environment/environment_light.h"  // mean_grazing
-#include "render/radiosity/mirrors.h"
+#include "render/radiosity/mirror/mirrors.h"
 
 namespace steradian::radiosity {
 namespace {

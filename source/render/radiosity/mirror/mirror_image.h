@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/radiosity/mirrors.h"
+#include "render/radiosity/mirror/mirrors.h"
 #include "steradian/picture.h"
 
 namespace steradian::radiosity {

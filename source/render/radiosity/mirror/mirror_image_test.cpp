@@ -1,5 +1,5 @@
 // The image of an edge between bright and dark in a rough mirror, against quadrature of its lobe.
-#include "render/radiosity/mirror_image.h"
+#include "render/radiosity/mirror/mirror_image.h"
 
 #include <gtest/gtest.h>
 

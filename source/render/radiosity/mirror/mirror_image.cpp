@@ -1,4 +1,4 @@
-#include "render/radiosity/mirror_image.h"
+#include "render/radiosity/mirror/mirror_image.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "render/radiosity/mirrors.h"
+#include "render/radiosity/mirror/mirrors.h"
 
 #include <algorithm>
 #include <cmath>
