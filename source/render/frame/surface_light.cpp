@@ -67,7 +67,7 @@ void DirectLight::add(SurfaceTile& tile, ReceiverKind receiver, EstimatedShadows
       past.add(tile, reaching.lights);
     } else if (receiver == ReceiverKind::patch && shadow_rays > 0) {
       scratch.clear();
-      past.add_shadowed_by_rays(tile, reaching.lights, shadow_rays, 0, scratch);
+      past.add_shadowed_by_rays(tile, reaching.lights, shadow_rays, FewRays::kPlacesOfEach, scratch);
     } else {
       past.add_shadowed(tile, reaching.lights);
     }

@@ -223,7 +223,7 @@ void TileLighting::add_by_rays(SurfaceTile& tile, const std::vector<const PackLi
 void TileLighting::add_by_chosen(SurfaceTile& tile, const TilePoints& points, const std::vector<const PackLight*>& lights,
                                  std::size_t count, int sample, Work& work, EstimatedShadows& estimate) {
   const Box3f positions = box_of(tile);
-  const double turn = 0.5 + kGolden * sample;
+  const double turn = 0.5 + kGolden * (sample == FewRays::kPlacesOfEach ? static_cast<double>(tile.seed) : sample);
   const std::vector<LightChoice::Chosen> chosen = choice_->choose(lights, positions, count, turn - std::floor(turn));
   work.whole.clear();
   for (const LightChoice::Chosen& c : chosen) work.whole.emplace_back().light = c.light;

@@ -28,10 +28,10 @@ class GlossySides {
                      std::uint32_t besides = kNone);
 
   // Radiance that a lobe sends in a direction of the scene. wider: width to add to the lobe.
-  Vec3f radiance(std::uint32_t lobe, Vec3f to, float wider) const { return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, wider); }
-  // The same for rays that cover all sides. Few meet a narrow lobe, which is widened for them.
+  Vec3f radiance(std::uint32_t lobe, Vec3f to, float wider) const { return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, wider, false); }
+  // The same for rays that cover all sides. Few meet a narrow lobe, which is widened for them and sends as much light as before.
   Vec3f radiance_for_few_rays(std::uint32_t lobe, Vec3f to) const {
-    return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, lobes_[lobe].wider);
+    return lobe == kNone ? Vec3f{} : sent(lobes_[lobe], to, lobes_[lobe].wider, true);
   }
 
  private:
@@ -41,7 +41,7 @@ class GlossySides {
     std::size_t first, count;  // places
     float wider;               // for few rays
   };
-  Vec3f sent(const KeptLobe& lobe, Vec3f to, float wider) const;
+  Vec3f sent(const KeptLobe& lobe, Vec3f to, float wider, bool keeps_energy) const;
 
   std::vector<KeptLobe> lobes_;
   GlossyPlaces places_;

@@ -9,7 +9,9 @@ using radiosity::GlossyTable;
 
 float sum_of(PackReal x) { return xsimd::hadd(x.v); }
 
-template <bool plain>
+enum class Width { own, wider, wider_with_its_energy };
+
+template <Width width>
 __attribute__((flatten)) GlossyTable::Sent sent_by(const GlossyPlaces& places, std::size_t first, std::size_t count, Vec3f view_of,
                                                    float wider) {
   PackKernels k;
@@ -21,19 +23,26 @@ __attribute__((flatten)) GlossyTable::Sent sent_by(const GlossyPlaces& places, s
     const PackVec3 h = k.microfacet_half_vector(l, view);
     const auto widened = [&](const float* alpha) {
       const PackReal own = load(alpha);
-      return plain ? own : sqrt(own * own + wider2);
+      return width == Width::own ? own : sqrt(own * own + wider2);
     };
     const PackReal shape = k.ggx_lobe(l, view, widened(&places.alpha_x[i]), widened(&places.alpha_y[i]));
     const PackReal power = k.fresnel_schlick(zero, PackReal(1.0), dot(view, h));
     const PackVec3 light = PackVec3(load(&places.red[i]), load(&places.green[i]), load(&places.blue[i])) * shape;
-    all = all + light;
-    grazing = grazing + light * power;
+    if constexpr (width == Width::wider_with_its_energy) {
+      all = all + light * load(&places.energy[i]);
+      grazing = grazing + light * (power * load(&places.grazing_energy[i]));
+    } else {
+      all = all + light;
+      grazing = grazing + light * power;
+    }
   }
   return {{sum_of(all.x), sum_of(all.y), sum_of(all.z)}, {sum_of(grazing.x), sum_of(grazing.y), sum_of(grazing.z)}};
 }
 
-GlossyTable::Sent sent(const GlossyPlaces& places, std::size_t first, std::size_t count, Vec3f view, float wider) {
-  return wider == 0 ? sent_by<true>(places, first, count, view, wider) : sent_by<false>(places, first, count, view, wider);
+GlossyTable::Sent sent(const GlossyPlaces& places, std::size_t first, std::size_t count, Vec3f view, float wider, bool keeps_energy) {
+  if (wider == 0) return sent_by<Width::own>(places, first, count, view, wider);
+  return keeps_energy ? sent_by<Width::wider_with_its_energy>(places, first, count, view, wider)
+                      : sent_by<Width::wider>(places, first, count, view, wider);
 }
 
 }  // namespace

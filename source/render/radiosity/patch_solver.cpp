@@ -247,7 +247,7 @@ void PatchSolver::refine_direct(const AddDirect& add_direct) {
 
 // Takes the light that glossy lobes send on out of the sides' even radiance, and keeps it by direction.
 void PatchSolver::find_glossy(const FindIncident& find_incident) {
-  constexpr double kLeast = 0.02;  // of the mean direct radiance: less light goes on as if the side were diffuse
+  constexpr double kLeast = 0.0002;  // of the mean direct radiance: less light goes on as if the side were diffuse
   constexpr std::size_t kBatch = 4096;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
   even_glossy_.resize(sides);

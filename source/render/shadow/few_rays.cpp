@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/lattices.h"
+#include "core/random.h"
 #include "render/shadow/side.h"
 
 namespace steradian {
@@ -83,17 +84,21 @@ FewRays::PlaceOnLight FewRays::place_on(const PackLight& light, const shadow::Vi
 void FewRays::find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, std::size_t count, int sample,
                    RayFractions& result) const {
   constexpr std::size_t kLanes = 16;
+  constexpr std::size_t kRuns = 1 << 16;  // beginnings of the slots' own runs of the sequence
   for (std::size_t first = 0; first < kTilePixels; first += kLanes) {
+    std::array<std::size_t, kLanes> begin;
+    begin.fill(static_cast<std::size_t>(std::max(sample, 0)) * count);
+    if (sample == kPlacesOfEach)
+      for (std::size_t i = 0; i < kLanes; ++i) begin[i] = reference::Random(tile.seed * kTilePixels + first + i).bits() % kRuns;
     std::array<std::array<float, 2>, kLanes> all{}, open{};  // by half
     for (std::size_t k = 0; k < count; ++k) {
       RayScene::Sixteen rays;
       std::uint32_t asked = 0;
       std::array<float, kLanes> weight{};
-      const SequencePlace in_sequence = sequence_place(light, static_cast<std::size_t>(sample) * count + k);
       for (std::size_t i = 0; i < kLanes; ++i) {
         if (tile.material[first + i] == nullptr) continue;
         const shadow::Viewpoint& from = points.points[first + i];
-        const PlaceOnLight place = place_on(light, from, in_sequence);
+        const PlaceOnLight place = place_on(light, from, sequence_place(light, begin[i] + k));
         if (!(place.weight > 0)) continue;
         weight[i] = place.weight;
         all[i][k % 2] += place.weight;

@@ -20,11 +20,14 @@ struct RayFractions {
 class FewRays {
  public:
   static constexpr std::size_t kMost = 64;  // rays of a point to a light
+  // For `sample`: each slot takes places of its own. With the same ones, the errors of all slots would add up.
+  static constexpr int kPlacesOfEach = -1;
 
   // All must outlive this object.
   FewRays(const RayScene& rays, const std::vector<PackLight>& lights);
 
-  // Takes `count` rays, at most kMost, of each slot with a surface. sample: primary sample, which takes other places on the light.
+  // Takes `count` rays, at most kMost, of each slot with a surface. sample: primary sample, which takes other places on the light, or
+  // kPlacesOfEach.
   void find(const SurfaceTile& tile, const TilePoints& points, const PackLight& light, std::size_t count, int sample,
             RayFractions& result) const;
 
@@ -41,7 +44,7 @@ class FewRays {
   SequencePlace sequence_place(const PackLight& light, std::size_t number) const;
   static PlaceOnLight place_on(const PackLight& light, const shadow::Viewpoint& from, const SequencePlace& in_sequence);
 
-  static constexpr std::size_t kPlaces = 256;  // places on a flat light
+  static constexpr std::size_t kPlaces = 1024;  // places on a flat light
   const RayScene& rays_;
   std::vector<std::vector<Vec3d>> flat_;  // places on flat lights, by PackLight::index
 };
