@@ -163,7 +163,7 @@ TEST(ObstructedExchange, BothDirectionsAgreeBehindRandomBoxes) {
   std::mt19937 random(45);
   const PlaneElement floor = parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
                      ceiling = parallelogram({-0.2, 0.1, 1}, {0.3, 1, 0}, {1, 0, 0.2});
-  for (int i = 0; i < test::by_day_or_night(8, 100); ++i) {
+  for (int i = 0; i < test::by_day_or_night(3, 100); ++i) {
     std::vector<ObstacleTriangle> triangles;
     for (int b = 0; b <= i % 3; ++b) {
       const Vec3d x = normalized(random_place(random)), y = normalized(cross(x, random_place(random))), z = cross(x, y);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "night.h"
 #include "render/surface/passed_rays.h"
 #include "render/surface/surface_pack.h"
 #include "steradian/environment.h"
@@ -225,7 +226,8 @@ TEST(Glass, StandsDegenerateSolids) {
   scene.cameras = {camera_at({0.1, 0.2, 1.2}, {0, 0, -1}, 1.2)};
   scene.environment = std::make_shared<const Environment>(white_environment());
   RenderOptions options;
-  options.width = options.height = 48;
+  options.width = options.height = test::by_day_or_night(20, 48);
+  options.quality = test::by_day_or_night(Quality::draft, Quality::normal);
   for (const float roughness : {0.0f, 0.1f, 0.5f, 1.0f}) {
     for (std::size_t i = 0; i < 4; ++i) {
       scene.materials[i].roughness = roughness;
