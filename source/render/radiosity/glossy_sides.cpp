@@ -11,7 +11,7 @@ namespace steradian::radiosity {
 namespace {
 
 constexpr float kNarrowest = 0.05f;  // alpha: narrower lobes are those of mirrors
-constexpr float kForFewRays = 0.12f;
+constexpr float kForFewRays = 0.18f;
 constexpr float kSmall = 0.5f;  // half radius of a cone over the lobe's width, or over that of a lobe seen by few rays
 
 // Half vectors turn by half of the radius of a cone of directions.
