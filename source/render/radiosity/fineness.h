@@ -17,11 +17,11 @@ struct Fineness {
 
 inline Fineness fineness_of(Quality quality) {
   switch (quality) {
-    case Quality::draft: return {8'000, 64, 64, 12, 64};
+    case Quality::draft: return {8'000, 64, 16, 12, 64};
     case Quality::high: return {120'000, 256, 0, 32, 64};
     case Quality::normal: break;
   }
-  return {40'000, 128, 64, 12, 64};
+  return {40'000, 64, 16, 12, 64};
 }
 
 inline Fineness fineness_of(const RenderOptions& options) {
