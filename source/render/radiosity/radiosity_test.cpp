@@ -352,8 +352,8 @@ TEST(Radiosity, PatchesBelowAPlateKeepTheMean) {
   options.quality = Quality::high;
   const double exact = mean_luminance(render(scene, options));
   std::printf("mean light by rays to the lamp over that by exact shadows: %.4f\n", by_rays / exact);
-  // The light that is left is a tenth of the lamp's; rays to 64 places are off by 2 % of the lamp. Each patch's own error is as large, but
-  // the means over the thousands of patches that each pixel sees are not.
+  // 8 % of the lamp are left: 16 rays of a patch find them with a standard error of 0.85 of it at most. The mean over 8,000 patches has one
+  // of 0.01. Rays to the same 64 places were 7 % off.
   EXPECT_NEAR(by_rays / exact, 1, 0.02);
 }
 

@@ -137,7 +137,9 @@ TEST(SolidRender, AllLightIsThatOfTheFacesAndOfPaths) {
     const Vec3d d = static_cast<Vec3d>(solid.pixels[i]) - static_cast<Vec3d>(faces.pixels[i]);
     squares += dot(d, d) / 3;
   }
-  EXPECT_LT(std::sqrt(squares / static_cast<double>(solid.pixels.size())) / mean_of(faces), 2e-4);
+  // Direct light differs by 1.2e-4, as above. Light between surfaces is 5.6 %, and 16 rays of each patch leave about 0.5 % of noise in a
+  // pixel's part of it, which differs between one light and 160.
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(solid.pixels.size())) / mean_of(faces), 4e-4);
   options.shadows = Shadows::on;
   options.method = "reference";
   options.target_error = 0.3;
