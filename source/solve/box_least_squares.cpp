@@ -155,7 +155,7 @@ BoxMinimum minimize_in_box(const std::function<double(const std::vector<double>&
       continue;
     }
     const double change = (here.value - reached) / here.value;
-    x = there;
+    x = settings.same ? settings.same(std::move(there)) : std::move(there);
     here = quadratic(x);
     ++best.evaluations;
     ++best.steps;

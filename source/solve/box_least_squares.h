@@ -31,6 +31,7 @@ struct BoxSettings {
   double rounding = 0;          // value below which the rest is rounding
   int max_steps = 100;
   double tolerance = 1e-6;  // relative change of the value, and of the variables over `typical`, at which steps end
+  std::function<std::vector<double>(std::vector<double>)> same{};  // a place of the same value from which steps go on
 };
 
 // State after a step that made the value smaller. Returns false to stop.

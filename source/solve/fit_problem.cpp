@@ -7,6 +7,7 @@
 
 #include "render/frame/frame_surfaces.h"
 #include "render/surface/gbuffer.h"
+#include "solve/tile_products.h"
 #include "steradian/error.h"
 
 namespace steradian::solving {
@@ -33,6 +34,7 @@ Compared compared(ResidualSpace space, double v, double mean) {
   return {root, 0.5 / (root * mean)};
 }
 
+float& channel(TileVector& v, std::size_t c, std::size_t i) { return c == 0 ? v.x[i] : c == 1 ? v.y[i] : v.z[i]; }
 float channel(const TileVector& v, std::size_t c, std::size_t i) { return c == 0 ? v.x[i] : c == 1 ? v.y[i] : v.z[i]; }
 
 // Lamps of a picture are patches of exactly one color, much brighter than what they light.
@@ -198,6 +200,11 @@ void FitProblem::add_picture(const PictureTarget& target, const std::string& nam
 
 void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part, const ReceivingTile& tile, const TileVector& value,
                                   const TileLight& slopes, Sums& sums) const {
+  const std::size_t n = slopes.size();
+  const bool wants_slopes = n > 0;
+  // The derivatives of the residuals, and the residuals themselves, times the square root of their influence on the gradient.
+  TileLight rows(wants_slopes ? n + 1 : 0);
+  TileVector factors{};
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     const std::uint32_t pixel = tile.value[i];
     if (pixel == kNoValue || !(part.weights[pixel] > 0)) continue;
@@ -207,7 +214,7 @@ void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part,
       const Compared have = compared(target.space, static_cast<double>(channel(value, c, i)), part.mean);
       const double goal = static_cast<double>(c == 0 ? wanted.x : c == 1 ? wanted.y : wanted.z);
       const double r = have.value - compared(target.space, goal, part.mean).value;
-      double influence = weight;  // of the residual, on the gradient
+      double influence = weight;
       if (target.loss == ResidualLoss::cauchy) {
         const double ratio = r / kCauchy;
         influence = weight / (1 + ratio * ratio);
@@ -215,10 +222,21 @@ void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part,
       } else {
         sums.cost += 0.5 * weight * r * r;
       }
-      if (slopes.empty()) continue;
-      for (std::size_t u = 0; u < slopes.size(); ++u) sums.row[u] = have.slope * static_cast<double>(channel(slopes[u], c, i));
-      sums.add(r, influence);
+      if (!wants_slopes) continue;
+      const double root = std::sqrt(influence);
+      channel(rows[n], c, i) = static_cast<float>(r * root);
+      channel(factors, c, i) = static_cast<float>(have.slope * root);
     }
+  }
+  if (!wants_slopes) return;
+  for (std::size_t u = 0; u < n; ++u)
+    for (TilePlane TileVector::*plane : {&TileVector::x, &TileVector::y, &TileVector::z})
+      for (std::size_t i = 0; i < kTilePixels; ++i) (rows[u].*plane)[i] = (slopes[u].*plane)[i] * (factors.*plane)[i];
+  std::vector<double> products((n + 1) * (n + 1));
+  tile_products_for(active_simd()).find(rows.data(), n + 1, products.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    sums.gradient[i] += products[n * (n + 1) + i];
+    for (std::size_t j = 0; j <= i; ++j) sums.hessian[i * n + j] += products[i * (n + 1) + j];
   }
 }
 

@@ -9,6 +9,7 @@
 #include "solve/box_least_squares.h"
 #include "solve/fit_problem.h"
 #include "solve/least_power.h"
+#include "solve/quarter_turns.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -20,7 +21,7 @@ constexpr int kCoarseSteps = 25;  // of each starting point
 constexpr int kCoarser = 4;       // pixels of a coarse picture are means of so many in each direction
 
 constexpr int kLeastSide = 36;      // of a coarse picture: smaller ones lead into traps
-constexpr double kRounding = 2e-6;  // rms residual of pictures in single precision
+constexpr double kRounding = 5e-7;  // rms residual of pictures in single precision
 
 constexpr double kMeanSlack = 1e-3;  // of a wanted mean, for the search of the least power
 
@@ -91,6 +92,7 @@ class Solver {
     settings_.max_steps = options.max_steps;
     settings_.rounding = 0.5 * static_cast<double>(problem_.picture_residual_count()) * kRounding * kRounding;
     settings_.tolerance = options.tolerance;
+    settings_.same = [this](std::vector<double> x) { return with_quarter_turns(lights_, std::move(x)); };
   }
 
   Solution solve() {
