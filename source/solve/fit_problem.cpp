@@ -17,7 +17,8 @@ constexpr double kFloor = 0.01;   // of the mean, below which root and log see n
 constexpr double kCauchy = 0.05;  // residual at which the loss turns from squares to logarithms
 constexpr double kMostBytes = 4e9;
 constexpr std::size_t kMostPixels = std::size_t{1} << 21;
-constexpr double kInside = 1e-3;  // bands are narrowed by this fraction, so that a solution is inside of them
+constexpr std::size_t kLeastCoarse = 36 * 36;  // pixels of a coarse picture that count: fewer lead into traps
+constexpr double kInside = 1e-3;               // bands are narrowed by this fraction, so that a solution is inside of them
 
 // Residual space: value and slope of the function.
 struct Compared {
@@ -145,7 +146,33 @@ FitProblem::FitProblem(const Scene& scene, const FittedLights& lights, const std
     throw Error("targets", text);
   }
   tiles_->add_fixed_light();
-  model_.emplace(lights, *tiles_);
+  for (std::size_t i = 0; i < tiles_->tiles().size(); ++i) all_.push_back(i);
+  for (Part& part : parts_) {
+    if (!lights.is_linear() && lights.materials().empty() && part.counted > 0) add_coarse(part);
+    const bool coarse = part.first_coarse < part.last_coarse;
+    for (std::size_t i = coarse ? part.first_coarse : part.first_tile; i < (coarse ? part.last_coarse : part.last_tile); ++i)
+      coarse_.push_back(i);
+    has_coarse_ = has_coarse_ || coarse;
+  }
+  model_.emplace(lights, *tiles_, all_);
+}
+
+// Takes one block of pixels of 16, or of 4, if enough of their pixels count.
+void FitProblem::add_coarse(Part& part) {
+  for (const int factor : {4, 2}) {
+    std::size_t counted = 0;
+    for (std::size_t number = part.first_tile; number < part.last_tile; ++number)
+      for (std::size_t slot = 0; slot < kTilePixels; ++slot) {
+        const std::uint32_t pixel = tiles_->tiles()[number].value[slot];
+        if (ReceivingTiles::is_coarse_slot(slot, factor) && pixel != kNoValue && part.row[pixel] != kNoValue) ++counted;
+      }
+    if (counted < kLeastCoarse) continue;
+    part.first_coarse = tiles_->tiles().size();
+    tiles_->add_coarse(part.first_tile, part.last_tile, factor);
+    part.last_coarse = tiles_->tiles().size();
+    part.coarse_weight = static_cast<double>(part.counted) / static_cast<double>(counted);
+    return;
+  }
 }
 
 void FitProblem::add_picture(const PictureTarget& target, const std::string& name, Part& part, std::vector<std::string>& problems) {
@@ -198,8 +225,10 @@ void FitProblem::add_picture(const PictureTarget& target, const std::string& nam
   picture_residuals_ += static_cast<std::size_t>(counted);
 }
 
-void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part, const ReceivingTile& tile, const TileVector& value,
+void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part, std::size_t number, const TileVector& value,
                                   const TileLight& slopes, Sums& sums) const {
+  const ReceivingTile& tile = tiles_->tiles()[number];
+  const double of_target = target.weight * (number >= part.last_tile ? part.coarse_weight : 1);
   const std::size_t n = slopes.size();
   const bool wants_slopes = n > 0;
   // The derivatives of the residuals, and the residuals themselves, times the square root of their influence on the gradient.
@@ -208,7 +237,7 @@ void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part,
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     const std::uint32_t pixel = tile.value[i];
     if (pixel == kNoValue || !(part.weights[pixel] > 0)) continue;
-    const double weight = target.weight * static_cast<double>(part.weights[pixel]);
+    const double weight = of_target * static_cast<double>(part.weights[pixel]);
     const Vec3f wanted = target.picture.pixels[pixel];
     for (std::size_t c = 0; c < 3; ++c) {
       const Compared have = compared(target.space, static_cast<double>(channel(value, c, i)), part.mean);
@@ -244,14 +273,13 @@ FitProblem::Lux FitProblem::illuminances(const std::vector<double>& x, Wants wan
   Lux lux;
   lux.value.resize(points_);
   if (wants == Wants::derivatives) lux.slopes.resize(points_ * unknown_count());
-  model_->each(x, wants,
+  model_->each(x, wants, all_,
                [&](std::size_t number, const TileVector& value, const TileLight& slopes) { take_lux(number, value, slopes, lux); });
   return lux;
 }
 
 void FitProblem::take_lux(std::size_t number, const TileVector& value, const TileLight& slopes, Lux& lux) const {
-  const auto part =
-      std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return number >= p.first_tile && number < p.last_tile; });
+  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.has(number); });
   if (part->first_value == part->last_value) return;
   const ReceivingTile& tile = tiles_->tiles()[number];
   const auto lux_of = [](const TileVector& v, std::size_t i) { return std::numbers::pi * luminance(static_cast<Vec3d>(get(v, i))); };
@@ -314,16 +342,15 @@ void FitProblem::add_keep(const std::vector<double>& x, Wants wants, Sums& sums)
   }
 }
 
-Evaluation FitProblem::evaluate(const std::vector<double>& x, Wants wants) const {
+Evaluation FitProblem::evaluate(const std::vector<double>& x, Wants wants, Detail detail) const {
   std::vector<Sums> by_tile(tiles_->tiles().size(), Sums(unknown_count(), wants));
   Lux lux;
   lux.value.resize(points_);
   if (wants == Wants::derivatives) lux.slopes.resize(points_ * unknown_count());
-  model_->each(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
+  model_->each(x, wants, numbers(detail), [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
     for (std::size_t i = 0; i < parts_.size(); ++i)
-      if (const auto* picture = std::get_if<PictureTarget>(&targets_[i]);
-          picture != nullptr && number >= parts_[i].first_tile && number < parts_[i].last_tile)
-        add_picture_tile(*picture, parts_[i], tiles_->tiles()[number], value, slopes, by_tile[number]);
+      if (const auto* picture = std::get_if<PictureTarget>(&targets_[i]); picture != nullptr && parts_[i].has(number))
+        add_picture_tile(*picture, parts_[i], number, value, slopes, by_tile[number]);
     take_lux(number, value, slopes, lux);
   });
   Sums all(unknown_count(), wants);
@@ -351,7 +378,7 @@ FitProblem::Lux FitProblem::values(const std::vector<double>& x, Wants wants) co
   Lux lux;
   lux.value.resize(points_);
   lux.slopes.resize(points_ * n);
-  model_->each(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
+  model_->each(x, wants, all_, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
     take_lux(number, value, slopes, lux);
     for (std::size_t t = 0; t < parts_.size(); ++t) {
       const Part& part = parts_[t];
@@ -392,7 +419,7 @@ std::vector<double> FitProblem::wanted() const {
 
 double FitProblem::brightness(const std::vector<double>& x) const {
   std::vector<double> have(tiles_->tiles().size());
-  model_->each(x, Wants::cost, [&](std::size_t number, const TileVector& value, const TileLight&) {
+  model_->each(x, Wants::cost, coarse_, [&](std::size_t number, const TileVector& value, const TileLight&) {
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const std::uint32_t at = tiles_->tiles()[number].value[i];
       if (at != kNoValue) have[number] += luminance(static_cast<Vec3d>(get(value, i)));
@@ -402,7 +429,8 @@ double FitProblem::brightness(const std::vector<double>& x) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto* picture = std::get_if<PictureTarget>(&targets_[i]);
     if (picture == nullptr) continue;
-    for (std::size_t number = parts_[i].first_tile; number < parts_[i].last_tile; ++number) {
+    for (const std::size_t number : coarse_) {
+      if (!parts_[i].has(number)) continue;
       found += have[number];
       for (const std::uint32_t pixel : tiles_->tiles()[number].value)
         if (pixel != kNoValue) wanted += luminance(static_cast<Vec3d>(picture->picture.pixels[pixel]));

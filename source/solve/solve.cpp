@@ -17,37 +17,10 @@ namespace {
 
 using namespace solving;
 
-constexpr int kCoarseSteps = 25;  // of each starting point
-constexpr int kCoarser = 4;       // pixels of a coarse picture are means of so many in each direction
-
-constexpr int kLeastSide = 36;      // of a coarse picture: smaller ones lead into traps
+constexpr int kCoarseSteps = 25;    // of each starting point
 constexpr double kRounding = 5e-7;  // rms residual of pictures in single precision
 
 constexpr double kMeanSlack = 1e-3;  // of a wanted mean, for the search of the least power
-
-// Targets at a quarter of the resolution, for the choice among starting points.
-std::vector<LightTarget> coarse_targets(const std::vector<LightTarget>& targets) {
-  std::vector<LightTarget> coarse = targets;
-  for (LightTarget& target : coarse) {
-    auto* picture = std::get_if<PictureTarget>(&target);
-    if (picture == nullptr || std::min(picture->picture.width, picture->picture.height) < kLeastSide * kCoarser) continue;
-    const Picture& fine = picture->picture;
-    Picture small(fine.width / kCoarser, fine.height / kCoarser);
-    std::vector<float> weights(small.pixels.size());
-    for (int y = 0; y < small.height; ++y)
-      for (int x = 0; x < small.width; ++x) {
-        // The pixel in the middle, whose surface the coarse camera sees nearly; a mean would mix surfaces.
-        const int fx = x * kCoarser + kCoarser / 2, fy = y * kCoarser + kCoarser / 2;
-        small.at(x, y) = fine.at(fx, fy);
-        const auto pixel = static_cast<std::size_t>(fy) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(fx);
-        weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width) + static_cast<std::size_t>(x)] =
-            picture->pixel_weights.empty() ? 1.0f : picture->pixel_weights[pixel];
-      }
-    picture->picture = std::move(small);
-    picture->pixel_weights = std::move(weights);
-  }
-  return coarse;
-}
 
 // A random place in the box: positions without a range lie in the scene's bounds.
 std::vector<double> random_place(const std::vector<Unknown>& unknowns, const Scene& scene, reference::Random& random) {
@@ -98,7 +71,7 @@ class Solver {
   Solution solve() {
     refuse_blind_lights();
     std::vector<double> x = lights_.start();
-    if (options_.starts > 1 && !lights_.is_linear()) x = best_start(x);
+    if (!lights_.is_linear()) x = best_start(x);
     if (has_highlights() && !lights_.is_linear()) x = annealed(x);
     BoxMinimum found = solution_.stopped ? BoxMinimum{x, 0, {}, 0, 0, false, true} : minimize(problem_, x, 0, settings_);
     if (options_.least_power && lights_.is_linear() && !found.stopped) take_least_power(found);
@@ -107,12 +80,13 @@ class Solver {
   }
 
  private:
-  BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings) {
+  BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings,
+                      Detail detail = Detail::all) {
     const auto value = [&](const std::vector<double>& at) {
-      return lights_.crosses_itself(at) ? std::numeric_limits<double>::infinity() : problem.evaluate(at, Wants::cost).cost;
+      return lights_.crosses_itself(at) ? std::numeric_limits<double>::infinity() : problem.evaluate(at, Wants::cost, detail).cost;
     };
     const auto quadratic = [&](const std::vector<double>& at) {
-      Evaluation e = problem.evaluate(at, Wants::derivatives);
+      Evaluation e = problem.evaluate(at, Wants::derivatives, detail);
       return Quadratic{e.cost, std::move(e.gradient), std::move(e.hessian)};
     };
     BoxMinimum found =
@@ -147,27 +121,29 @@ class Solver {
     return x;
   }
 
-  // The best of the scene's own start and random ones, each after a few steps at a lower resolution.
+  // The best of the scene's own start and random ones, each after a few steps by coarse pictures.
   std::vector<double> best_start(const std::vector<double>& own) {
-    const std::vector<LightTarget> coarse = coarse_targets(targets_);
-    const FitProblem problem(scene_, lights_, coarse, options_);
+    // A highlight's first steps are those of wider lobes.
+    if (options_.starts == 1 && (!problem_.has_coarse() || has_highlights())) return own;
+    const double own_cost = problem_.evaluate(own, Wants::cost).cost;
+    if (own_cost <= settings_.rounding) return own;
     BoxSettings settings = settings_;
-    settings.max_steps = kCoarseSteps;
+    if (options_.starts > 1) settings.max_steps = kCoarseSteps;
     reference::Random random(options_.seed);
     BoxMinimum best;
     for (int start = 0; start < options_.starts && !solution_.stopped; ++start) {
       std::vector<double> x = own;
       if (start > 0) {
         x = random_place(lights_.unknowns(), scene_, random);
-        const double factor = std::log(problem.brightness(x));
+        const double factor = std::log(problem_.brightness(x));
         for (std::size_t u = 0; u < x.size(); ++u)
           if (is_scale(lights_.unknowns()[u].kind)) x[u] = std::clamp(x[u] + factor, settings.low[u], settings.high[u]);
       }
-      BoxMinimum found = minimize(problem, x, start, settings);
+      BoxMinimum found = minimize(problem_, x, start, settings, Detail::coarse);
       solution_.stopped = found.stopped;
       if (start == 0 || found.value < best.value) best = std::move(found);
     }
-    return best.x;
+    return problem_.evaluate(best.x, Wants::cost).cost < own_cost ? best.x : own;
   }
 
   // Throws Error for a light or a material whose every derivative is 0.
