@@ -273,7 +273,12 @@ FitProblem::Lux FitProblem::illuminances(const std::vector<double>& x, Wants wan
   Lux lux;
   lux.value.resize(points_);
   if (wants == Wants::derivatives) lux.slopes.resize(points_ * unknown_count());
-  model_->each(x, wants, all_,
+  std::vector<std::size_t> numbers;
+  for (const Part& part : parts_)
+    if (part.first_value < part.last_value)
+      for (std::size_t i = part.first_tile; i < part.last_tile; ++i) numbers.push_back(i);
+  if (numbers.empty()) return lux;
+  model_->each(x, wants, numbers,
                [&](std::size_t number, const TileVector& value, const TileLight& slopes) { take_lux(number, value, slopes, lux); });
   return lux;
 }

@@ -18,7 +18,8 @@ namespace {
 using namespace solving;
 
 constexpr int kCoarseSteps = 25;    // of each starting point
-constexpr double kRounding = 5e-7;  // rms residual of pictures in single precision
+constexpr double kRounding = 5e-7;  // rms residual of pictures in single precision; shadows' edges, and coarse pictures, end at more:
+constexpr double kRoughly = 2e-6;
 
 constexpr double kMeanSlack = 1e-3;  // of a wanted mean, for the search of the least power
 
@@ -63,7 +64,7 @@ class Solver {
       settings_.typical.push_back(u.typical);
     }
     settings_.max_steps = options.max_steps;
-    settings_.rounding = 0.5 * static_cast<double>(problem_.picture_residual_count()) * kRounding * kRounding;
+    settings_.rounding = cost_of(options.render.shadows != Shadows::off ? kRoughly : kRounding);
     settings_.tolerance = options.tolerance;
     settings_.same = [this](std::vector<double> x) { return with_quarter_turns(lights_, std::move(x)); };
   }
@@ -80,6 +81,9 @@ class Solver {
   }
 
  private:
+  // Half the sum of squares of this rms residual of pictures.
+  double cost_of(double rms) const { return 0.5 * static_cast<double>(problem_.picture_residual_count()) * rms * rms; }
+
   BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings,
                       Detail detail = Detail::all) {
     const auto value = [&](const std::vector<double>& at) {
@@ -128,6 +132,7 @@ class Solver {
     const double own_cost = problem_.evaluate(own, Wants::cost).cost;
     if (own_cost <= settings_.rounding) return own;
     BoxSettings settings = settings_;
+    settings.rounding = cost_of(kRoughly);
     if (options_.starts > 1) settings.max_steps = kCoarseSteps;
     reference::Random random(options_.seed);
     BoxMinimum best;
@@ -146,9 +151,16 @@ class Solver {
     return problem_.evaluate(best.x, Wants::cost).cost < own_cost ? best.x : own;
   }
 
-  // Throws Error for a light or a material whose every derivative is 0.
+  // Throws Error for a light or a material whose every derivative is 0. Coarse pixels mostly see all of them.
   void refuse_blind_lights() {
-    const Evaluation e = problem_.evaluate(lights_.start(), Wants::derivatives);
+    if (problem_.has_coarse() && blind_fits(Detail::coarse).empty()) return;
+    const std::string blind = blind_fits(Detail::all);
+    if (!blind.empty()) throw Error("fit", blind);
+  }
+
+  // The complaint about lights or materials whose every derivative is 0, and its remedy; else empty.
+  std::string blind_fits(Detail detail) const {
+    const Evaluation e = problem_.evaluate(lights_.start(), Wants::derivatives, detail);
     const std::size_t n = lights_.unknowns().size();
     // Bands that are satisfied hide a light from the cost, so the illuminances themselves are asked.
     const FitProblem::Lux lux = problem_.illuminances(lights_.start(), Wants::derivatives);
@@ -166,11 +178,11 @@ class Solver {
       }
       return blind;
     };
-    if (const std::string blind = unseen(lights_.light_count(), false, [&](std::size_t i) { return lights_.name_of(i); }); !blind.empty())
-      throw Error("fit", "no target sees the light of " + blind, "turn or move the light towards the target, or leave it out");
+    std::string blind = unseen(lights_.light_count(), false, [&](std::size_t i) { return lights_.name_of(i); });
+    if (!blind.empty()) return "no target sees the light of " + blind + " (turn or move the light towards the target, or leave it out)";
     const FittedMaterials& materials = lights_.materials();
-    if (const std::string blind = unseen(materials.count(), true, [&](std::size_t i) { return materials.name_of(i); }); !blind.empty())
-      throw Error("fit", "no target sees light on the material " + blind, "point the camera at it, or leave it out");
+    blind = unseen(materials.count(), true, [&](std::size_t i) { return materials.name_of(i); });
+    return blind.empty() ? "" : "no target sees light on the material " + blind + " (point the camera at it, or leave it out)";
   }
 
   // Conditions of the illuminances, linear in the powers.
@@ -258,7 +270,8 @@ class Solver {
         if (to.emission) to.emission->intensity = to.emission->intensity * light.scale;
       }
     }
-    const Evaluation end = problem_.evaluate(found.x, Wants::derivatives);
+    Evaluation end = problem_.evaluate(found.x, found.hessian.empty() ? Wants::derivatives : Wants::cost);
+    if (!found.hessian.empty()) end.hessian = found.hessian;
     solution_.cost = end.cost;
     solution_.residuals = problem_.residual_count();
     if (problem_.picture_residual_count() > 0)
