@@ -5133,7 +5133,7 @@ fn steradian_half_vector_radiance(view: SteradianGgxView, sum: f32, facing: f32)
 //
 // No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
-// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
+// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl, moment.glsl and ggx_closed_form.glsl.
 
 // Derivatives of one integral by an edge's ends.
 //   normal    of the edge's part, start cross end: not unit
@@ -5226,6 +5226,70 @@ fn steradian_ltc_edge_slopes(m: SteradianLtcMatrix, a: vec3f, b: vec3f) -> Stera
 fn steradian_ltc_edge_transform_back(m: SteradianLtcMatrix, v: vec3f, g: vec3f) -> vec3f {
     let under = steradian_ltc_transform(m, v);
     return steradian_ltc_transform_transposed(m, g * inverseSqrt(max(dot(under, under), steradian_smallest_square())));
+}
+
+// Derivatives of the Phong lobe's integral, (n + 1)/(2 pi) times the moment, by the ends of one edge.
+//
+//   part     of steradian_edge_above_horizon
+//   r        unit axis of the lobe, the mirrored view
+//   n        exponent, 0 or more
+//   low      1 for n < 7, else 0; the same for every lane
+//
+// On the edge, x = l.r = c cos phi with phi from the foot. So INT x^n l dphi is that of x^(n + 1) towards the foot, and has the
+// antiderivative -x^(n + 1)/(n + 1) across it. Edges shorter than two widths of the lobe, in front of its equator, take Gauss and Legendre's
+// rule, since a difference of two antiderivatives would lose their digits: its error is 3e-5 at two widths.
+// Degenerate: an edge of no length, or behind the lobe's equator, has derivatives of 0.
+// Error: see docs/measured/accuracy.md, "Phong, edge slopes"; that of steradian_moment_cosine_front, 4e-5 of the full lobe for n >= 1.
+fn steradian_phong_part_slopes(part: SteradianEdgePart, r: vec3f, n: f32, low: i32) -> SteradianEdgeSlopes {
+    let sum = part.start + part.end;
+    let chord = part.end - part.start;
+    let chord2 = dot(chord, chord);
+    let sum_inverse = inverseSqrt(max(dot(sum, sum), steradian_smallest_divisor()));
+    let chord_inverse = inverseSqrt(max(chord2, steradian_smallest_divisor()));
+    // The axis at the part's middle and along it there.
+    let axis_middle = dot(r, sum) * sum_inverse;
+    let axis_along = dot(r, chord) * chord_inverse;
+    let m = n + 1.0;
+    // INT f cos t dt and INT f sin t dt, with t from the middle.
+    var even = 0.0;
+    var odd = 0.0;
+    let is_short = chord2 * m < 4.0 && chord2 < 1.0 && dot(r, part.start) > 0.0 && dot(r, part.end) > 0.0;
+    if (is_short) {
+        let half_tangent = sum_inverse * chord2 * chord_inverse;
+        for (var i: i32 = 0; i < 4; i++) {
+            let rule = steradian_gauss_legendre_node(4, i);
+            let u = half_tangent * (2.0 * rule.x - 1.0);
+            let cosine = inverseSqrt(1.0 + u * u);
+            let x = (axis_middle + axis_along * u) * cosine;
+            let w = 2.0 * half_tangent * rule.y * steradian_phong_power(x, n) * cosine * cosine * cosine;
+            even = even + w;
+            odd = odd + w * u;
+        }
+    }
+    if (!is_short) {
+        let edge = steradian_moment_edge(part.start, part.end, r);
+        let towards = steradian_moment_cosine_front(edge, m, low);
+        let across = (steradian_phong_power(edge.x0, m) - steradian_phong_power(edge.x1, m)) / m;
+        let over_c2 = 1.0 / (edge.c * edge.c);
+        even = select((towards * axis_middle - across * axis_along) * over_c2, even, is_short);
+        odd = select((towards * axis_along + across * axis_middle) * over_c2, odd, is_short);
+    }
+    var of_part: SteradianEdgeSlopes;
+    of_part.normal = cross(part.start, chord);
+    let n2 = dot(of_part.normal, of_part.normal);
+    let scale = select(0.0, -m * steradian_inverse_two_pi() * inverseSqrt(max(n2, steradian_smallest_divisor())), n2 > steradian_smallest_divisor());
+    even = even * sum_inverse;
+    odd = odd * chord_inverse;
+    of_part.by_start = (even - odd) * scale;
+    of_part.by_end = (even + odd) * scale;
+    return steradian_edge_slopes_of_whole(part, of_part);
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+fn steradian_phong_edge_slopes(a: vec3f, b: vec3f, r: vec3f, n: f32, low: i32) -> SteradianEdgeSlopes {
+    return steradian_phong_part_slopes(steradian_edge_above_horizon(a, b), r, n, low);
 }
 
 // Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.

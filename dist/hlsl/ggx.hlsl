@@ -760,7 +760,7 @@ float steradian_half_vector_radiance(SteradianGgxView view, float sum, float fac
 //
 // No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
-// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
+// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl, moment.glsl and ggx_closed_form.glsl.
 
 // Derivatives of one integral by an edge's ends.
 //   normal    of the edge's part, start cross end: not unit
@@ -853,6 +853,70 @@ SteradianEdgeSlopes steradian_ltc_edge_slopes(SteradianLtcMatrix m, float3 a, fl
 float3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, float3 v, float3 g) {
     float3 under = steradian_ltc_transform(m, v);
     return steradian_ltc_transform_transposed(m, g * rsqrt(max(dot(under, under), steradian_smallest_square())));
+}
+
+// Derivatives of the Phong lobe's integral, (n + 1)/(2 pi) times the moment, by the ends of one edge.
+//
+//   part     of steradian_edge_above_horizon
+//   r        unit axis of the lobe, the mirrored view
+//   n        exponent, 0 or more
+//   low      1 for n < 7, else 0; the same for every lane
+//
+// On the edge, x = l.r = c cos phi with phi from the foot. So INT x^n l dphi is that of x^(n + 1) towards the foot, and has the
+// antiderivative -x^(n + 1)/(n + 1) across it. Edges shorter than two widths of the lobe, in front of its equator, take Gauss and Legendre's
+// rule, since a difference of two antiderivatives would lose their digits: its error is 3e-5 at two widths.
+// Degenerate: an edge of no length, or behind the lobe's equator, has derivatives of 0.
+// Error: see docs/measured/accuracy.md, "Phong, edge slopes"; that of steradian_moment_cosine_front, 4e-5 of the full lobe for n >= 1.
+SteradianEdgeSlopes steradian_phong_part_slopes(SteradianEdgePart part, float3 r, float n, int low) {
+    float3 sum = part.start + part.end;
+    float3 chord = part.end - part.start;
+    float chord2 = dot(chord, chord);
+    float sum_inverse = rsqrt(max(dot(sum, sum), steradian_smallest_divisor()));
+    float chord_inverse = rsqrt(max(chord2, steradian_smallest_divisor()));
+    // The axis at the part's middle and along it there.
+    float axis_middle = dot(r, sum) * sum_inverse;
+    float axis_along = dot(r, chord) * chord_inverse;
+    float m = n + 1.0;
+    // INT f cos t dt and INT f sin t dt, with t from the middle.
+    float even = 0.0;
+    float odd = 0.0;
+    bool is_short = chord2 * m < 4.0 && chord2 < 1.0 && dot(r, part.start) > 0.0 && dot(r, part.end) > 0.0;
+    if (is_short) {
+        float half_tangent = sum_inverse * chord2 * chord_inverse;
+        for (int i = 0; i < 4; i++) {
+            float2 rule = steradian_gauss_legendre_node(4, i);
+            float u = half_tangent * (2.0 * rule.x - 1.0);
+            float cosine = rsqrt(1.0 + u * u);
+            float x = (axis_middle + axis_along * u) * cosine;
+            float w = 2.0 * half_tangent * rule.y * steradian_phong_power(x, n) * cosine * cosine * cosine;
+            even = even + w;
+            odd = odd + w * u;
+        }
+    }
+    if (!is_short) {
+        SteradianMomentEdge edge = steradian_moment_edge(part.start, part.end, r);
+        float towards = steradian_moment_cosine_front(edge, m, low);
+        float across = (steradian_phong_power(edge.x0, m) - steradian_phong_power(edge.x1, m)) / m;
+        float over_c2 = 1.0 / (edge.c * edge.c);
+        even = steradian_select(is_short, even, (towards * axis_middle - across * axis_along) * over_c2);
+        odd = steradian_select(is_short, odd, (towards * axis_along + across * axis_middle) * over_c2);
+    }
+    SteradianEdgeSlopes of_part;
+    of_part.normal = cross(part.start, chord);
+    float n2 = dot(of_part.normal, of_part.normal);
+    float scale = steradian_select(n2 > steradian_smallest_divisor(), -m * steradian_inverse_two_pi() * rsqrt(max(n2, steradian_smallest_divisor())), 0.0);
+    even = even * sum_inverse;
+    odd = odd * chord_inverse;
+    of_part.by_start = (even - odd) * scale;
+    of_part.by_end = (even + odd) * scale;
+    return steradian_edge_slopes_of_whole(part, of_part);
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (steradian_polygon_direction), in walk order
+SteradianEdgeSlopes steradian_phong_edge_slopes(float3 a, float3 b, float3 r, float n, int low) {
+    return steradian_phong_part_slopes(steradian_edge_above_horizon(a, b), r, n, low);
 }
 
 // Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.

@@ -11,9 +11,9 @@
 //
 // No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
-// Needs: constants.glsl inverse_trig.glsl polygon.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl conic.glsl ltc.glsl ggx_closed_form.glsl
-// Topics: edge, polygon_edge, polygon_part, ltc_edge, ltc_part, ggx_edge
-// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl and ggx_closed_form.glsl.
+// Needs: constants.glsl inverse_trig.glsl polygon.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl phong.glsl conic.glsl ltc.glsl ggx_closed_form.glsl moment.glsl moment_cosine.glsl
+// Topics: edge, polygon_edge, polygon_part, ltc_edge, ltc_part, phong_edge, ggx_edge
+// Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl, moment.glsl and ggx_closed_form.glsl.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
 // Derivatives of one integral by an edge's ends.
@@ -107,6 +107,70 @@ EdgeSlopes ltc_edge_slopes(LtcMatrix m, vec3 a, vec3 b) {
 vec3 ltc_edge_transform_back(LtcMatrix m, vec3 v, vec3 g) {
     vec3 under = ltc_transform(m, v);
     return ltc_transform_transposed(m, g * inversesqrt(max(dot(under, under), smallest_square())));
+}
+
+// Derivatives of the Phong lobe's integral, (n + 1)/(2 pi) times the moment, by the ends of one edge.
+//
+//   part     of edge_above_horizon
+//   r        unit axis of the lobe, the mirrored view
+//   n        exponent, 0 or more
+//   low      1 for n < 7, else 0; the same for every lane
+//
+// On the edge, x = l.r = c cos phi with phi from the foot. So INT x^n l dphi is that of x^(n + 1) towards the foot, and has the
+// antiderivative -x^(n + 1)/(n + 1) across it. Edges shorter than two widths of the lobe, in front of its equator, take Gauss and Legendre's
+// rule, since a difference of two antiderivatives would lose their digits: its error is 3e-5 at two widths.
+// Degenerate: an edge of no length, or behind the lobe's equator, has derivatives of 0.
+// Error: see docs/measured/accuracy.md, "Phong, edge slopes"; that of moment_cosine_front, 4e-5 of the full lobe for n >= 1.
+EdgeSlopes phong_part_slopes(EdgePart part, vec3 r, real n, int low) {
+    vec3 sum = part.start + part.end;
+    vec3 chord = part.end - part.start;
+    real chord2 = dot(chord, chord);
+    real sum_inverse = inversesqrt(max(dot(sum, sum), smallest_divisor()));
+    real chord_inverse = inversesqrt(max(chord2, smallest_divisor()));
+    // The axis at the part's middle and along it there.
+    real axis_middle = dot(r, sum) * sum_inverse;
+    real axis_along = dot(r, chord) * chord_inverse;
+    real m = n + 1.0;
+    // INT f cos t dt and INT f sin t dt, with t from the middle.
+    real even = 0.0;
+    real odd = 0.0;
+    mask is_short = chord2 * m < 4.0 && chord2 < 1.0 && dot(r, part.start) > 0.0 && dot(r, part.end) > 0.0;
+    if (any_lane(is_short)) {
+        real half_tangent = sum_inverse * chord2 * chord_inverse;
+        for (int i = 0; i < 4; i++) {
+            vec2 rule = gauss_legendre_node(4, i);
+            real u = half_tangent * (2.0 * rule.x - 1.0);
+            real cosine = inversesqrt(1.0 + u * u);
+            real x = (axis_middle + axis_along * u) * cosine;
+            real w = 2.0 * half_tangent * rule.y * phong_power(x, n) * cosine * cosine * cosine;
+            even = even + w;
+            odd = odd + w * u;
+        }
+    }
+    if (any_lane(!is_short)) {
+        MomentEdge edge = moment_edge(part.start, part.end, r);
+        real towards = moment_cosine_front(edge, m, low);
+        real across = (phong_power(edge.x0, m) - phong_power(edge.x1, m)) / m;
+        real over_c2 = 1.0 / (edge.c * edge.c);
+        even = select(is_short, even, (towards * axis_middle - across * axis_along) * over_c2);
+        odd = select(is_short, odd, (towards * axis_along + across * axis_middle) * over_c2);
+    }
+    EdgeSlopes of_part;
+    of_part.normal = cross(part.start, chord);
+    real n2 = dot(of_part.normal, of_part.normal);
+    real scale = select(n2 > smallest_divisor(), -m * inverse_two_pi() * inversesqrt(max(n2, smallest_divisor())), 0.0);
+    even = even * sum_inverse;
+    odd = odd * chord_inverse;
+    of_part.by_start = (even - odd) * scale;
+    of_part.by_end = (even + odd) * scale;
+    return edge_slopes_of_whole(part, of_part);
+}
+
+// The same from the ends.
+//
+//   a, b     unit directions of the ends (polygon_direction), in walk order
+EdgeSlopes phong_edge_slopes(vec3 a, vec3 b, vec3 r, real n, int low) {
+    return phong_part_slopes(edge_above_horizon(a, b), r, n, low);
 }
 
 // Derivatives of the GGX lobe's integral, with shadowing and Fresnel, by the ends of one edge.

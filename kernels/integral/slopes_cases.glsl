@@ -29,6 +29,19 @@ vec4 case_ltc_edge_slopes(CaseInput i) {
     return case_of_vec3(ltc_edge_transform_back(m, a, case_slopes_sum(ltc_edge_slopes(m, a, b))));
 }
 
+// Phong, edge slopes
+//   a.xyz  upper_direction
+//   b.xyz  upper_direction
+//   c.xyz  upper_direction
+//   a.w    log(7, 1000)
+// Values: 3
+vec4 case_phong_edge_slopes(CaseInput i) {
+    vec3 b = polygon_direction(case_xyz(i.b) + vec3(0.0, 0.0, 0.1));
+    vec3 a = polygon_direction(case_xyz(i.c) + b * 0.5);
+    EdgeSlopes s = phong_edge_slopes(a, b, case_xyz(i.a), i.a.w, 0);
+    return case_of_vec3(case_slopes_sum(s) * (1.0 / (1.0 + i.a.w)));
+}
+
 // GGX, edge slopes
 //   a.xyz  upper_direction
 //   b.xyz  upper_direction

@@ -133,7 +133,7 @@ BoxMinimum minimize_in_box(const std::function<double(const std::vector<double>&
       for (std::size_t j = 0; j < n; ++j) curved += here.hessian[i * n + j] * step[j];
       expected -= step[i] * (here.gradient[i] + 0.5 * curved);
     }
-    if (moved <= 1e-9 || expected <= 1e-15 * here.value || here.value <= settings.rounding) {
+    if (moved <= 1e-9 || expected <= 1e-15 * here.value || (best.steps > 0 && here.value <= settings.rounding)) {
       best.converged = true;
       break;
     }
@@ -155,7 +155,7 @@ BoxMinimum minimize_in_box(const std::function<double(const std::vector<double>&
       continue;
     }
     const double change = (here.value - reached) / here.value;
-    x = there;
+    x = settings.same ? settings.same(std::move(there)) : std::move(there);
     here = quadratic(x);
     ++best.evaluations;
     ++best.steps;

@@ -28,9 +28,10 @@ BoxStep least_in_box(const std::vector<double>& gradient, const std::vector<doub
 struct BoxSettings {
   std::vector<double> low, high;
   std::vector<double> typical;  // change of each variable that is felt
-  double rounding = 0;          // value below which the rest is rounding
+  double rounding = 0;          // value below which the rest is rounding: steps after the first end
   int max_steps = 100;
   double tolerance = 1e-6;  // relative change of the value, and of the variables over `typical`, at which steps end
+  std::function<std::vector<double>(std::vector<double>)> same{};  // a place of the same value from which steps go on
 };
 
 // State after a step that made the value smaller. Returns false to stop.

@@ -7,6 +7,7 @@
 
 #include "render/frame/frame_surfaces.h"
 #include "render/surface/gbuffer.h"
+#include "solve/tile_products.h"
 #include "steradian/error.h"
 
 namespace steradian::solving {
@@ -16,7 +17,8 @@ constexpr double kFloor = 0.01;   // of the mean, below which root and log see n
 constexpr double kCauchy = 0.05;  // residual at which the loss turns from squares to logarithms
 constexpr double kMostBytes = 4e9;
 constexpr std::size_t kMostPixels = std::size_t{1} << 21;
-constexpr double kInside = 1e-3;  // bands are narrowed by this fraction, so that a solution is inside of them
+constexpr std::size_t kLeastCoarse = 36 * 36;  // pixels of a coarse picture that count: fewer lead into traps
+constexpr double kInside = 1e-3;               // bands are narrowed by this fraction, so that a solution is inside of them
 
 // Residual space: value and slope of the function.
 struct Compared {
@@ -33,6 +35,7 @@ Compared compared(ResidualSpace space, double v, double mean) {
   return {root, 0.5 / (root * mean)};
 }
 
+float& channel(TileVector& v, std::size_t c, std::size_t i) { return c == 0 ? v.x[i] : c == 1 ? v.y[i] : v.z[i]; }
 float channel(const TileVector& v, std::size_t c, std::size_t i) { return c == 0 ? v.x[i] : c == 1 ? v.y[i] : v.z[i]; }
 
 // Lamps of a picture are patches of exactly one color, much brighter than what they light.
@@ -143,7 +146,33 @@ FitProblem::FitProblem(const Scene& scene, const FittedLights& lights, const std
     throw Error("targets", text);
   }
   tiles_->add_fixed_light();
-  model_.emplace(lights, *tiles_);
+  for (std::size_t i = 0; i < tiles_->tiles().size(); ++i) all_.push_back(i);
+  for (Part& part : parts_) {
+    if (!lights.is_linear() && lights.materials().empty() && part.counted > 0) add_coarse(part);
+    const bool coarse = part.first_coarse < part.last_coarse;
+    for (std::size_t i = coarse ? part.first_coarse : part.first_tile; i < (coarse ? part.last_coarse : part.last_tile); ++i)
+      coarse_.push_back(i);
+    has_coarse_ = has_coarse_ || coarse;
+  }
+  model_.emplace(lights, *tiles_, all_);
+}
+
+// Takes one block of pixels of 16, or of 4, if enough of their pixels count.
+void FitProblem::add_coarse(Part& part) {
+  for (const int factor : {4, 2}) {
+    std::size_t counted = 0;
+    for (std::size_t number = part.first_tile; number < part.last_tile; ++number)
+      for (std::size_t slot = 0; slot < kTilePixels; ++slot) {
+        const std::uint32_t pixel = tiles_->tiles()[number].value[slot];
+        if (ReceivingTiles::is_coarse_slot(slot, factor) && pixel != kNoValue && part.row[pixel] != kNoValue) ++counted;
+      }
+    if (counted < kLeastCoarse) continue;
+    part.first_coarse = tiles_->tiles().size();
+    tiles_->add_coarse(part.first_tile, part.last_tile, factor);
+    part.last_coarse = tiles_->tiles().size();
+    part.coarse_weight = static_cast<double>(part.counted) / static_cast<double>(counted);
+    return;
+  }
 }
 
 void FitProblem::add_picture(const PictureTarget& target, const std::string& name, Part& part, std::vector<std::string>& problems) {
@@ -196,18 +225,25 @@ void FitProblem::add_picture(const PictureTarget& target, const std::string& nam
   picture_residuals_ += static_cast<std::size_t>(counted);
 }
 
-void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part, const ReceivingTile& tile, const TileVector& value,
+void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part, std::size_t number, const TileVector& value,
                                   const TileLight& slopes, Sums& sums) const {
+  const ReceivingTile& tile = tiles_->tiles()[number];
+  const double of_target = target.weight * (number >= part.last_tile ? part.coarse_weight : 1);
+  const std::size_t n = slopes.size();
+  const bool wants_slopes = n > 0;
+  // The derivatives of the residuals, and the residuals themselves, times the square root of their influence on the gradient.
+  TileLight rows(wants_slopes ? n + 1 : 0);
+  TileVector factors{};
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     const std::uint32_t pixel = tile.value[i];
     if (pixel == kNoValue || !(part.weights[pixel] > 0)) continue;
-    const double weight = target.weight * static_cast<double>(part.weights[pixel]);
+    const double weight = of_target * static_cast<double>(part.weights[pixel]);
     const Vec3f wanted = target.picture.pixels[pixel];
     for (std::size_t c = 0; c < 3; ++c) {
       const Compared have = compared(target.space, static_cast<double>(channel(value, c, i)), part.mean);
       const double goal = static_cast<double>(c == 0 ? wanted.x : c == 1 ? wanted.y : wanted.z);
       const double r = have.value - compared(target.space, goal, part.mean).value;
-      double influence = weight;  // of the residual, on the gradient
+      double influence = weight;
       if (target.loss == ResidualLoss::cauchy) {
         const double ratio = r / kCauchy;
         influence = weight / (1 + ratio * ratio);
@@ -215,10 +251,21 @@ void FitProblem::add_picture_tile(const PictureTarget& target, const Part& part,
       } else {
         sums.cost += 0.5 * weight * r * r;
       }
-      if (slopes.empty()) continue;
-      for (std::size_t u = 0; u < slopes.size(); ++u) sums.row[u] = have.slope * static_cast<double>(channel(slopes[u], c, i));
-      sums.add(r, influence);
+      if (!wants_slopes) continue;
+      const double root = std::sqrt(influence);
+      channel(rows[n], c, i) = static_cast<float>(r * root);
+      channel(factors, c, i) = static_cast<float>(have.slope * root);
     }
+  }
+  if (!wants_slopes) return;
+  for (std::size_t u = 0; u < n; ++u)
+    for (TilePlane TileVector::*plane : {&TileVector::x, &TileVector::y, &TileVector::z})
+      for (std::size_t i = 0; i < kTilePixels; ++i) (rows[u].*plane)[i] = (slopes[u].*plane)[i] * (factors.*plane)[i];
+  std::vector<double> products((n + 1) * (n + 1));
+  tile_products_for(active_simd()).find(rows.data(), n + 1, products.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    sums.gradient[i] += products[n * (n + 1) + i];
+    for (std::size_t j = 0; j <= i; ++j) sums.hessian[i * n + j] += products[i * (n + 1) + j];
   }
 }
 
@@ -226,14 +273,18 @@ FitProblem::Lux FitProblem::illuminances(const std::vector<double>& x, Wants wan
   Lux lux;
   lux.value.resize(points_);
   if (wants == Wants::derivatives) lux.slopes.resize(points_ * unknown_count());
-  model_->each(x, wants,
+  std::vector<std::size_t> numbers;
+  for (const Part& part : parts_)
+    if (part.first_value < part.last_value)
+      for (std::size_t i = part.first_tile; i < part.last_tile; ++i) numbers.push_back(i);
+  if (numbers.empty()) return lux;
+  model_->each(x, wants, numbers,
                [&](std::size_t number, const TileVector& value, const TileLight& slopes) { take_lux(number, value, slopes, lux); });
   return lux;
 }
 
 void FitProblem::take_lux(std::size_t number, const TileVector& value, const TileLight& slopes, Lux& lux) const {
-  const auto part =
-      std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return number >= p.first_tile && number < p.last_tile; });
+  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.has(number); });
   if (part->first_value == part->last_value) return;
   const ReceivingTile& tile = tiles_->tiles()[number];
   const auto lux_of = [](const TileVector& v, std::size_t i) { return std::numbers::pi * luminance(static_cast<Vec3d>(get(v, i))); };
@@ -296,16 +347,15 @@ void FitProblem::add_keep(const std::vector<double>& x, Wants wants, Sums& sums)
   }
 }
 
-Evaluation FitProblem::evaluate(const std::vector<double>& x, Wants wants) const {
+Evaluation FitProblem::evaluate(const std::vector<double>& x, Wants wants, Detail detail) const {
   std::vector<Sums> by_tile(tiles_->tiles().size(), Sums(unknown_count(), wants));
   Lux lux;
   lux.value.resize(points_);
   if (wants == Wants::derivatives) lux.slopes.resize(points_ * unknown_count());
-  model_->each(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
+  model_->each(x, wants, numbers(detail), [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
     for (std::size_t i = 0; i < parts_.size(); ++i)
-      if (const auto* picture = std::get_if<PictureTarget>(&targets_[i]);
-          picture != nullptr && number >= parts_[i].first_tile && number < parts_[i].last_tile)
-        add_picture_tile(*picture, parts_[i], tiles_->tiles()[number], value, slopes, by_tile[number]);
+      if (const auto* picture = std::get_if<PictureTarget>(&targets_[i]); picture != nullptr && parts_[i].has(number))
+        add_picture_tile(*picture, parts_[i], number, value, slopes, by_tile[number]);
     take_lux(number, value, slopes, lux);
   });
   Sums all(unknown_count(), wants);
@@ -333,7 +383,7 @@ FitProblem::Lux FitProblem::values(const std::vector<double>& x, Wants wants) co
   Lux lux;
   lux.value.resize(points_);
   lux.slopes.resize(points_ * n);
-  model_->each(x, wants, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
+  model_->each(x, wants, all_, [&](std::size_t number, const TileVector& value, const TileLight& slopes) {
     take_lux(number, value, slopes, lux);
     for (std::size_t t = 0; t < parts_.size(); ++t) {
       const Part& part = parts_[t];
@@ -374,7 +424,7 @@ std::vector<double> FitProblem::wanted() const {
 
 double FitProblem::brightness(const std::vector<double>& x) const {
   std::vector<double> have(tiles_->tiles().size());
-  model_->each(x, Wants::cost, [&](std::size_t number, const TileVector& value, const TileLight&) {
+  model_->each(x, Wants::cost, coarse_, [&](std::size_t number, const TileVector& value, const TileLight&) {
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const std::uint32_t at = tiles_->tiles()[number].value[i];
       if (at != kNoValue) have[number] += luminance(static_cast<Vec3d>(get(value, i)));
@@ -384,7 +434,8 @@ double FitProblem::brightness(const std::vector<double>& x) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto* picture = std::get_if<PictureTarget>(&targets_[i]);
     if (picture == nullptr) continue;
-    for (std::size_t number = parts_[i].first_tile; number < parts_[i].last_tile; ++number) {
+    for (const std::size_t number : coarse_) {
+      if (!parts_[i].has(number)) continue;
       found += have[number];
       for (const std::uint32_t pixel : tiles_->tiles()[number].value)
         if (pixel != kNoValue) wanted += luminance(static_cast<Vec3d>(picture->picture.pixels[pixel]));

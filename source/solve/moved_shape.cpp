@@ -1,14 +1,11 @@
 #include "solve/moved_shape.h"
 
 #include <algorithm>
-#include <optional>
 #include <variant>
 
 namespace steradian::solving {
-namespace {
 
-// Two half axes of a polygon that is a parallelogram; none for others.
-std::optional<Ellipse> axes_of(const Polygon& p) {
+std::optional<Ellipse> half_axes_of(const Polygon& p) {
   if (p.vertices.size() != 4 || !p.holes.empty()) return {};
   const auto& v = p.vertices;
   const Vec3d open = v[0] - v[1] + v[2] - v[3];
@@ -16,6 +13,8 @@ std::optional<Ellipse> axes_of(const Polygon& p) {
   if (!(length(open) <= 1e-5 * size)) return {};
   return Ellipse{(v[0] + v[1] + v[2] + v[3]) * 0.25, (v[1] - v[0]) * 0.5, (v[3] - v[0]) * 0.5};
 }
+
+namespace {
 
 Vec3d center_of(const Polygon& p) {
   Vec3d sum{};
@@ -29,7 +28,7 @@ Vec3d center_of(const Line& l) { return (l.end_a + l.end_b) * 0.5; }
 
 Shape moved(const Polygon& p, const Motion& m) {
   Polygon result = p;
-  if (const auto axes = axes_of(p)) {
+  if (const auto axes = half_axes_of(p)) {
     const Vec3d x = m.turned(axes->x) * m.f1, y = m.turned(axes->y) * m.f2, c = m.moved(axes->center);
     // The corners keep their distance from the parallelogram, which is a rounding.
     const Vec3d corners[] = {c - x - y, c + x - y, c + x + y, c - x + y};
@@ -59,7 +58,7 @@ Vec3d center_of(const Shape& shape) {
 
 std::vector<ShapeSize> sizes_of(const Shape& shape) {
   if (const auto* p = std::get_if<Polygon>(&shape)) {
-    if (const auto axes = axes_of(*p)) return {{"width", 2 * length(axes->x)}, {"height", 2 * length(axes->y)}};
+    if (const auto axes = half_axes_of(*p)) return {{"width", 2 * length(axes->x)}, {"height", 2 * length(axes->y)}};
     return {};
   }
   if (const auto* e = std::get_if<Ellipse>(&shape)) return {{"diameter", 2 * std::max(length(e->x), length(e->y))}};

@@ -1,6 +1,7 @@
 // The sizes of shapes, and shapes that a fit has moved.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "steradian/shape.h"
@@ -9,6 +10,9 @@
 namespace steradian::solving {
 
 Vec3d center_of(const Shape& shape);
+
+// Two half axes of a polygon that is a parallelogram; none for others.
+std::optional<Ellipse> half_axes_of(const Polygon& polygon);
 
 // Sizes that a fit may change [m], by their words.
 struct ShapeSize {

@@ -331,6 +331,38 @@ void ReceivingTiles::add_fixed_light(std::size_t first, std::size_t last) const 
 
 void ReceivingTiles::add_fixed_light() { add_fixed_light(0, tiles_.size()); }
 
+// One block of each square of factor x factor, in its middle.
+bool ReceivingTiles::is_coarse_slot(std::size_t slot, int factor) {
+  constexpr std::size_t kBlock = 16, kAcross = kTileSide / 4;
+  const std::size_t block = slot / kBlock, step = static_cast<std::size_t>(factor);
+  return block % kAcross % step == step / 2 && block / kAcross % step == step / 2;
+}
+
+void ReceivingTiles::add_coarse(std::size_t first, std::size_t last, int factor) {
+  std::size_t filled = kTilePixels;
+  for (std::size_t number = first; number < last; ++number)
+    for (std::size_t slot = 0; slot < kTilePixels; ++slot) {
+      if (!is_coarse_slot(slot, factor)) continue;
+      if (filled == kTilePixels) {
+        ReceivingTile& tile = tiles_.emplace_back();
+        tile.surfaces = std::make_unique<SurfaceTile>();
+        tile.surfaces->seed = tiles_.size();
+        tile.value.fill(kNoValue);
+        clear_kinds(*tile.surfaces);
+        for (std::size_t i = 0; i < kTilePixels; ++i) put_nothing(*tile.surfaces, i);
+        filled = 0;
+      }
+      const ReceivingTile& from = tiles_[number];
+      if (from.value[slot] != kNoValue) {
+        ReceivingTile& to = tiles_.back();
+        put_surface(*to.surfaces, filled, surface_in(*from.surfaces, slot), get(from.surfaces->view, slot));
+        put(to.surfaces->radiance, filled, get(from.surfaces->radiance, slot));
+        to.value[filled] = from.value[slot];
+      }
+      ++filled;
+    }
+}
+
 void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_t last,
                                  const std::function<TileVector&(std::size_t)>& light) const {
   Room& room = *room_;
@@ -362,7 +394,8 @@ void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_
   });
 }
 
-void ReceivingTiles::light(const Lamps& lamps, const std::function<void(std::size_t, const TileLight&)>& use) const {
+void ReceivingTiles::light(const Lamps& lamps, const std::vector<std::size_t>& numbers,
+                           const std::function<void(std::size_t, const TileLight&)>& use) const {
   Room& room = *room_;
   const std::lock_guard<std::mutex> lock(room.one_at_a_time);
   take_materials(lamps.materials);
@@ -379,10 +412,10 @@ void ReceivingTiles::light(const Lamps& lamps, const std::function<void(std::siz
     tile.radiance = fixed;
   };
   if (room.options.bounces == 0) {
-    each(tiles_.size(), [&](std::size_t index) {
+    each(numbers.size(), [&](std::size_t i) {
       TileLight light(lamps.count());
-      direct(index, light);
-      use(index, light);
+      direct(numbers[i], light);
+      use(numbers[i], light);
     });
     return;
   }
@@ -390,7 +423,7 @@ void ReceivingTiles::light(const Lamps& lamps, const std::function<void(std::siz
   each(tiles_.size(), [&](std::size_t index) { direct(index, all[index]); });
   for (std::size_t lamp = 0; lamp < lamps.count(); ++lamp)
     add_bounces(table, first + lamp, first + lamp + 1, [&](std::size_t index) -> TileVector& { return all[index][lamp]; });
-  for (std::size_t index = 0; index < tiles_.size(); ++index) use(index, all[index]);
+  for (const std::size_t index : numbers) use(index, all[index]);
 }
 
 }  // namespace steradian::solving

@@ -52,14 +52,19 @@ class ReceivingTiles {
   void add_points(const std::vector<Vec3d>& points, const std::vector<Vec3d>& normals);
   // Computes the light of all lights that are not fitted. Call it once, after all surfaces are added.
   void add_fixed_light();
+  // Adds tiles that repeat every factor-th block of 4 x 4 pixels of the tiles `first` to `last` - 1, in each direction (factor: 2 or 4).
+  // Their materials stay as they are now. Call it after add_fixed_light.
+  void add_coarse(std::size_t first, std::size_t last, int factor);
+  static bool is_coarse_slot(std::size_t slot, int factor);
 
   const std::vector<ReceivingTile>& tiles() const { return tiles_; }
   // True if TileSlopes knows the light of polygons on all tiles: no shadows, and no lobes but diffuse ones and GGX in closed form.
   bool has_slopes() const;
 
-  // Calls use(number of the tile, light) for every tile, on all threads, in any order. Direct light, with the options' shadows; with
+  // Calls use(number of the tile, light) for some tiles, on all threads, in any order. Direct light, with the options' shadows; with
   // bounces, also the light of each lamp that other surfaces send.
-  void light(const Lamps& lamps, const std::function<void(std::size_t, const TileLight&)>& use) const;
+  void light(const Lamps& lamps, const std::vector<std::size_t>& numbers,
+             const std::function<void(std::size_t, const TileLight&)>& use) const;
   // Runs work(i) for i from 0 to count on the threads of this object.
   void each(std::size_t count, const std::function<void(std::size_t)>& work) const;
 

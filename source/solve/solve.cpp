@@ -9,6 +9,7 @@
 #include "solve/box_least_squares.h"
 #include "solve/fit_problem.h"
 #include "solve/least_power.h"
+#include "solve/quarter_turns.h"
 #include "steradian/error.h"
 
 namespace steradian {
@@ -16,37 +17,11 @@ namespace {
 
 using namespace solving;
 
-constexpr int kCoarseSteps = 25;  // of each starting point
-constexpr int kCoarser = 4;       // pixels of a coarse picture are means of so many in each direction
-
-constexpr int kLeastSide = 36;      // of a coarse picture: smaller ones lead into traps
-constexpr double kRounding = 2e-6;  // rms residual of pictures in single precision
+constexpr int kCoarseSteps = 25;    // of each starting point
+constexpr double kRounding = 5e-7;  // rms residual of pictures in single precision; shadows' edges, and coarse pictures, end at more:
+constexpr double kRoughly = 2e-6;
 
 constexpr double kMeanSlack = 1e-3;  // of a wanted mean, for the search of the least power
-
-// Targets at a quarter of the resolution, for the choice among starting points.
-std::vector<LightTarget> coarse_targets(const std::vector<LightTarget>& targets) {
-  std::vector<LightTarget> coarse = targets;
-  for (LightTarget& target : coarse) {
-    auto* picture = std::get_if<PictureTarget>(&target);
-    if (picture == nullptr || std::min(picture->picture.width, picture->picture.height) < kLeastSide * kCoarser) continue;
-    const Picture& fine = picture->picture;
-    Picture small(fine.width / kCoarser, fine.height / kCoarser);
-    std::vector<float> weights(small.pixels.size());
-    for (int y = 0; y < small.height; ++y)
-      for (int x = 0; x < small.width; ++x) {
-        // The pixel in the middle, whose surface the coarse camera sees nearly; a mean would mix surfaces.
-        const int fx = x * kCoarser + kCoarser / 2, fy = y * kCoarser + kCoarser / 2;
-        small.at(x, y) = fine.at(fx, fy);
-        const auto pixel = static_cast<std::size_t>(fy) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(fx);
-        weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(small.width) + static_cast<std::size_t>(x)] =
-            picture->pixel_weights.empty() ? 1.0f : picture->pixel_weights[pixel];
-      }
-    picture->picture = std::move(small);
-    picture->pixel_weights = std::move(weights);
-  }
-  return coarse;
-}
 
 // A random place in the box: positions without a range lie in the scene's bounds.
 std::vector<double> random_place(const std::vector<Unknown>& unknowns, const Scene& scene, reference::Random& random) {
@@ -89,14 +64,15 @@ class Solver {
       settings_.typical.push_back(u.typical);
     }
     settings_.max_steps = options.max_steps;
-    settings_.rounding = 0.5 * static_cast<double>(problem_.picture_residual_count()) * kRounding * kRounding;
+    settings_.rounding = cost_of(options.render.shadows != Shadows::off ? kRoughly : kRounding);
     settings_.tolerance = options.tolerance;
+    settings_.same = [this](std::vector<double> x) { return with_quarter_turns(lights_, std::move(x)); };
   }
 
   Solution solve() {
     refuse_blind_lights();
     std::vector<double> x = lights_.start();
-    if (options_.starts > 1 && !lights_.is_linear()) x = best_start(x);
+    if (!lights_.is_linear()) x = best_start(x);
     if (has_highlights() && !lights_.is_linear()) x = annealed(x);
     BoxMinimum found = solution_.stopped ? BoxMinimum{x, 0, {}, 0, 0, false, true} : minimize(problem_, x, 0, settings_);
     if (options_.least_power && lights_.is_linear() && !found.stopped) take_least_power(found);
@@ -105,12 +81,16 @@ class Solver {
   }
 
  private:
-  BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings) {
+  // Half the sum of squares of this rms residual of pictures.
+  double cost_of(double rms) const { return 0.5 * static_cast<double>(problem_.picture_residual_count()) * rms * rms; }
+
+  BoxMinimum minimize(const FitProblem& problem, const std::vector<double>& x, int start, const BoxSettings& settings,
+                      Detail detail = Detail::all) {
     const auto value = [&](const std::vector<double>& at) {
-      return lights_.crosses_itself(at) ? std::numeric_limits<double>::infinity() : problem.evaluate(at, Wants::cost).cost;
+      return lights_.crosses_itself(at) ? std::numeric_limits<double>::infinity() : problem.evaluate(at, Wants::cost, detail).cost;
     };
     const auto quadratic = [&](const std::vector<double>& at) {
-      Evaluation e = problem.evaluate(at, Wants::derivatives);
+      Evaluation e = problem.evaluate(at, Wants::derivatives, detail);
       return Quadratic{e.cost, std::move(e.gradient), std::move(e.hessian)};
     };
     BoxMinimum found =
@@ -145,32 +125,42 @@ class Solver {
     return x;
   }
 
-  // The best of the scene's own start and random ones, each after a few steps at a lower resolution.
+  // The best of the scene's own start and random ones, each after a few steps by coarse pictures.
   std::vector<double> best_start(const std::vector<double>& own) {
-    const std::vector<LightTarget> coarse = coarse_targets(targets_);
-    const FitProblem problem(scene_, lights_, coarse, options_);
+    // A highlight's first steps are those of wider lobes.
+    if (options_.starts == 1 && (!problem_.has_coarse() || has_highlights())) return own;
+    const double own_cost = problem_.evaluate(own, Wants::cost).cost;
+    if (own_cost <= settings_.rounding) return own;
     BoxSettings settings = settings_;
-    settings.max_steps = kCoarseSteps;
+    settings.rounding = cost_of(kRoughly);
+    if (options_.starts > 1) settings.max_steps = kCoarseSteps;
     reference::Random random(options_.seed);
     BoxMinimum best;
     for (int start = 0; start < options_.starts && !solution_.stopped; ++start) {
       std::vector<double> x = own;
       if (start > 0) {
         x = random_place(lights_.unknowns(), scene_, random);
-        const double factor = std::log(problem.brightness(x));
+        const double factor = std::log(problem_.brightness(x));
         for (std::size_t u = 0; u < x.size(); ++u)
           if (is_scale(lights_.unknowns()[u].kind)) x[u] = std::clamp(x[u] + factor, settings.low[u], settings.high[u]);
       }
-      BoxMinimum found = minimize(problem, x, start, settings);
+      BoxMinimum found = minimize(problem_, x, start, settings, Detail::coarse);
       solution_.stopped = found.stopped;
       if (start == 0 || found.value < best.value) best = std::move(found);
     }
-    return best.x;
+    return problem_.evaluate(best.x, Wants::cost).cost < own_cost ? best.x : own;
   }
 
-  // Throws Error for a light or a material whose every derivative is 0.
+  // Throws Error for a light or a material whose every derivative is 0. Coarse pixels mostly see all of them.
   void refuse_blind_lights() {
-    const Evaluation e = problem_.evaluate(lights_.start(), Wants::derivatives);
+    if (problem_.has_coarse() && blind_fits(Detail::coarse).empty()) return;
+    const std::string blind = blind_fits(Detail::all);
+    if (!blind.empty()) throw Error("fit", blind);
+  }
+
+  // The complaint about lights or materials whose every derivative is 0, and its remedy; else empty.
+  std::string blind_fits(Detail detail) const {
+    const Evaluation e = problem_.evaluate(lights_.start(), Wants::derivatives, detail);
     const std::size_t n = lights_.unknowns().size();
     // Bands that are satisfied hide a light from the cost, so the illuminances themselves are asked.
     const FitProblem::Lux lux = problem_.illuminances(lights_.start(), Wants::derivatives);
@@ -188,11 +178,11 @@ class Solver {
       }
       return blind;
     };
-    if (const std::string blind = unseen(lights_.light_count(), false, [&](std::size_t i) { return lights_.name_of(i); }); !blind.empty())
-      throw Error("fit", "no target sees the light of " + blind, "turn or move the light towards the target, or leave it out");
+    std::string blind = unseen(lights_.light_count(), false, [&](std::size_t i) { return lights_.name_of(i); });
+    if (!blind.empty()) return "no target sees the light of " + blind + " (turn or move the light towards the target, or leave it out)";
     const FittedMaterials& materials = lights_.materials();
-    if (const std::string blind = unseen(materials.count(), true, [&](std::size_t i) { return materials.name_of(i); }); !blind.empty())
-      throw Error("fit", "no target sees light on the material " + blind, "point the camera at it, or leave it out");
+    blind = unseen(materials.count(), true, [&](std::size_t i) { return materials.name_of(i); });
+    return blind.empty() ? "" : "no target sees light on the material " + blind + " (point the camera at it, or leave it out)";
   }
 
   // Conditions of the illuminances, linear in the powers.
@@ -280,7 +270,8 @@ class Solver {
         if (to.emission) to.emission->intensity = to.emission->intensity * light.scale;
       }
     }
-    const Evaluation end = problem_.evaluate(found.x, Wants::derivatives);
+    Evaluation end = problem_.evaluate(found.x, found.hessian.empty() ? Wants::derivatives : Wants::cost);
+    if (!found.hessian.empty()) end.hessian = found.hessian;
     solution_.cost = end.cost;
     solution_.residuals = problem_.residual_count();
     if (problem_.picture_residual_count() > 0)

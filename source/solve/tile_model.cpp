@@ -73,18 +73,20 @@ bool is_plain_polygon(const FittedLight& light) {
 
 }  // namespace
 
-TileModel::TileModel(const FittedLights& lights, const ReceivingTiles& tiles) : lights_(lights), tiles_(tiles) {
+TileModel::TileModel(const FittedLights& lights, const ReceivingTiles& tiles, const std::vector<std::size_t>& all)
+    : lights_(lights), tiles_(tiles) {
   if (!lights_.is_linear()) return;
   columns_.resize(tiles_.tiles().size());
   LampList list;
   for (const FittedLight& light : lights_.at(std::vector<double>(lights_.unknowns().size(), 1.0))) list.add(light);
-  tiles_.light(list.lamps, [&](std::size_t tile, const TileLight& light) {
+  tiles_.light(list.lamps, all, [&](std::size_t tile, const TileLight& light) {
     for (std::size_t i = 0; i < list.size(); ++i) columns_[tile].push_back(light[list.place(i)]);
   });
 }
 
 // The light is affine in the albedo, so that a wide difference is exact. Within the range of a parameter, since there is no other material.
-std::vector<TileLight> TileModel::slopes_by_materials(const std::vector<double>& x, const std::vector<FittedLight>& lights) const {
+std::vector<TileLight> TileModel::slopes_by_materials(const std::vector<double>& x, const std::vector<FittedLight>& lights,
+                                                      const std::vector<std::size_t>& numbers) const {
   std::vector<TileLight> by(lights_.materials().empty() ? 0 : x.size());
   for (std::size_t u = 0; u < by.size(); ++u) {
     const UnknownKind kind = lights_.unknowns()[u].kind;
@@ -98,7 +100,7 @@ std::vector<TileLight> TileModel::slopes_by_materials(const std::vector<double>&
       LampList list;
       for (const FittedLight& light : lights) list.add(light);
       list.lamps.materials = lights_.materials().at(there);
-      tiles_.light(list.lamps, [&, f = factor](std::size_t tile, const TileLight& light) {
+      tiles_.light(list.lamps, numbers, [&, f = factor](std::size_t tile, const TileLight& light) {
         add(by[u][tile], tiles_.tiles()[tile].surfaces->radiance, Vec3d{f, f, f});
         for (std::size_t i = 0; i < lights.size(); ++i) add(by[u][tile], light[list.place(i)], lights[i].scale * f);
       });
@@ -107,7 +109,7 @@ std::vector<TileLight> TileModel::slopes_by_materials(const std::vector<double>&
   return by;
 }
 
-void TileModel::each(const std::vector<double>& x, Wants wants,
+void TileModel::each(const std::vector<double>& x, Wants wants, const std::vector<std::size_t>& numbers,
                      const std::function<void(std::size_t, const TileVector&, const TileLight&)>& use) const {
   const std::vector<FittedLight> lights = lights_.at(x);
   const std::size_t unknowns = wants == Wants::derivatives ? lights_.unknowns().size() : 0;
@@ -157,7 +159,7 @@ void TileModel::each(const std::vector<double>& x, Wants wants,
       }
     }
   }
-  const std::vector<TileLight> by_materials = unknowns > 0 ? slopes_by_materials(x, lights) : std::vector<TileLight>{};
+  const std::vector<TileLight> by_materials = unknowns > 0 ? slopes_by_materials(x, lights, numbers) : std::vector<TileLight>{};
   list.lamps.materials = lights_.materials().at(x);
   const auto sum = [&](std::size_t tile, const TileLight& light, const auto& place) {
     TileVector all = tiles_.tiles()[tile].surfaces->radiance;
@@ -176,9 +178,9 @@ void TileModel::each(const std::vector<double>& x, Wants wants,
     use(tile, all, by);
   };
   if (lights_.is_linear())
-    tiles_.each(columns_.size(), [&](std::size_t tile) { sum(tile, columns_[tile], [](std::size_t lamp) { return lamp; }); });
+    tiles_.each(numbers.size(), [&](std::size_t i) { sum(numbers[i], columns_[numbers[i]], [](std::size_t lamp) { return lamp; }); });
   else
-    tiles_.light(list.lamps,
+    tiles_.light(list.lamps, numbers,
                  [&](std::size_t tile, const TileLight& light) { sum(tile, light, [&](std::size_t lamp) { return list.place(lamp); }); });
 }
 

@@ -13,17 +13,18 @@ enum class Wants { cost, derivatives };
 
 class TileModel {
  public:
-  // Both must outlive this object. The tiles have all their surfaces and their fixed light.
-  TileModel(const FittedLights& lights, const ReceivingTiles& tiles);
+  // Both must outlive this object. The tiles have all their surfaces and their fixed light. all: the numbers of all tiles.
+  TileModel(const FittedLights& lights, const ReceivingTiles& tiles, const std::vector<std::size_t>& all);
 
-  // Calls use(number of the tile, light, its derivative by each unknown) for every tile, on all threads, in any order. The derivatives are
+  // Calls use(number of the tile, light, its derivative by each unknown) for some tiles, on all threads, in any order. The derivatives are
   // those of the boundary for polygons without shadows, else central differences.
-  void each(const std::vector<double>& x, Wants wants,
+  void each(const std::vector<double>& x, Wants wants, const std::vector<std::size_t>& numbers,
             const std::function<void(std::size_t, const TileVector&, const TileLight&)>& use) const;
 
  private:
   // By unknown, of materials alone, and by tile.
-  std::vector<TileLight> slopes_by_materials(const std::vector<double>& x, const std::vector<FittedLight>& lights) const;
+  std::vector<TileLight> slopes_by_materials(const std::vector<double>& x, const std::vector<FittedLight>& lights,
+                                             const std::vector<std::size_t>& numbers) const;
 
   const FittedLights& lights_;
   const ReceivingTiles& tiles_;

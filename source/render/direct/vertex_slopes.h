@@ -18,6 +18,7 @@ struct VertexSlopePacks {
 
   Function diffuse;      // the irradiance. The mean direction by which a boundary dims the diffuse lobe counts as a constant
   Function ltc;          // by the tables of the lobe
+  Function phong;        // the series; quality: of the value. fresnel is not set
   Function closed_form;  // GGX; quality: of the value
 };
 

@@ -1,5 +1,6 @@
 #include "render/direct/vertex_slopes.h"
 
+#include "integrals/phong/phong.h"
 #include "render/direct/ltc_lobes_pack.h"
 #include "render/direct/vertex_slopes_pack.h"
 
@@ -79,6 +80,38 @@ void ltc(const PackLight& light, const Points& points, const PackLobe& lobe, con
   with_decoding(*lobe.tables, [&](const auto& decode) { run_ltc(light, points, *lobe.tables, result, decode); });
 }
 
+template <class Share>
+__attribute__((flatten, noinline)) void run_phong(const Share& share, const PackLight& light, const Points& points, const PackLobe& lobe,
+                                                  const VertexSlopes& result) {
+  integrals::PhongIntegral<Pack, Share> integral(share, lobe.lobe.exponent, lobe.options);
+  for (std::size_t i = 0; i < points.count; i += kLanes) {
+    const PackVec3 p = load(points.position, i);
+    SeenLight seen(light, p, i);
+    const auto frame = PackKernels().frame_from_normal(load(points.normal, i));
+    const PackVec3 view = transform_transposed(frame, load(points.view, i));
+    seen.lit = seen.lit && view.z > PackReal(0.0);
+    const auto shading = seen.shading(view);
+    integral.begin(shading);
+    const auto value = integrals::integrate_edges(PolygonEdges{seen, frame, p}, shading, integral);
+    store(result.value.plain + i, select(seen.lit, value.x, PackReal(0.0)));
+    const VertexPlanes plain = {result.plain, points.count, i};
+    slopes::walk_phong_slopes(PolygonHere(seen, frame, p), PackKernels().phong_mirror(view), lobe.lobe.exponent,
+                              [&](std::size_t v, const PackVec3& d) { plain.put(v, frame, d); });
+  }
+}
+
+void phong(const PackLight& light, const Points& points, const PackLobe& lobe, const VertexSlopes& result) {
+  const integrals::PhongLobe<Pack> of(lobe.lobe.exponent, lobe.options);
+  const auto by = [&]<Quality quality>() {
+    run_phong([&](const auto& a, const auto& b, const auto& axis) { return of.template share<Method::series, quality>(a, b, axis); }, light,
+              points, lobe, result);
+  };
+  if (lobe.options.quality == Quality::high)
+    by.template operator()<Quality::high>();
+  else
+    by.template operator()<Quality::normal>();
+}
+
 __attribute__((flatten)) void closed_form(const PackLight& light, const Points& points, const PackLobe& lobe, const VertexSlopes& result) {
   integrals::GgxIntegral<Pack> integral;  // one for all points: it keeps its memory
   integral.quality = lobe.options.quality;
@@ -112,7 +145,7 @@ __attribute__((flatten)) void closed_form(const PackLight& light, const Points& 
 }  // namespace
 
 const VertexSlopePacks& vertex_slope_packs() {
-  static constexpr VertexSlopePacks table = {diffuse, ltc, closed_form};
+  static constexpr VertexSlopePacks table = {diffuse, ltc, phong, closed_form};
   return table;
 }
 

@@ -89,6 +89,19 @@ STERADIAN_INLINE PackReal walk_ltc(const PolygonHere& here, PackKernels::mask re
   return k.ltc_integral(walk, reversed);
 }
 
+// exponent: of the Phong lobe about `axis`.
+template <class Take>
+STERADIAN_INLINE void walk_phong_slopes(const PolygonHere& here, const PackVec3& axis, double exponent, Take take) {
+  K k;
+  const PackReal n(exponent);
+  const int low = exponent < 7 ? 1 : 0;
+  here.walk([&](std::size_t i) { return here.corner(i); },
+            [&](const auto& a, const auto& b) {
+              return by_ends(k.phong_part_slopes(k.edge_above_horizon(a.u, b.u), axis, n, low), a.scale, b.scale);
+            },
+            take);
+}
+
 // take(i, d): of both parts. arc_of(part): the arc of an edge's part, in walk order.
 template <class ArcOf, class Take>
 STERADIAN_INLINE void walk_ggx_slopes(const PolygonHere& here, const K::GgxView& view, PackReal smith, ArcOf arc_of, Take take) {

@@ -2906,6 +2906,51 @@ vec3 steradian_ltc_edge_transform_back(SteradianLtcMatrix m, vec3 v, vec3 g) {
     vec3 under = steradian_ltc_transform(m, v);
     return steradian_ltc_transform_transposed(m, g * inversesqrt(max(dot(under, under), steradian_smallest_square())));
 }
+SteradianEdgeSlopes steradian_phong_part_slopes(SteradianEdgePart part, vec3 r, float n, int low) {
+    vec3 sum = part.start + part.end;
+    vec3 chord = part.end - part.start;
+    float chord2 = dot(chord, chord);
+    float sum_inverse = inversesqrt(max(dot(sum, sum), steradian_smallest_divisor()));
+    float chord_inverse = inversesqrt(max(chord2, steradian_smallest_divisor()));
+    float axis_middle = dot(r, sum) * sum_inverse;
+    float axis_along = dot(r, chord) * chord_inverse;
+    float m = n + 1.0;
+    float even = 0.0;
+    float odd = 0.0;
+    bool is_short = chord2 * m < 4.0 && chord2 < 1.0 && dot(r, part.start) > 0.0 && dot(r, part.end) > 0.0;
+    if (is_short) {
+        float half_tangent = sum_inverse * chord2 * chord_inverse;
+        for (int i = 0; i < 4; i++) {
+            vec2 rule = steradian_gauss_legendre_node(4, i);
+            float u = half_tangent * (2.0 * rule.x - 1.0);
+            float cosine = inversesqrt(1.0 + u * u);
+            float x = (axis_middle + axis_along * u) * cosine;
+            float w = 2.0 * half_tangent * rule.y * steradian_phong_power(x, n) * cosine * cosine * cosine;
+            even = even + w;
+            odd = odd + w * u;
+        }
+    }
+    if (!is_short) {
+        SteradianMomentEdge edge = steradian_moment_edge(part.start, part.end, r);
+        float towards = steradian_moment_cosine_front(edge, m, low);
+        float across = (steradian_phong_power(edge.x0, m) - steradian_phong_power(edge.x1, m)) / m;
+        float over_c2 = 1.0 / (edge.c * edge.c);
+        even = steradian_select(is_short, even, (towards * axis_middle - across * axis_along) * over_c2);
+        odd = steradian_select(is_short, odd, (towards * axis_along + across * axis_middle) * over_c2);
+    }
+    SteradianEdgeSlopes of_part;
+    of_part.normal = cross(part.start, chord);
+    float n2 = dot(of_part.normal, of_part.normal);
+    float scale = steradian_select(n2 > steradian_smallest_divisor(), -m * steradian_inverse_two_pi() * inversesqrt(max(n2, steradian_smallest_divisor())), 0.0);
+    even = even * sum_inverse;
+    odd = odd * chord_inverse;
+    of_part.by_start = (even - odd) * scale;
+    of_part.by_end = (even + odd) * scale;
+    return steradian_edge_slopes_of_whole(part, of_part);
+}
+SteradianEdgeSlopes steradian_phong_edge_slopes(vec3 a, vec3 b, vec3 r, float n, int low) {
+    return steradian_phong_part_slopes(steradian_edge_above_horizon(a, b), r, n, low);
+}
 SteradianEdgeSlopesOfBoth steradian_ggx_edge_slopes_of_part(SteradianGgxView view, SteradianEdgePart part, SteradianConicArc arc, float smith, int nodes, int pieces) {
     vec3 sum = part.start + part.end;
     vec3 chord = part.end - part.start;
