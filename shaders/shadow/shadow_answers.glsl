@@ -3,14 +3,13 @@
 
 layout(std430, binding = 0) readonly buffer Groups { uvec4 groups[]; };
 layout(std430, binding = 2) buffer Answers {
-    uint parts_begin;
-    uint parts_used;  // by all parts, including those that did not fit
+    uint parts_used;  // vectors of all parts, including those that did not fit
     uint parts_room;
     uint left;
     uint seen;
     uint lists;
     uint seen_at_once;
-    uint unused;
+    uint unused[2];
     uint points_of[8];
     uvec4 spaces[kShadowSpaces];
     uvec4 answers[];

@@ -38,8 +38,8 @@ const int kShares = 256;      // the outline replaces a round light
 const int kBase = 512;        // times how often the lower left corner is occluded
 
 // Answers, after a head of vectors and one for each space. Points whose segments exceed a space go on to the next one.
-//   0  place of the parts, number of their vectors, capacity; number of points that are left to the host
-//   1  number of points that see a part; place of the lists of edges; number of points without any
+//   0  number of vectors of the parts, capacity; number of points that are left to the host, and of those that see a part
+//   1  place of the lists of edges; number of points without any
 //   2  number of points of each space, in two vectors
 //   and for each space: number of its work groups, 1, 1: a dispatch; place of the points' names after the answers, four a vector
 const int kShadowSpaces = 5;

@@ -9,12 +9,11 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Answers {
-    uint unused;
     uint parts_used;
     uint parts_room;
     uint left;
     uint found;
-    uint others[4 * kAnswersHead - 5];
+    uint others[4 * kAnswersHead - 4];
     uvec4 answers[];
 };
 layout(std430, binding = 3) readonly buffer Hierarchy { uvec4 hierarchy[]; };

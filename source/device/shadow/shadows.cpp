@@ -27,8 +27,8 @@ static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] 
 
 // Layout of Answers in shaders/shadow/shadow_parts.comp.
 struct AnswersHead {
-  std::uint32_t parts_begin, parts_used, parts_room, left;
-  std::uint32_t found, lists, seen_at_once, unused;
+  std::uint32_t parts_used, parts_room, left, found;
+  std::uint32_t lists, seen_at_once, unused[2];
   std::uint32_t points_of[8];
   struct Space {
     std::uint32_t groups, one_y, one_z, first_name;
@@ -51,7 +51,6 @@ int lanes_of(const DeviceInfo& device, std::size_t space) {
   return static_cast<int>(std::min(device.subgroup, lanes));
 }
 
-std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
 
 ShadowAnswer* answers_in(const Buffer& buffer) {
@@ -60,8 +59,7 @@ ShadowAnswer* answers_in(const Buffer& buffer) {
 
 }  // namespace
 
-DeviceShadows::DeviceShadows(Kept& kept, TileLighting& host, const SceneRays& rays)
-    : kept_(kept), rays_(rays), host_(host), pairs_(1 + kSegments.size()) {}
+DeviceShadows::DeviceShadows(Kept& kept, const SceneRays& rays) : kept_(kept), rays_(rays), pairs_(1 + kSegments.size()) {}
 
 DeviceShadows::Kept::Kept(const Device& d)
     : device(d),
@@ -96,27 +94,22 @@ void DeviceShadows::upload_groups() {
   }
 }
 
-// Writes the states and records that the host knows.
+// Writes the states that the host knows.
 void DeviceShadows::upload_states() {
   auto* to = static_cast<std::uint32_t*>(
       kept_.states.fit_with_room(begins_.back().light * kTilePixels * sizeof(std::uint32_t), "states of lights").mapped());
-  const std::size_t record = begins_.back().record;
-  const std::size_t bytes = std::min((record + begins_.back().point * kVectorsOfPart) * kVector, kept_.parts.most());
-  Buffer& parts = kept_.parts.fit_with_room(std::max(bytes, (record + wanted_) * kVector), "parts of lights");
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    const std::vector<Vec4Floats>& records = tiles_[i].records;
-    std::copy(records.begin(), records.end(), static_cast<Vec4Floats*>(parts.mapped()) + begins_[i].record);
-    for (const TileShadows::Light& light : tiles_[i].by_light)
-      to = std::transform(light.states.begin(), light.states.end(), to,
-                          [&](std::uint32_t state) { return state < kSeesPart ? state : state + number(begins_[i].record); });
-  }
+  for (const TileShadows& tile : tiles_)
+    for (const TileShadows::Light& light : tile.by_light) to = std::copy(light.states.begin(), light.states.end(), to);
+  const std::size_t vectors = std::max(std::min(begins_.back().point * kVectorsOfPart, kept_.parts.most() / kVector), wanted_);
+  kept_.parts.fit_with_room(vectors * kVector, "parts of lights");
 }
 
 void DeviceShadows::upload_points() {
   const std::size_t count = begins_.back().point, names = (count + 3) / 4, first_list = count * kShadowAnswer,
                     first_name = first_list + count * kListVectors;
-  AnswersHead head{
-      number(begins_.back().record), 0, number(parts().bytes() / kVector - begins_.back().record), 0, 0, number(first_list), 0, 0, {}, {}};
+  AnswersHead head{};
+  head.parts_room = number(parts().bytes() / kVector);
+  head.lists = number(first_list);
   for (std::size_t i = 0; i < kSegments.size(); ++i) head.spaces[i] = {0, 1, 1, number(first_name + i * names)};
   Buffer& buffer = kept_.answers.fit_with_room(sizeof head + (first_name + kSegments.size() * names) * kVector, "points before lights");
   buffer.write(&head, sizeof head);
@@ -131,14 +124,13 @@ void DeviceShadows::upload_points() {
 
 std::size_t DeviceShadows::upload(std::span<TileShadows> tiles) {
   const auto fits = [&](const Begin& b) {
-    return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues &&
-           b.record * kVector <= kept_.parts.most() / 2;
+    return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues;
   };
   begins_.assign(1, {});
   for (const TileShadows& tile : tiles) {
     const Begin& b = begins_.back();
-    const Begin next = {b.light + tile.by_light.size(), b.point + tile.points.size(), b.record + tile.records.size(),
-                        b.row + tile.values.size() / 4, b.group + tile.groups.size()};
+    const Begin next = {b.light + tile.by_light.size(), b.point + tile.points.size(), b.row + tile.values.size() / 4,
+                        b.group + tile.groups.size()};
     if (begins_.size() > 1 && (!fits(next) || begins_.size() > most_tiles_)) break;
     begins_.push_back(next);
   }
@@ -177,65 +169,51 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
   return kept_.program;
 }
 
-// The host finds the visible parts for the points that the device has not answered. The tile then has only these.
-void DeviceShadows::ask_host(TileShadows& tile, std::size_t begin) {
-  const ShadowAnswer* answers = answers_in(kept_.answers.get()) + begin;
-  tile.records.clear();
-  for (TileShadows::Light& light : tile.by_light) {
-    light.listed = false;
-    light.states.fill(flag(kSeesNone));
-  }
-  TilePoints points;
-  points.points.resize(kTilePixels);
-  std::vector<std::uint32_t> slots;
-  for (std::size_t g = 0; g < tile.groups.size(); ++g) {
-    const std::size_t first = tile.groups[g].header[9], end = first + tile.groups[g].points;
-    const std::uint32_t number_of_light = tile.points[first].light;
-    points.groups.groups.emplace_back();
-    for (std::size_t k = first; k < end; ++k) {
-      if (answers[k].sees != kAskHost) continue;
-      const std::uint32_t slot = tile.points[k].slot;
-      points.points[slot] = tile.points[k].at;
-      points.groups.groups.back().push_back(slot);
-      slots.push_back(slot);
-    }
-    if (points.groups.groups.back().empty())
-      points.groups.groups.pop_back();
-    else
-      points.groups.clusters.push_back({number(points.groups.groups.size() - 1)});
-    const bool last = g + 1 == tile.groups.size() || tile.points[end].light != number_of_light;
-    if (!last || slots.empty()) continue;
-    TileShadows::Light& light = tile.by_light[number_of_light];
-    light.listed = true;
-    tile.set(number_of_light, slots, host_.find_at(points, *light.light));
-    points.groups = {};
-    slots.clear();
-  }
-  tile.groups.clear();
-  tile.values.clear();
-  tile.points.clear();
-}
-
-DeviceShadows::Outcome DeviceShadows::finish(const Each& each) {
+bool DeviceShadows::finish() {
   const std::vector<double>& times = kept_.program.times();
   for (std::size_t i = 0; i < times.size(); ++i) (i + 1 == times.size() ? rays_time_ : time_) += times[i];
   AnswersHead head;
   std::memcpy(&head, kept_.answers.get().mapped(), sizeof head);
   if (head.parts_used > head.parts_room) {
-    const bool too_many = tiles_.size() > 1 && (begins_.back().record + head.parts_used) * kVector > kept_.parts.most();
+    const bool too_many = tiles_.size() > 1 && head.parts_used * kVector > kept_.parts.most();
     if (too_many) most_tiles_ = tiles_.size() / 2;
     wanted_ = too_many ? 0 : head.parts_used;
-    return Outcome::no_room;
+    return false;
   }
   wanted_ = 0;
   most_tiles_ = SIZE_MAX;
+  left_ = head.left;
   points_ += begins_.back().point - head.left;
   found_ += head.found;
   pairs_.front() += head.seen_at_once;
   for (std::size_t i = 0; i < kSegments.size(); ++i) pairs_[i + 1] += head.points_of[i];
-  if (head.left == 0) return Outcome::done;
-  each(tiles_.size(), [&](std::size_t i) { ask_host(tiles_[i], begins_[i].point); });
-  return Outcome::left;
+  return true;
+}
+
+void DeviceShadows::each_left(std::size_t tile_number, const std::function<void(const PackLight&, const TilePoints&)>& add) const {
+  if (left_ == 0) return;
+  const TileShadows& tile = tiles_[tile_number];
+  const ShadowAnswer* answers = answers_in(kept_.answers.get()) + begins_[tile_number].point;
+  TilePoints points;
+  points.points.resize(kTilePixels);
+  for (std::size_t g = 0; g < tile.groups.size(); ++g) {
+    const std::size_t first = tile.groups[g].header[9], end = first + tile.groups[g].points;
+    std::vector<std::uint32_t> slots;
+    for (std::size_t k = first; k < end; ++k) {
+      if (answers[k].sees != kAskHost) continue;
+      points.points[tile.points[k].slot] = tile.points[k].at;
+      slots.push_back(tile.points[k].slot);
+    }
+    if (!slots.empty()) {
+      points.groups.clusters.push_back({number(points.groups.groups.size())});
+      points.groups.groups.push_back(std::move(slots));
+    }
+    const std::uint32_t light = tile.points[first].light;
+    const bool last = g + 1 == tile.groups.size() || tile.points[end].light != light;
+    if (!last || points.groups.groups.empty()) continue;
+    add(*tile.by_light[light].light, points);
+    points.groups = {};
+  }
 }
 
 }  // namespace steradian::vulkan

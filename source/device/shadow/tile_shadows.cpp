@@ -24,8 +24,6 @@ std::uint32_t bits(double x) { return bits(static_cast<float>(x)); }
 std::uint32_t whole(std::size_t n) { return static_cast<std::uint32_t>(n); }
 std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
 
-Vec4Floats with(Vec3f v, float w = 0) { return {v.x, v.y, v.z, w}; }
-
 using FourBits = std::array<std::uint32_t, 4>;
 FourBits with_bits(Vec3d v, double w) { return {bits(v.x), bits(v.y), bits(v.z), bits(w)}; }
 
@@ -127,7 +125,6 @@ bool is_one_contour(const std::vector<shadow::Segment>& outline) {
 
 void TileShadows::clear() {
   by_light.clear();
-  records.clear();
   groups.clear();
   values.clear();
   points.clear();
@@ -211,69 +208,16 @@ bool TileShadows::find(const Group& asked) {
   return true;
 }
 
-// Returns the place of the record.
-std::size_t TileShadows::add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b,
-                                    const Vec4Floats& area) {
-  records.insert(records.end(), {center, reach_a, reach_b, area});
-  return records.size() - static_cast<std::size_t>(kPartHeader);
-}
-
-std::size_t TileShadows::add_outline(const packed::Pieces& pieces, std::size_t point, float weight) {
-  constexpr std::size_t kBlock = packed::Pieces::kBlock;
-  const float* e = pieces.elements(point);
-  const auto element = [&](std::size_t first, float w) {
-    return with({e[first * kBlock], e[(first + 1) * kBlock], e[(first + 2) * kBlock]}, w);
-  };
-  const std::size_t begin = add_record(element(0, 0), element(3, e[12 * kBlock]), element(6, weight), element(9, 0));
-  const std::size_t first = records.size();
-  for (std::size_t k = 0; k < pieces.edge_count(point); ++k) {
-    const float* edge = pieces.edge(point, k);
-    const Vec3f a{edge[0], edge[kBlock], edge[2 * kBlock]}, b{edge[3 * kBlock], edge[4 * kBlock], edge[5 * kBlock]};
-    if (a == b) continue;
-    if (records.size() == first || with(a, 1) != records.back()) records.push_back(with(a, 0));
-    records.push_back(with(b, 1));
+void TileShadows::take(const PackLight& light, TileShadow& shadow) {
+  const bool searched = !points.empty() && points.back().light == by_light.size();
+  if (!searched && std::find(shadow.seen.begin(), shadow.seen.end(), TileShadow::Seen::whole) == shadow.seen.end()) return;
+  Light& to = by_light.emplace_back(Light{&light});
+  to.shares = searched && points.back().shares;
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (shadow.seen[i] != TileShadow::Seen::whole) continue;
+    to.states[i] = flag(kSeesWhole);
+    shadow.seen[i] = TileShadow::Seen::elsewhere;
   }
-  records[begin][3] = static_cast<float>(records.size() - first);
-  return begin;
-}
-
-// Returns the state of a slot that sees the part.
-std::uint32_t TileShadows::add_part(const TileShadow::Batch& batch, std::size_t point, Light& to) {
-  const std::size_t begin = add_outline(batch.visible, point, batch.passes[point]);
-  if (records[begin][3] == 0) return flag(kSeesNone);
-  if (batch.all.point_count() > 0) {
-    to.shares = true;
-    records.resize(records.size() + static_cast<std::size_t>(kPartSums), Vec4Floats{});
-    records[begin + 3][3] = static_cast<float>(records.size() - begin);
-    add_outline(batch.all, point, 1);
-  }
-  return flag(kSeesPart) + whole(begin);
-}
-
-void TileShadows::set(std::size_t light, const std::vector<std::uint32_t>& slots, const TileShadow& shadow) {
-  using Seen = TileShadow::Seen;
-  Light& to = by_light[light];
-  for (const std::uint32_t i : slots) {
-    const Seen seen = shadow.seen[i];
-    to.states[i] = flag(seen == Seen::whole ? kSeesWhole : kSeesNone);
-    if (seen == Seen::share) to.states[i] = flag(kSeesPart) + whole(add_record({}, {}, {0, 0, 0, shadow.share[i]}, {}));
-  }
-  for (std::size_t b = 0; b < shadow.batch_count; ++b) {
-    const TileShadow::Batch& batch = shadow.batches[b];
-    for (std::size_t k = 0; k < batch.slots.size(); ++k)
-      if (batch.slots[k] != kNoSlot) to.states[batch.slots[k]] = add_part(batch, k, to);
-  }
-}
-
-void TileShadows::take(const PackLight& light, const TileShadow& shadow) {
-  by_light.push_back({&light});
-  if (!points.empty() && points.back().light + 1 == by_light.size()) by_light.back().shares = points.back().shares;
-  static const std::vector<std::uint32_t> all = [] {
-    std::vector<std::uint32_t> slots(kTilePixels);
-    for (std::uint32_t i = 0; i < kTilePixels; ++i) slots[i] = i;
-    return slots;
-  }();
-  set(by_light.size() - 1, all, shadow);
 }
 
 }  // namespace steradian::vulkan

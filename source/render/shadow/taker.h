@@ -27,8 +27,8 @@ class ShadowTaker {
   };
   // Returns true if it computes the visibility of these points. They are Seen::elsewhere then.
   virtual bool find(const Group& group) = 0;
-  // Takes the light's visibility over the tile. Called after find() for the tile's groups.
-  virtual void take(const PackLight& light, const TileShadow& shadow) = 0;
+  // Takes the slots that see all of the light, which are Seen::elsewhere then. Called after find() for the tile's groups.
+  virtual void take(const PackLight& light, TileShadow& shadow) = 0;
 };
 
 }  // namespace steradian
