@@ -113,7 +113,8 @@ void main() {
     uint place_of_point = gl_WorkGroupID.x * POINTS + uint(MINE);
     if (gl_NumSubgroups > 1u || place_of_point >= points_of[space]) return;
     uint name = answers[spaces[space].w + place_of_point / 4u][place_of_point % 4u];
-    Point point = point_of(name);
+    uint group = name / uint(kGroupPoints);
+    Point point = point_of(name, uvec2(gathered[2u * group], gathered[2u * group + 1u]));
     View view = point.view;
     int base = kHidden * (point.flags / kBase);
     found = false;

@@ -36,7 +36,7 @@ End look_at(Eye eye, vec3 v) {
 
 // Returns 1 if the point sees the front of a plane, else -1.
 int facing_of(Eye eye, uint plane) {
-    vec4 p = uintBitsToFloat(groups[plane]);
+    vec4 p = frames[plane];
     return int(shadow_facing(p.xyz, p.w, eye.at));
 }
 
@@ -81,10 +81,19 @@ Eye eye_at(uint at, uint header, bool turned) {
     return eye;
 }
 
+struct Edge {
+    uint number;
+    uvec2 ends;
+    uvec2 planes;  // or incidences: shadow_layout.glsl
+    int flags;
+};
+Edge edge_of(uint number, uvec4 vector) {
+    return Edge(number, uvec2(vector.x & (1u << kFlagsFrom) - 1u, vector.y), vector.zw, int(vector.x >> kFlagsFrom));
+}
+
 // A point of a group.
 struct Point {
-    uvec4 begins;      // of vertices, planes and edges; number of edges
-    uint incidences;
+    uvec4 begins;      // of the frame's vertices and planes, and of the edges; number of edges
     uint triangles;    // number of those that cross the light's plane
     Corners corners;
     uint at;           // place of its vectors
@@ -93,7 +102,8 @@ struct Point {
     View view;
 };
 
-Point point_of(uint name) {
+// edges: their place and number.
+Point point_of(uint name, uvec2 edges) {
     uint header = name / uint(kGroupPoints) * uint(kShadowHeader);
     uint number = name % uint(kGroupPoints);
     uvec4 h1 = groups[header + 1u];
@@ -102,8 +112,7 @@ Point point_of(uint name) {
     bool own = (h1.w & uint(kOwnCorners)) != 0u;
     uint vectors = uint(kShadowPoint + (turned ? kShadowPlane : 0));
     Point point;
-    point.begins = groups[header];
-    point.incidences = h1.x;
+    point.begins = uvec4(groups[header].xy, edges);
     point.triangles = h2.x / uint(kTriangles);
     point.corners = Corners(h1.y, 0u, h1.w % uint(kTurned));
     point.at = h1.z + number * (vectors + (own ? point.corners.count : 0u));

@@ -137,6 +137,11 @@ struct DeviceFrame::Parts {
       lacks = "its buffers have no space for the " + std::to_string(s.triangle_count()) + " triangles that shadow rays may meet";
       return;
     }
+    if (host.has_shadows() && !DeviceShadows::fits(device->info(), *parts.shadows, lights)) {
+      lacks = "its buffers have no space for the edges of " + std::to_string(s.triangle_count()) + " triangles before " +
+              std::to_string(lights.size()) + " lights";
+      return;
+    }
     if (has_bounce()) {
       bounce = &made(kept->bounce, *device);
       bounce->find_first_hits_by(maps ? device_rays : nullptr);
@@ -235,7 +240,7 @@ struct DeviceFrame::Parts {
     const std::span all(shadowed.data(), tiles.size());
     if (!host.has_shadows() || std::all_of(all.begin(), all.end(), [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows.emplace(made(kept->shadows, *device), *device_rays);
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), *device_rays, parts.shadows);
     for (std::size_t first = 0; first < tiles.size();) {
       const std::size_t end = first + shadows->upload(all.subspan(first));
       std::uint32_t states = 0;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
+#include "device/shadow/edge_buffers.h"
 #include "device/vulkan/shaders.h"
 
 namespace steradian::vulkan {
@@ -17,7 +19,8 @@ constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by
 // one.
 constexpr std::size_t kMostGroups = 65535, kMostPoints = 65535, kMostLights = 16384,
                       kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
-constexpr std::size_t kVectorsOfPart = 32;  // initial size of a part
+constexpr std::size_t kVectorsOfPart = 32;                                        // initial size of a part
+constexpr std::size_t kEdgesOfGroup = 128, kEdgesAtFirst = std::size_t{1} << 20;  // the same of the edges of groups
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
 // (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes of a segment and a piece in shared memory:
 // shaders/shadow/shadow_segments.glsl, shaders/shadow/shadow_count.glsl.
@@ -28,7 +31,7 @@ static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] 
 // Layout of Answers in shaders/shadow/shadow_parts.comp.
 struct AnswersHead {
   std::uint32_t parts_used, parts_room, left, found;
-  std::uint32_t lists, seen_at_once, unused[2];
+  std::uint32_t lists, seen_at_once, edges_used, edges_room;
   std::uint32_t points_of[8];
   struct Space {
     std::uint32_t groups, one_y, one_z, first_name;
@@ -59,19 +62,56 @@ ShadowAnswer* answers_in(const Buffer& buffer) {
 
 }  // namespace
 
-DeviceShadows::DeviceShadows(Kept& kept, const SceneRays& rays) : kept_(kept), rays_(rays), pairs_(1 + kSegments.size()) {}
+DeviceShadows::DeviceShadows(Kept& kept, const SceneRays& rays, std::shared_ptr<const ShadowEdges> edges)
+    : kept_(kept), rays_(rays), pairs_(1 + kSegments.size()) {
+  if (kept.edges == edges) return;
+  const auto vectors = mesh_vectors(edges->mesh);
+  kept.mesh.fit_with_room(vectors.size() * kVector, "edges of the scene").write(vectors.data(), vectors.size() * kVector);
+  kept.edges = std::move(edges);
+}
 
 DeviceShadows::Kept::Kept(const Device& d)
     : device(d),
-      program(d, {shader("shadow_edges.comp"), shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 6),
+      program(d, {shader("shadow_edges.comp"), shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 9),
       groups(d),
       answers(d, BufferUse::host_reads),
       parts(d),
-      states(d) {}
+      states(d),
+      mesh(d),
+      frames(d),
+      gathered(d, BufferUse::host_reads) {}
 
 bool DeviceShadows::has(const DeviceInfo& device) {
   return device.adds && device.int64 && device.subgroup > 1 && device.subgroup <= kSegments[kFewSpaces] &&
          device.shared_memory >= kLeastSegments * kSegmentBytes;
+}
+
+bool DeviceShadows::fits(const DeviceInfo& device, const ShadowEdges& edges, const std::vector<PackLight>& lights) {
+  const auto areas = std::count_if(lights.begin(), lights.end(), [](const PackLight& light) { return light.is_area(); });
+  const std::size_t frames = 2 * static_cast<std::size_t>(areas);  // a light may have two sides
+  const shadow::EdgeMesh& mesh = edges.mesh;
+  const std::size_t of_mesh = vectors_of_frame(mesh) + 2 * mesh.edges.size() + mesh.edge_triangles.size();
+  return std::max(of_mesh, frames * vectors_of_frame(mesh)) * kVector <= device.storage_buffer;
+}
+
+// Writes the vertices and planes for lights that no earlier search has asked for.
+void DeviceShadows::upload_frames() {
+  std::vector<const TileShadows::Search*> added;
+  const std::size_t before = frames_.size();
+  for (const TileShadows& tile : tiles_)
+    for (const TileShadows::Search& group : tile.groups)
+      if (frames_.emplace(group.key, frames_.size()).second) added.push_back(&group);
+  if (added.empty()) return;
+  const shadow::EdgeMesh& mesh = kept_.edges->mesh;
+  const std::size_t vectors = vectors_of_frame(mesh), all = std::max<std::size_t>(frames_.size() * vectors, 1);
+  const void* last = before > 0 ? kept_.frames.get().mapped() : nullptr;
+  Buffer& buffer = kept_.frames.fit_with_room(all * kVector, "edges of the scene before lights");
+  if (last != nullptr && buffer.mapped() != last) {  // growing has discarded the frames before
+    frames_.clear();
+    return upload_frames();
+  }
+  for (std::size_t i = 0; i < added.size(); ++i)
+    write_frame(mesh, added[i]->axes, added[i]->origin, static_cast<std::array<float, 4>*>(buffer.mapped()) + (before + i) * vectors);
 }
 
 void DeviceShadows::upload_groups() {
@@ -80,12 +120,13 @@ void DeviceShadows::upload_groups() {
   auto* to =
       static_cast<std::uint32_t*>(kept_.groups.fit_with_room((headers + begins_.back().row) * kVector, "the edges before lights").mapped());
   std::size_t row = 0;
-  looks_ = 0;
+  const shadow::EdgeMesh& mesh = kept_.edges->mesh;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     for (const TileShadows::Search& group : tiles_[i].groups) {
-      looks_ += std::uint64_t{group.points} * group.header[3];
       auto header = group.header;
-      for (const std::size_t at : {0, 1, 2, 4, 5, 6}) header[at] += number(headers + begins_[i].row);
+      header[0] = number(frames_.at(group.key) * vectors_of_frame(mesh));
+      header[1] = header[0] + number(mesh.vertices.size());
+      for (const std::size_t at : {5, 6}) header[at] += number(headers + begins_[i].row);
       header[9] += number(begins_[i].point);
       std::memcpy(to + 4 * row, header.data(), sizeof header);
       row += kHeader;
@@ -110,6 +151,10 @@ void DeviceShadows::upload_points() {
   AnswersHead head{};
   head.parts_room = number(parts().bytes() / kVector);
   head.lists = number(first_list);
+  const std::size_t heads = 2 * begins_.back().group;
+  const std::size_t edges = std::max({begins_.back().group * kEdgesOfGroup, kEdgesAtFirst, wanted_edges_});
+  Buffer& gathered = kept_.gathered.fit_with_room((heads + edges) * sizeof(std::uint32_t), "edges of groups of pixels");
+  head.edges_room = number(gathered.bytes() / sizeof(std::uint32_t) - heads);
   for (std::size_t i = 0; i < kSegments.size(); ++i) head.spaces[i] = {0, 1, 1, number(first_name + i * names)};
   Buffer& buffer = kept_.answers.fit_with_room(sizeof head + (first_name + kSegments.size() * names) * kVector, "points before lights");
   buffer.write(&head, sizeof head);
@@ -135,6 +180,7 @@ std::size_t DeviceShadows::upload(std::span<TileShadows> tiles) {
     begins_.push_back(next);
   }
   tiles_ = tiles.first(begins_.size() - 1);
+  upload_frames();
   upload_groups();
   upload_states();
   upload_points();
@@ -153,8 +199,7 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
       together[i] = subgroup / lanes_of(device, i);
     }
     dispatches.push_back({.pipeline = kept_.program.pipeline(0, {spaces[0], spaces[1], spaces[2], spaces[3], together[0], together[1]}),
-                          .groups_x = number(begins_.back().group),
-                          .units = looks_});
+                          .groups_x = number(begins_.back().group)});
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
       const int next = i + 1 < kSegments.size() ? together[i + 1] : 1;
       dispatches.push_back({.pipeline = kept_.program.pipeline(1, {spaces[i], lanes_of(device, i), subgroup, i < kFewSpaces, next}),
@@ -164,7 +209,8 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
     }
     dispatches.push_back({kept_.program.pipeline(2), number((count + kThreads - 1) / kThreads), 1, number(count)});
   }
-  kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get(), &gates},
+  kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get(), &gates,
+                        &kept_.mesh.get(), &kept_.frames.get(), &kept_.gathered.get()},
                        dispatches);
   return kept_.program;
 }
@@ -174,13 +220,17 @@ bool DeviceShadows::finish() {
   for (std::size_t i = 0; i < times.size(); ++i) (i + 1 == times.size() ? rays_time_ : time_) += times[i];
   AnswersHead head;
   std::memcpy(&head, kept_.answers.get().mapped(), sizeof head);
+  if (head.edges_used > head.edges_room) {
+    wanted_edges_ = head.edges_used;
+    return false;
+  }
   if (head.parts_used > head.parts_room) {
     const bool too_many = tiles_.size() > 1 && head.parts_used * kVector > kept_.parts.most();
     if (too_many) most_tiles_ = tiles_.size() / 2;
     wanted_ = too_many ? 0 : head.parts_used;
     return false;
   }
-  wanted_ = 0;
+  wanted_ = wanted_edges_ = 0;
   most_tiles_ = SIZE_MAX;
   left_ = head.left;
   points_ += begins_.back().point - head.left;

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,14 +25,18 @@ class DeviceShadows {
     explicit Kept(const Device& device);
     const Device& device;
     ComputeProgram program;
-    KeptBuffer groups, answers, parts, states;
+    KeptBuffer groups, answers, parts, states, mesh, frames, gathered;
+    std::shared_ptr<const ShadowEdges> edges;  // of `mesh`
   };
 
   // Returns true if a device supports a subgroup per point.
   static bool has(const DeviceInfo& device);
 
+  // Returns true if buffers of the device have capacity for the edges in the coordinates of all lights.
+  static bool fits(const DeviceInfo& device, const ShadowEdges& edges, const std::vector<PackLight>& lights);
+
   // All arguments must outlive this object.
-  DeviceShadows(Kept& kept, const SceneRays& rays);
+  DeviceShadows(Kept& kept, const SceneRays& rays, std::shared_ptr<const ShadowEdges> edges);
 
   // Uploads the points of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
   // one is too many.
@@ -61,17 +67,19 @@ class DeviceShadows {
   struct Begin {
     std::size_t light = 0, point = 0, row = 0, group = 0;
   };
+  void upload_frames();
   void upload_groups();
   void upload_states();
   void upload_points();
 
   Kept& kept_;
   const SceneRays& rays_;
-  std::span<TileShadows> tiles_;  // of the last upload()
-  std::vector<Begin> begins_;     // of each, and the end
-  std::uint64_t looks_ = 0;       // of points at the edges of their groups
-  std::size_t wanted_ = 0;        // vectors that the parts need, if a search has shown it
-  std::uint32_t left_ = 0;        // points of the last search
+  std::span<TileShadows> tiles_;               // of the last upload()
+  std::vector<Begin> begins_;                  // of each, and the end
+  std::size_t wanted_ = 0;                     // vectors that the parts need, if a search has shown it
+  std::size_t wanted_edges_ = 0;               // numbers that the edges of groups need, if a search has shown it
+  std::map<const void*, std::size_t> frames_;  // numbers of those written
+  std::uint32_t left_ = 0;                     // points of the last search
   std::size_t most_tiles_ = SIZE_MAX;
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0;

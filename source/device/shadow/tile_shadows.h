@@ -30,8 +30,11 @@ class TileShadows : public ShadowTaker {
     shadow::Viewpoint at;
   };
   struct Search {
-    std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
+    std::array<std::uint32_t, 68> header;  // places counted from the tile's first vector, the first answer from its first point
     std::size_t points;
+    const void* key;  // of the frame
+    Frame axes;
+    Vec3d origin;
   };
   std::vector<Light> by_light;
   std::vector<Search> groups;
