@@ -62,8 +62,9 @@ const int kBase = 512;        // times how often the lower left corner is occlud
 //   0  number of vectors of the parts, capacity; number of points that are left to the host, and of those that see a part
 //   1  place of the lists of edges; number of points without any; number of edges of all groups, capacity
 //   2  number of points of each space, in two vectors
-//   and for each space: number of its work groups, 1, 1: a dispatch; place of the points' names after the answers, four a vector
+//   and for each space: numbers of its work groups in a row and of rows, 1: a dispatch; place of the points' names after the answers, four a vector
 const int kShadowSpaces = 5;
+const int kMostInRow = 65535;
 const int kAnswersHead = 4 + kShadowSpaces;
 // In the first spaces a subgroup serves several points. The edges that such a point may see as segments are listed, four a vector. Their
 // number is x of vector 1 of its answer.

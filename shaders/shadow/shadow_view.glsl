@@ -128,7 +128,9 @@ Point point_of(uint name, uvec2 edges) {
 void go_to_space(uint space, uint name, uint together) {
     uint place = atomicAdd(points_of[space], 1u);
     answers[spaces[space].w + place / 4u][place % 4u] = name;
-    if (place % together == 0u) atomicAdd(spaces[space].x, 1u);
+    uint group = place / together;
+    atomicMax(spaces[space].x, min(group + 1u, uint(kMostInRow)));
+    atomicMax(spaces[space].y, group / uint(kMostInRow) + 1u);
 }
 
 // Writes the answer: what the point sees if the ray to a place of the light, in cells, is free.

@@ -15,12 +15,10 @@ namespace {
 
 constexpr std::size_t kVector = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
-// Limits of one search: work groups in a row, points whose parts fill a quarter of a buffer, lights and groups whose values fill half of
-// one.
-constexpr std::size_t kMostGroups = 65535, kMostPoints = 65535, kMostLights = 16384,
-                      kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
-constexpr std::size_t kVectorsOfPart = 32;                                        // initial size of a part
-constexpr std::size_t kEdgesOfGroup = 128, kEdgesAtFirst = std::size_t{1} << 20;  // the same of the edges of groups
+// Limits of one search: work groups in a row, lights and groups whose values fill half of a buffer.
+constexpr std::size_t kMostGroups = 65535, kMostLights = 16384, kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
+constexpr std::size_t kVectorsOfPart = 32;                                        // initial number for each point
+constexpr std::size_t kEdgesOfGroup = 512, kEdgesAtFirst = std::size_t{1} << 20;  // the same of the edges of groups
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
 // (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes of a segment and a piece in shared memory:
 // shaders/shadow/shadow_segments.glsl, shaders/shadow/shadow_count.glsl.
@@ -34,7 +32,7 @@ struct AnswersHead {
   std::uint32_t lists, seen_at_once, edges_used, edges_room;
   std::uint32_t points_of[8];
   struct Space {
-    std::uint32_t groups, one_y, one_z, first_name;
+    std::uint32_t groups_x, groups_y, one, first_name;
   } spaces[kShadowSpaces];
 };
 struct ShadowAnswer {
@@ -55,6 +53,12 @@ int lanes_of(const DeviceInfo& device, std::size_t space) {
 }
 
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
+
+// Vectors that the names of all points take, and bytes of everything for the points.
+std::size_t names_of(std::size_t points) { return (points + 3) / 4; }
+std::size_t bytes_of_answers(std::size_t points) {
+  return sizeof(AnswersHead) + (points * (kShadowAnswer + kListVectors) + kSegments.size() * names_of(points)) * kVector;
+}
 
 ShadowAnswer* answers_in(const Buffer& buffer) {
   return reinterpret_cast<ShadowAnswer*>(static_cast<char*>(buffer.mapped()) + sizeof(AnswersHead));
@@ -146,7 +150,7 @@ void DeviceShadows::upload_states() {
 }
 
 void DeviceShadows::upload_points() {
-  const std::size_t count = begins_.back().point, names = (count + 3) / 4, first_list = count * kShadowAnswer,
+  const std::size_t count = begins_.back().point, names = names_of(count), first_list = count * kShadowAnswer,
                     first_name = first_list + count * kListVectors;
   AnswersHead head{};
   head.parts_room = number(parts().bytes() / kVector);
@@ -155,8 +159,8 @@ void DeviceShadows::upload_points() {
   const std::size_t edges = std::max({begins_.back().group * kEdgesOfGroup, kEdgesAtFirst, wanted_edges_});
   Buffer& gathered = kept_.gathered.fit_with_room((heads + edges) * sizeof(std::uint32_t), "edges of groups of pixels");
   head.edges_room = number(gathered.bytes() / sizeof(std::uint32_t) - heads);
-  for (std::size_t i = 0; i < kSegments.size(); ++i) head.spaces[i] = {0, 1, 1, number(first_name + i * names)};
-  Buffer& buffer = kept_.answers.fit_with_room(sizeof head + (first_name + kSegments.size() * names) * kVector, "points before lights");
+  for (std::size_t i = 0; i < kSegments.size(); ++i) head.spaces[i] = {0, 0, 1, number(first_name + i * names)};
+  Buffer& buffer = kept_.answers.fit_with_room(bytes_of_answers(count), "points before lights");
   buffer.write(&head, sizeof head);
   ShadowAnswer* answers = answers_in(buffer);
   for (std::size_t i = 0; i < tiles_.size(); ++i)
@@ -169,7 +173,8 @@ void DeviceShadows::upload_points() {
 
 std::size_t DeviceShadows::upload(std::span<TileShadows> tiles) {
   const auto fits = [&](const Begin& b) {
-    return b.group <= kMostGroups && b.point <= kMostPoints && b.light <= kMostLights && b.row * 4 <= kMostValues;
+    return b.group <= kMostGroups && bytes_of_answers(b.point) <= kept_.answers.most() && b.light <= kMostLights &&
+           b.row * 4 <= kMostValues;
   };
   begins_.assign(1, {});
   for (const TileShadows& tile : tiles) {
