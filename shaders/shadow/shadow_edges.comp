@@ -1,5 +1,5 @@
-// The edges that a group of points may see, and those that each point may see as segments: a work group a group, a thread a point. A point
-// without any is answered at once. Others go to the space that their segments surely fit.
+// The edges of its group that each point may see as segments: a work group a group, a thread a point. A point without any is answered at
+// once. Others go to the space that their segments surely fit.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -22,8 +22,6 @@ layout(constant_id = 5) const int TOGETHER_1 = 1;
 
 #include "shadow_answers.glsl"
 #include "shadow_view.glsl"
-
-#include "shadow_gather.glsl"
 
 // A vector at a place that all points of a group have in common: in_common of ../entry.glsl.
 vec4 of_frame(uint at) { return frames[subgroupBroadcastFirst(at)]; }
@@ -64,11 +62,10 @@ bool may_be_segment(Eye eye, uvec4 begins, Edge edge) {
 
 void main() {
     uint group = gl_WorkGroupID.x;
-    uvec2 edges;
-    uint sees = gather_edges(group, edges);
     if (gl_LocalInvocationID.x >= groups[uint(kShadowHeader) * group + 2u].x % uint(kTriangles)) return;
     uint name = uint(kGroupPoints) * group + gl_LocalInvocationID.x;
-    Point point = point_of(name, edges);
+    Point point = point_of(name);
+    uint sees = gathered[uint(kGatheredHead) * group + 2u];
     if (sees != uint(kSeesNone)) {
         write_answer(point, vec2(0.0), sees);
         return;

@@ -23,6 +23,9 @@ const int kMostLeaves = 2048;
 const int kMostEdges = 20480;
 const int kMostIncidences = 1024;
 
+// Gathered edges: for each group their place and number, and kSeesNone or the answer of all points; then the edges' numbers.
+const int kGatheredHead = 3;
+
 // Frames: vertices and planes of the mesh in the coordinates of a light, vectors of four floats.
 
 // Groups of points, in vectors of four uints; the headers of all groups come first.
@@ -61,7 +64,7 @@ const int kBase = 512;        // times how often the lower left corner is occlud
 // Answers, after a head of vectors and one for each space. Points whose segments exceed a space go on to the next one.
 //   0  number of vectors of the parts, capacity; number of points that are left to the host, and of those that see a part
 //   1  place of the lists of edges; number of points without any; number of edges of all groups, capacity
-//   2  number of points of each space, in two vectors
+//   2  number of points of each space; how often points look at an edge of their group; in two vectors
 //   and for each space: numbers of its work groups in a row and of rows, 1: a dispatch; place of the points' names after the answers, four a vector
 const int kShadowSpaces = 5;
 const int kMostInRow = 65535;
@@ -88,9 +91,9 @@ const int kGroupPoints = 64;
 // States of slots before a light: kSeesNone, kSeesWhole or kSeesPart.
 //
 // Parts: records, vectors of four floats each.
-//   0  centre of the elements relative to the point; number of places of the outline, 0: the light's own
+//   0  centre of the elements relative to the point; number of places of the outline
 //   1  reach_a; mean square deviation
-//   2  reach_b; weight
+//   2  reach_b
 //   3  area; 0, or distance to the record of the polygon that replaces a round light
 // and its places, relative to the point: 1 if they go on with an edge, 0 if they begin one.
 const int kPartHeader = 4;

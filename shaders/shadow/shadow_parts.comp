@@ -113,8 +113,7 @@ void main() {
     uint place_of_point = (gl_WorkGroupID.y * uint(kMostInRow) + gl_WorkGroupID.x) * POINTS + uint(MINE);
     if (gl_NumSubgroups > 1u || place_of_point >= points_of[space] || edges_used > edges_room) return;
     uint name = answers[spaces[space].w + place_of_point / 4u][place_of_point % 4u];
-    uint group = name / uint(kGroupPoints);
-    Point point = point_of(name, uvec2(gathered[2u * group], gathered[2u * group + 1u]));
+    Point point = point_of(name);
     View view = point.view;
     int base = kHidden * (point.flags / kBase);
     found = false;

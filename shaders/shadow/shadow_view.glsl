@@ -81,16 +81,6 @@ Eye eye_at(uint at, uint header, bool turned) {
     return eye;
 }
 
-struct Edge {
-    uint number;
-    uvec2 ends;
-    uvec2 planes;  // or incidences: shadow_layout.glsl
-    int flags;
-};
-Edge edge_of(uint number, uvec4 vector) {
-    return Edge(number, uvec2(vector.x & (1u << kFlagsFrom) - 1u, vector.y), vector.zw, int(vector.x >> kFlagsFrom));
-}
-
 // A point of a group.
 struct Point {
     uvec4 begins;      // of the frame's vertices and planes, and of the edges; number of edges
@@ -102,8 +92,8 @@ struct Point {
     View view;
 };
 
-// edges: their place and number.
-Point point_of(uint name, uvec2 edges) {
+Point point_of(uint name) {
+    uint head = name / uint(kGroupPoints) * uint(kGatheredHead);
     uint header = name / uint(kGroupPoints) * uint(kShadowHeader);
     uint number = name % uint(kGroupPoints);
     uvec4 h1 = groups[header + 1u];
@@ -112,7 +102,7 @@ Point point_of(uint name, uvec2 edges) {
     bool own = (h1.w & uint(kOwnCorners)) != 0u;
     uint vectors = uint(kShadowPoint + (turned ? kShadowPlane : 0));
     Point point;
-    point.begins = uvec4(groups[header].xy, edges);
+    point.begins = uvec4(groups[header].xy, gathered[head], gathered[head + 1u]);
     point.triangles = h2.x / uint(kTriangles);
     point.corners = Corners(h1.y, 0u, h1.w % uint(kTurned));
     point.at = h1.z + number * (vectors + (own ? point.corners.count : 0u));

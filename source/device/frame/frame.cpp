@@ -247,7 +247,7 @@ struct DeviceFrame::Parts {
       for (std::size_t i = first; i < end; ++i) {
         tiles[i].shadowed.clear();
         for (const TileShadows::Light& light : shadowed[i].by_light) {
-          tiles[i].shadowed.push_back({light.light, states, light.shares});
+          tiles[i].shadowed.push_back({light.light, states, light.searched, light.shares});
           states += static_cast<std::uint32_t>(kTilePixels);
         }
       }
@@ -331,6 +331,7 @@ struct DeviceFrame::Parts {
       stats.shadow_fallback = share(counts.fallback, points);
       stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
       if (shadows) stats.shadow_pairs = shadows->pairs();
+      if (shadows) stats.shadow_looks = shadows->looks();
       if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
       if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
     }

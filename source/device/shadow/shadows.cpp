@@ -30,7 +30,7 @@ static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] 
 struct AnswersHead {
   std::uint32_t parts_used, parts_room, left, found;
   std::uint32_t lists, seen_at_once, edges_used, edges_room;
-  std::uint32_t points_of[8];
+  std::uint32_t points_of[kShadowSpaces], looks, unused[2];
   struct Space {
     std::uint32_t groups_x, groups_y, one, first_name;
   } spaces[kShadowSpaces];
@@ -76,7 +76,7 @@ DeviceShadows::DeviceShadows(Kept& kept, const SceneRays& rays, std::shared_ptr<
 
 DeviceShadows::Kept::Kept(const Device& d)
     : device(d),
-      program(d, {shader("shadow_edges.comp"), shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 9),
+      program(d, {shader("shadow_gather.comp"), shader("shadow_edges.comp"), shader("shadow_parts.comp"), shader("shadow_rays.comp")}, 9),
       groups(d),
       answers(d, BufferUse::host_reads),
       parts(d),
@@ -155,7 +155,7 @@ void DeviceShadows::upload_points() {
   AnswersHead head{};
   head.parts_room = number(parts().bytes() / kVector);
   head.lists = number(first_list);
-  const std::size_t heads = 2 * begins_.back().group;
+  const std::size_t heads = static_cast<std::size_t>(kGatheredHead) * begins_.back().group;
   const std::size_t edges = std::max({begins_.back().group * kEdgesOfGroup, kEdgesAtFirst, wanted_edges_});
   Buffer& gathered = kept_.gathered.fit_with_room((heads + edges) * sizeof(std::uint32_t), "edges of groups of pixels");
   head.edges_room = number(gathered.bytes() / sizeof(std::uint32_t) - heads);
@@ -203,16 +203,17 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
       spaces[i] = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i]));
       together[i] = subgroup / lanes_of(device, i);
     }
-    dispatches.push_back({.pipeline = kept_.program.pipeline(0, {spaces[0], spaces[1], spaces[2], spaces[3], together[0], together[1]}),
+    dispatches.push_back({.pipeline = kept_.program.pipeline(0), .groups_x = number(begins_.back().group)});
+    dispatches.push_back({.pipeline = kept_.program.pipeline(1, {spaces[0], spaces[1], spaces[2], spaces[3], together[0], together[1]}),
                           .groups_x = number(begins_.back().group)});
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
       const int next = i + 1 < kSegments.size() ? together[i + 1] : 1;
-      dispatches.push_back({.pipeline = kept_.program.pipeline(1, {spaces[i], lanes_of(device, i), subgroup, i < kFewSpaces, next}),
+      dispatches.push_back({.pipeline = kept_.program.pipeline(2, {spaces[i], lanes_of(device, i), subgroup, i < kFewSpaces, next}),
                             .push = number(i),
                             .groups = &kept_.answers.get(),
                             .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i)});
     }
-    dispatches.push_back({kept_.program.pipeline(2), number((count + kThreads - 1) / kThreads), 1, number(count)});
+    dispatches.push_back({kept_.program.pipeline(3), number((count + kThreads - 1) / kThreads), 1, number(count)});
   }
   kept_.program.record({&kept_.groups.get(), &kept_.parts.get(), &kept_.answers.get(), &rays_.hierarchy(), &kept_.states.get(), &gates,
                         &kept_.mesh.get(), &kept_.frames.get(), &kept_.gathered.get()},
@@ -240,6 +241,7 @@ bool DeviceShadows::finish() {
   left_ = head.left;
   points_ += begins_.back().point - head.left;
   found_ += head.found;
+  looks_ += head.looks;
   pairs_.front() += head.seen_at_once;
   for (std::size_t i = 0; i < kSegments.size(); ++i) pairs_[i + 1] += head.points_of[i];
   return true;

@@ -61,6 +61,7 @@ class DeviceShadows {
   std::uint64_t found() const { return found_; }
   // RenderStats::shadow_pairs.
   const std::vector<std::uint64_t>& pairs() const { return pairs_; }
+  std::uint64_t looks() const { return looks_; }
 
  private:
   // First places of a tile's data among those of all.
@@ -82,7 +83,7 @@ class DeviceShadows {
   std::uint32_t left_ = 0;                     // points of the last search
   std::size_t most_tiles_ = SIZE_MAX;
   double time_ = 0, rays_time_ = 0;
-  std::uint64_t points_ = 0, found_ = 0;
+  std::uint64_t points_ = 0, found_ = 0, looks_ = 0;
   std::vector<std::uint64_t> pairs_;
 };
 

@@ -166,6 +166,7 @@ void TileShadows::take(const PackLight& light, TileShadow& shadow) {
   const bool searched = !points.empty() && points.back().light == by_light.size();
   if (!searched && std::find(shadow.seen.begin(), shadow.seen.end(), TileShadow::Seen::whole) == shadow.seen.end()) return;
   Light& to = by_light.emplace_back(Light{&light});
+  to.searched = searched;
   to.shares = searched && points.back().shares;
   for (std::size_t i = 0; i < kTilePixels; ++i) {
     if (shadow.seen[i] != TileShadow::Seen::whole) continue;

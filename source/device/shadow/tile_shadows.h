@@ -21,7 +21,8 @@ class TileShadows : public ShadowTaker {
   struct Light {
     const PackLight* light;
     std::array<std::uint32_t, kTilePixels> states{};
-    bool shares = false;  // parts may count as fractions of a polygon's light
+    bool searched = false;  // the device finds the states of some
+    bool shares = false;    // parts may count as fractions of a polygon's light
   };
   struct Point {
     std::uint32_t light, slot;

@@ -1,6 +1,15 @@
 // The edges that a group of points may see: a work group walks the boxes of the mesh, and tests the edges of leaves that the group's shaft
 // meets. The tests are those of source/shadow/lanes/shadow_pack.cpp, with its margins.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+#include "shadow_layout.glsl"
+
+layout(local_size_x = 64) in;  // kLeaf
+
+#include "shadow_answers.glsl"
 
 // Software devices end a thread's loops after 65,535 turns: shadow_turns.glsl. The loops over leaves and edges take the rest.
 const uint kMostNodes = 32768u;
@@ -99,36 +108,43 @@ uint list_edges(uint shaft, bool writes, uint to) {
     return count;
 }
 
-// Finds the place and number of the edges. Returns kSeesNone, or the answer of all points where a limit is exceeded.
-uint gather_edges(uint group, out uvec2 edges) {
-    uint header = uint(kShadowHeader) * group;
+// The place and number of the group's edges. sees: kSeesNone, or the answer of all points where a limit is exceeded.
+void write_head(uint place, uint count, uint sees) {
+    uint at = uint(kGatheredHead) * gl_WorkGroupID.x;
+    if (gl_LocalInvocationID.x > 0u) return;
+    gathered[at] = place;
+    gathered[at + 1u] = count;
+    gathered[at + 2u] = sees;
+}
+
+void main() {
+    uint header = uint(kShadowHeader) * gl_WorkGroupID.x;
     uint shaft = header + uint(kShaft);
     uint thread = gl_LocalInvocationID.x;
-    edges = uvec2(0u);
     if (thread == 0u) incidence_count = 0u;
     find_leaves(shaft);
     barrier();
-    if (leaf_count > uint(kMostLeaves)) return uint(kAskHost);
+    if (leaf_count > uint(kMostLeaves)) {
+        write_head(0u, 0u, uint(kAskHost));
+        return;
+    }
     counts[thread] = list_edges(shaft, false, 0u);
     barrier();
     uint before = 0u;
+    uint all = 0u;
     for (uint i = 0u; i < uint(kLeaf); i++) {
-        if (i == thread) before = edges.y;
-        edges.y += counts[i];
+        if (i == thread) before = all;
+        all += counts[i];
     }
     uint triangles = groups[header + 2u].x / uint(kTriangles);
     // A triangle takes one and a half times as many turns as an edge.
-    if (edges.y + triangles + triangles / 2u > uint(kMostEdges) || incidence_count > uint(kMostIncidences)) return uint(kAskHost);
-    if (thread == 0u) list_begin = atomicAdd(edges_used, edges.y);
+    bool too_many = all + triangles + triangles / 2u > uint(kMostEdges) || incidence_count > uint(kMostIncidences);
+    if (thread == 0u && !too_many) list_begin = atomicAdd(edges_used, all);
     barrier();
-    if (list_begin + edges.y > edges_room) return uint(kNoRoom);
-    edges.x = 2u * gl_NumWorkGroups.x + list_begin;
-    if (thread == 0u) {
-        gathered[2u * group] = edges.x;
-        gathered[2u * group + 1u] = edges.y;
-    }
-    list_edges(shaft, true, edges.x + before);
-    memoryBarrierBuffer();
-    barrier();
-    return uint(kSeesNone);
+    bool fits = !too_many && list_begin + all <= edges_room;
+    uint place = uint(kGatheredHead) * gl_NumWorkGroups.x + list_begin;
+    write_head(place, fits ? all : 0u, uint(too_many ? kAskHost : fits ? kSeesNone : kNoRoom));
+    if (!fits) return;
+    if (thread == 0u) atomicAdd(looks, all * (groups[header + 2u].x % uint(kTriangles)));
+    list_edges(shaft, true, place + before);
 }
