@@ -344,6 +344,13 @@ TEST_F(VulkanFrame, LightsInOneSubmission) {
     EXPECT_EQ(frame.render().pixels, first.pixels) << name;
     EXPECT_EQ(device->submissions() - before, next_ones) << name;
   }
+  // The host finds shafts between surfaces that the device draws and the search.
+  const Scene triangles = under_triangles(12);
+  DeviceFrame drawn(triangles, options, device, SurfacesBy::device);
+  drawn.render();  // its parts may exceed the buffer
+  const std::size_t before = device->submissions();
+  drawn.render();
+  EXPECT_EQ(device->submissions() - before, 2u);
 }
 
 TEST_F(VulkanFrame, RefusesWhatItDoesNotHave) {
