@@ -23,7 +23,7 @@ layout(constant_id = 7) const int ONLY_BALLS = 0;          // 1: only ellipsoids
 layout(constant_id = 8) const int CORNERS = 12;            // number of corners that replace a round light
 layout(constant_id = 9) const int MATRIX_SIZE = 2;
 layout(constant_id = 10) const int MAGNITUDE_SIZE = 2;
-layout(constant_id = 11) const int SHADOWED_LIGHTS = 0;    // 1: something occludes the lights, or a part of them, from some points
+layout(constant_id = 11) const int SHADOWED_LIGHTS = 0;    // not 0: something occludes the lights from some points; 1: adds visible parts, 2: whole lights
 layout(constant_id = 12) const int UNCUT_LIGHTS = 0;       // 1: every point sees each light whole, above its horizon, from the lit side
 layout(constant_id = 13) const int UNEVEN_LIGHTS = 0;      // 1: textured, with means in `means`
 layout(constant_id = 14) const int TABLE_FIRST = 0;        // texture_means.comp only: place where the table begins
@@ -41,7 +41,8 @@ const bool FRESNEL_TABLE = FRESNEL_LOBE == 1;
 const bool BALLS = ONLY_BALLS == 1;
 const bool COMPACT = COMPACT_TABLE == 1;
 const bool TOGETHER = WITH_DIFFUSE == 1;
-const bool SHADOWED = SHADOWED_LIGHTS == 1;
+const bool SHADOWED = SHADOWED_LIGHTS != 0;
+const bool BY_PIECES = SHADOWED_LIGHTS == 1;
 const bool UNCUT = UNCUT_LIGHTS == 1;
 const bool PROFILED = PROFILED_LIGHTS == 1;
 const bool UNEVEN = UNEVEN_LIGHTS != 0;
@@ -195,7 +196,7 @@ vec3 sent_by(Light light, Entry entry) {
 }
 
 // Numbers for each light in the lists: its own, that of its states, that of its means.
-const uint kNumbers = 1u + uint(SHADOWED_LIGHTS) + (UNEVEN ? 1u : 0u);
+const uint kNumbers = 1u + (SHADOWED ? 1u : 0u) + (UNEVEN ? 1u : 0u);
 
 void main() {
     Entry entry = entry_here();
@@ -205,20 +206,15 @@ void main() {
     do {
         uint at = entry.first + kNumbers * i;
         Light light = light_at(listed(at));
-        vec4 found = vec4(0.0);  // mean radiance of a textured light. An occluded part has that of the whole, as on the CPU
+        vec4 found = vec4(0.0);  // mean radiance of a textured light
         if (UNEVEN) found = means[listed(at + kNumbers - 1u) + slot_of_means()];
-        int turn = kLastTurn;
-        if (SHADOWED) {
-            take_part(states[listed(at + 1u) + entry.slot]);
-            turn = first_turn();
-        }
-        for (; turn <= kLastTurn; turn++) {
-            if (SHADOWED) turn_to(turn);
-            vec3 sent = sent_by(light, entry);
-            sent *= UNEVEN && turn == kLastTurn ? found.xyz : light.r[0].xyz;
-            if (SHADOWED) sent *= part.weight;
+        int turns = 1;
+        if (SHADOWED) turns = turns_of(states[listed(at + 1u) + entry.slot]);
+        for (int turn = 0; turn < turns; turn++) {
+            if (BY_PIECES && turn == 1) take_record(part.whole);
+            vec3 sent = sent_by(light, entry) * (UNEVEN ? found.xyz : light.r[0].xyz);
             if (SHADOWED && part.whole > 0)
-                parts[part.whole - kPartSums + turn].xyz += sent;
+                parts[part.whole - kPartSums + (BY_PIECES ? turn : kPartSums - 1)].xyz += sent;
             else
                 sum += sent;
         }

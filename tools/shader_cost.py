@@ -10,7 +10,7 @@ Mesa's driver RADV makes a device for an AMD GPU that is not there (RADV_FORCE_F
 --pipelines` makes all pipelines of a picture on it and prints the driver's statistics. gfx1100 is RDNA 3, navi21 RDNA 2, vega10 GCN 5.
 Instructions are of the whole pipeline: each loop's body counts once, and so do both sides of a branch. Scratch is memory of a wave of 64
 threads, for private arrays and spilled registers. The model of time is units of work x instructions / (lanes x clock), for the first picture; the
-software device counts its pairs of a pixel and a light in each space of segments. Needs the package mesa-vulkan-drivers; exit 77 without it.
+software device counts its pairs of a pixel and a light in each space of segments, and their looks at edges. Needs the package mesa-vulkan-drivers; exit 77 without it.
 """
 import base64
 import json
@@ -156,18 +156,23 @@ def tables(reports):
 
 
 def count_pairs(program, arguments):
-    """RenderStats::shadow_pairs of a picture on the software device, which runs what the others compile."""
+    """shadow_pairs and shadow_looks of RenderStats, of a picture on the software device, which runs what the others compile."""
     with tempfile.TemporaryDirectory() as folder:
         told = Path(folder) / "stats.json"
         made = subprocess.run([program, "render", *arguments, "-o", str(Path(folder) / "picture.png"), "--size", MODEL_SIZE, "--backend", "vulkan",
                                "--device", "llvmpipe", "--stats", str(told)], cwd=ROOT, capture_output=True, text=True)
         if made.returncode != 0:
             sys.exit(f"shader_cost: {' '.join(arguments)} on llvmpipe: exit {made.returncode}: {made.stderr.strip()}")
-        return json.loads(told.read_text())["shadow_pairs"]
+        stats = json.loads(told.read_text())
+        return stats["shadow_pairs"], stats["shadow_looks"]
 
 
-def take_pairs(made, pairs):
-    """Sets the units of the search for visible parts: a lane of each pair. Its pipelines are one a space, and more space is a later number."""
+def take_pairs(made, pairs, looks):
+    """Sets the units of the search for visible parts: a look of a pair at an edge, and a lane of each pair. The pipelines of the latter are one a
+    space, and more space is a later number."""
+    for p in made:
+        if p["shader"] == "shadow_edges.comp":
+            p["units"] = looks
     of = sorted((p for p in made if p["shader"] == "shadow_parts.comp"), key=lambda p: p["constants"][0])
     for p, count in zip(of, pairs[1:], strict=True):
         p["units"] = count * p["constants"][1]
@@ -218,8 +223,8 @@ def main():
         sys.exit(check(reports))
     tables(reports)
     print()
-    made, pairs = pipelines(program, FAMILIES[0], PICTURES[0][1], MODEL_SIZE), count_pairs(program, PICTURES[0][1])
-    take_pairs(made, pairs)
+    made, (pairs, looks) = pipelines(program, FAMILIES[0], PICTURES[0][1], MODEL_SIZE), count_pairs(program, PICTURES[0][1])
+    take_pairs(made, pairs, looks)
     print(f"pairs without segments: {pairs[0]:,}; in each space: {', '.join(f'{n:,}' for n in pairs[1:])}")
     print()
     model(made)

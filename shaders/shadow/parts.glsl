@@ -3,43 +3,32 @@
 
 // Part of the current light: shadow_layout.glsl.
 struct Part {
-    bool seen;    // any of it is visible
-    bool pieces;  // it has its own outline
-    int first;    // place of its record
+    int first;   // place of its record
     int places;
-    float weight;
-    int whole;    // record of the polygon that replaces a round light, 0: none
+    int whole;   // record of the polygon that replaces a round light, 0: none
 };
 Part part;
 
-void take_pieces(int record) {
+void take_record(int record) {
     part.first = record;
     part.places = int(parts[record].w);
-    part.pieces = part.places > 0;
 }
 
-void take_part(uint state) {
-    part.seen = state != uint(kSeesNone);
-    part.pieces = false;
-    part.first = 0;
-    part.places = 0;
-    part.weight = 1.0;
+// Turns that a light takes. By pieces: its part, and then the polygon that replaces a round light. By its own outline: the light that is
+// seen whole, or whose fraction counts.
+int turns_of(uint state) {
     part.whole = 0;
-    if (state >= uint(kSeesPart)) {
-        take_pieces(int(state) - kSeesPart);
-        part.weight = parts[part.first + 2].w;
-        int ahead = int(parts[part.first + 3].w);
-        if (ahead > 0) part.whole = part.first + ahead;
-    }
+    if (state < uint(kSeesPart)) return BY_PIECES || state == uint(kSeesNone) ? 0 : 1;
+    take_record(int(state) - kSeesPart);
+    int ahead = int(parts[part.first + 3].w);
+    if (ahead > 0) part.whole = part.first + ahead;
+    return BY_PIECES ? (ahead > 0 ? 2 : 1) : (ahead > 0 ? 1 : 0);
 }
 
-// A part of a round light takes three turns: the part, the polygon, the light. Others take only the last one.
-const int kLastTurn = kPartSums - 1;
-int first_turn() { return !part.seen ? kLastTurn + 1 : part.whole > 0 ? 0 : kLastTurn; }
-void turn_to(int turn) {
-    if (part.whole == 0) return;
-    if (turn == 1) take_pieces(part.whole);
-    if (turn == kLastTurn) part.pieces = false;
-}
-
-bool by_pieces() { return SHADOWED && part.pieces; }
+// Parts are polygons: modules of other kinds of lights (source/CMakeLists.txt) have no code for them. A call, since compilers fold no
+// constants that a pipeline may choose.
+#if KIND == 0
+bool by_pieces() { return BY_PIECES; }
+#else
+bool by_pieces() { return false; }
+#endif

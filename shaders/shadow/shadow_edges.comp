@@ -1,5 +1,5 @@
-// The edges that each point may see as segments: a work group a group, a thread a point. A point without any is answered at once. Others go
-// to the space that their segments surely fit.
+// The edges of its group that each point may see as segments: a work group a group, a thread a point. A point without any is answered at
+// once. Others go to the space that their segments surely fit.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -24,24 +24,23 @@ layout(constant_id = 5) const int TOGETHER_1 = 1;
 #include "shadow_view.glsl"
 
 // A vector at a place that all points of a group have in common: in_common of ../entry.glsl.
-uvec4 of_group(uint at) { return groups[subgroupBroadcastFirst(at)]; }
+vec4 of_frame(uint at) { return frames[subgroupBroadcastFirst(at)]; }
 
 // Compilers round the same text in two shaders in two ways. What is nearer to a decision than this fraction of its terms is kept.
 const float kOpen = 1.0e-5;
 
 // Returns 1 or -1 as facing_of, or 0 if it is open.
 int clear_facing(Eye eye, uint plane) {
-    vec4 p = uintBitsToFloat(of_group(plane));
+    vec4 p = of_frame(plane);
     float d = dot(p.xyz, eye.at) - p.w;
     return abs(d) > kOpen * (dot(abs(p.xyz), abs(eye.at)) + abs(p.w)) ? (d > 0.0 ? 1 : -1) : 0;
 }
 
-bool may_be_silhouette(Eye eye, uvec4 begins, uvec4 edge) {
-    int flags = int(edge.w);
-    if ((flags & kManyWalks) != 0 || (flags & kWalks1) == 0) return true;
-    int f0 = clear_facing(eye, begins.y + (edge.y & 0xffffu));
-    int f1 = clear_facing(eye, begins.y + (edge.y >> 16));
-    bool opposite = ((flags & kAgainst0) != 0) != ((flags & kAgainst1) != 0);
+bool may_be_silhouette(Eye eye, uvec4 begins, Edge edge) {
+    if ((edge.flags & kManyWalks) != 0 || (edge.flags & kWalks1) == 0) return true;
+    int f0 = clear_facing(eye, begins.y + edge.planes.x);
+    int f1 = clear_facing(eye, begins.y + edge.planes.y);
+    bool opposite = ((edge.flags & kAgainst0) != 0) != ((edge.flags & kAgainst1) != 0);
     return f0 == 0 || f1 == 0 || (opposite ? f0 != f1 : f0 == f1);
 }
 
@@ -55,22 +54,29 @@ int surely_outside(Eye eye, vec3 v) {
            (v.z > eye.height + kOpen * size ? kAboveOut : 0);
 }
 
-bool may_be_segment(Eye eye, uvec4 begins, uvec4 edge) {
-    vec3 v0 = place_of(eye, uintBitsToFloat(of_group(begins.x + (edge.x & 0xffffu)).xyz));
-    vec3 v1 = place_of(eye, uintBitsToFloat(of_group(begins.x + (edge.x >> 16)).xyz));
+bool may_be_segment(Eye eye, uvec4 begins, Edge edge) {
+    vec3 v0 = place_of(eye, of_frame(begins.x + edge.ends.x).xyz);
+    vec3 v1 = place_of(eye, of_frame(begins.x + edge.ends.y).xyz);
     return (surely_outside(eye, v0) & surely_outside(eye, v1)) == 0;
 }
 
 void main() {
-    uint name = uint(kGroupPoints) * gl_WorkGroupID.x + gl_LocalInvocationID.x;
-    if (gl_LocalInvocationID.x >= groups[uint(kShadowHeader) * gl_WorkGroupID.x + 2u].x % uint(kTriangles)) return;
+    uint group = gl_WorkGroupID.x;
+    if (gl_LocalInvocationID.x >= groups[uint(kShadowHeader) * group + 2u].x % uint(kTriangles)) return;
+    uint name = uint(kGroupPoints) * group + gl_LocalInvocationID.x;
     Point point = point_of(name);
+    uint sees = gathered[uint(kGatheredHead) * group + 2u];
+    if (sees != uint(kSeesNone)) {
+        write_answer(point, vec2(0.0), sees);
+        return;
+    }
     uint list = lists + uint(kListVectors) * point.answer;
     uint count = 0u;
     for (uint e = 0u; e < point.begins.w; e++) {
-        uvec4 edge = of_group(point.begins.z + e);
+        uint number = gathered[subgroupBroadcastFirst(point.begins.z + e)];
+        Edge edge = edge_of(number, mesh[subgroupBroadcastFirst(uint(kMeshHead) + number)]);
         if (!may_be_silhouette(point.view.eye, point.begins, edge) || !may_be_segment(point.view.eye, point.begins, edge)) continue;
-        if (count < uint(kMostListed)) answers[list + count / 4u][count % 4u] = e;
+        if (count < uint(kMostListed)) answers[list + count / 4u][count % 4u] = number;
         ++count;
     }
     if (count + point.triangles == 0u && (point.flags & kArranged) == 0) {

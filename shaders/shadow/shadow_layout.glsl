@@ -1,27 +1,51 @@
 // Layout of the buffers that the host and shadow_parts.comp share. This text is C++ and GLSL at once.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 
-// Groups of points, in vectors of four uints each; the headers of all groups come first. A vector of floats holds their bits.
-//   0  places of the vertices, planes and edges; number of edges
-//   1  places of the incidences, corners and points; number of corners with the flags kTurned, kOwnCorners: data of each point
+// The mesh of a scene: its edges, for all lights, in vectors of four uints. A vector of floats holds their bits. After a head:
+//   0  number of edges, of nodes; places of the nodes, incidences
+//   1  places of the vertices, planes
+// there are the edges: ends, planes. The flags below stand in the highest bits of the first end. An edge of more than two triangles has the
+// place and number of its incidences instead of planes. Incidences: plane, kAgainst; four a vector.
+// Nodes are boxes, a node before those below it: low corner, the first of the edges of a leaf plus 1, or 0; high corner, the first node
+// that is not below. The boxes, vertices and planes are relative to the middle of the mesh.
+const int kMeshHead = 2;
+const int kNodeVectors = 2;
+const int kLeaf = 64;        // edges of a leaf: as many as threads of a group
+const int kFlagsFrom = 27;
+const int kWalks0 = 1;       // there is a first triangle ...
+const int kAgainst0 = 2;     // ... that walks against the edge
+const int kWalks1 = 4;       // and a second one
+const int kAgainst1 = 8;
+const int kManyWalks = 16;
+const int kAgainstFrom = 31;  // flag of an incidence that walks against the edge
+// Limits of a group.
+const int kMostLeaves = 2048;
+const int kMostEdges = 20480;
+const int kMostIncidences = 1024;
+
+// Gathered edges: for each group their place and number, and kSeesNone or the answer of all points; then the edges' numbers.
+const int kGatheredHead = 3;
+
+// Frames: vertices and planes of the mesh in the coordinates of a light, vectors of four floats.
+
+// Groups of points, in vectors of four uints; the headers of all groups come first.
+//   0  places of the frame's vertices and planes
+//   1  unused; places of corners and points; number of corners with the flags kTurned, kOwnCorners: data of each point
 //   2  number of points, kTriangles times that of triangles that cross the light's plane; number of the first answer; half sides of the box
 //   3  axis x of the light's frame; half side of the light along it
 //   4  axis y; half side
 //   5  axis z; height below which edges block
-const int kShadowHeader = 6;
+//   6  the shaft of the points and the light, relative to the middle of the mesh: normal and offset of each side
+//  13  half sides of the box around the points
+//  16  its middle; reach: ShaftView of source/shadow/lanes/packs.h
+const int kShaft = 6;
+const int kShaftBounds = 7;
+const int kShadowHeader = kShaft + kShaftBounds + 4;
 const int kTurned = 65536;       // each point has its own plane in front of the light
 const int kOwnCorners = 131072;  // each point has its own corners
 const int kTriangles = 65536;
-// Vertices: place in the frame, number in the mesh. Planes: normal, offset. Edges: ends, planes (16 bits each), number, walks. An edge of
-// more than two triangles has the place and number of its incidences instead of planes. Incidences: plane, walk, four a vector.
 // Corners: cells of the outline's edge that begins there; numbers of its ends.
-const int kWalks0 = 1;      // there is a first triangle ...
-const int kAgainst0 = 2;    // ... that walks against the edge
-const int kWalks1 = 4;      // and a second one
-const int kAgainst1 = 8;
-const int kManyWalks = 16;
-const int kAgainst = 65536;  // flag of an incidence that walks against the edge
-// The triangles come after the corners: corners and plane (16 bits each), number; numbers of the edges from each corner to the next.
+// The triangles come after the corners: corners and plane; number of the triangle, and those of the edges from each corner to the next.
 const int kShadowCorner = 2;
 const int kShadowTriangle = 2;
 
@@ -38,11 +62,12 @@ const int kShares = 256;      // the outline replaces a round light
 const int kBase = 512;        // times how often the lower left corner is occluded
 
 // Answers, after a head of vectors and one for each space. Points whose segments exceed a space go on to the next one.
-//   0  place of the parts, number of their vectors, capacity; number of points that are left to the host
-//   1  number of points that see a part; place of the lists of edges; number of points without any
-//   2  number of points of each space, in two vectors
-//   and for each space: number of its work groups, 1, 1: a dispatch; place of the points' names after the answers, four a vector
+//   0  number of vectors of the parts, capacity; number of points that are left to the host, and of those that see a part
+//   1  place of the lists of edges; number of points without any; number of edges of all groups, capacity
+//   2  number of points of each space; how often points look at an edge of their group; in two vectors
+//   and for each space: numbers of its work groups in a row and of rows, 1: a dispatch; place of the points' names after the answers, four a vector
 const int kShadowSpaces = 5;
+const int kMostInRow = 65535;
 const int kAnswersHead = 4 + kShadowSpaces;
 // In the first spaces a subgroup serves several points. The edges that such a point may see as segments are listed, four a vector. Their
 // number is x of vector 1 of its answer.
@@ -66,9 +91,9 @@ const int kGroupPoints = 64;
 // States of slots before a light: kSeesNone, kSeesWhole or kSeesPart.
 //
 // Parts: records, vectors of four floats each.
-//   0  centre of the elements relative to the point; number of places of the outline, 0: the light's own
+//   0  centre of the elements relative to the point; number of places of the outline
 //   1  reach_a; mean square deviation
-//   2  reach_b; weight
+//   2  reach_b
 //   3  area; 0, or distance to the record of the polygon that replaces a round light
 // and its places, relative to the point: 1 if they go on with an edge, 0 if they begin one.
 const int kPartHeader = 4;

@@ -110,8 +110,8 @@ Record write_polygon(View view, Corners corners, uint at) {
 
 void main() {
     // The first spaces have few segments a point, so that a subgroup serves several points.
-    uint place_of_point = gl_WorkGroupID.x * POINTS + uint(MINE);
-    if (gl_NumSubgroups > 1u || place_of_point >= points_of[space]) return;
+    uint place_of_point = (gl_WorkGroupID.y * uint(kMostInRow) + gl_WorkGroupID.x) * POINTS + uint(MINE);
+    if (gl_NumSubgroups > 1u || place_of_point >= points_of[space] || edges_used > edges_room) return;
     uint name = answers[spaces[space].w + place_of_point / 4u][place_of_point % 4u];
     Point point = point_of(name);
     View view = point.view;
@@ -145,13 +145,13 @@ void main() {
             uint begin = uint(most_of_lanes(of_lane));
             if (begin + room + room_of_polygon <= parts_room) {
                 // The first lane writes the part's record, the second one the polygon's.
-                Record record = write_part(view, place.xy, parts_begin + begin, shares ? room + uint(kPartSums) : 0u);
+                Record record = write_part(view, place.xy, begin, shares ? room + uint(kPartSums) : 0u);
                 if (shares) {
-                    Record of_polygon = write_polygon(view, point.corners, parts_begin + begin + room);
+                    Record of_polygon = write_polygon(view, point.corners, begin + room);
                     if (LANE == 1u) record = of_polygon;
                 }
                 if (LANE < (shares ? 2u : 1u)) write_record(view, record);
-                sees = uint(kSeesPart) + parts_begin + begin;
+                sees = uint(kSeesPart) + begin;
             } else {
                 sees = uint(kNoRoom);
             }

@@ -1,5 +1,5 @@
 // Tests if the rays to the places that shadow_parts.comp has found are free, and writes the states of the points: a thread a point. If the
-// parts exceed their capacity, it stops the lighting that follows.
+// parts or edges exceed their capacity, it stops the lighting that follows.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -9,12 +9,15 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) buffer Answers {
-    uint unused;
     uint parts_used;
     uint parts_room;
     uint left;
     uint found;
-    uint others[4 * kAnswersHead - 5];
+    uint lists;
+    uint seen_at_once;
+    uint edges_used;
+    uint edges_room;
+    uint others[4 * kAnswersHead - 8];
     uvec4 answers[];
 };
 layout(std430, binding = 3) readonly buffer Hierarchy { uvec4 hierarchy[]; };
@@ -38,5 +41,6 @@ void main() {
     }
     if (sees == uint(kAskHost)) atomicAdd(left, 1u);
     if (sees >= uint(kSeesPart)) atomicAdd(found, 1u);
-    for (uint i = parts_used > parts_room ? number : uint(gates.length()); i < uint(gates.length()); i += count) gates[i] = 0u;
+    bool exceeds = parts_used > parts_room || edges_used > edges_room;
+    for (uint i = exceeds ? number : uint(gates.length()); i < uint(gates.length()); i += count) gates[i] = 0u;
 }

@@ -96,47 +96,43 @@ void add_clipped(Eye eye, End a, End b, uvec2 named, uint clip_name, int weight)
 }
 
 // The change of the count from the right of an edge to its left: 0 if it is no silhouette.
-int weight_of_edge(Point point, uvec4 edge) {
+int weight_of_edge(Point point, Edge edge) {
     Eye eye = point.view.eye;
-    int flags = int(edge.w);
+    int flags = edge.flags;
     int weight = 0;
     if ((flags & kManyWalks) != 0) {
-        uint first = edge.y & 0xffffu;
-        uint count = edge.y >> 16;
-        for (uint i = first; i < first + count; i++) {
-            uint one = groups[point.incidences + i / 4u][i % 4u];
-            int facing = facing_of(eye, point.begins.y + (one & 0xffffu));
-            weight -= (one & uint(kAgainst)) != 0u ? -facing : facing;
+        for (uint i = edge.planes.x; i < edge.planes.x + edge.planes.y; i++) {
+            uint one = mesh[mesh[0].w + i / 4u][i % 4u];
+            int facing = facing_of(eye, point.begins.y + (one & (1u << kAgainstFrom) - 1u));
+            weight -= one >> kAgainstFrom != 0u ? -facing : facing;
         }
     } else {
-        if ((flags & kWalks0) != 0) weight -= facing_of(eye, point.begins.y + (edge.y & 0xffffu)) * ((flags & kAgainst0) != 0 ? -1 : 1);
-        if ((flags & kWalks1) != 0) weight -= facing_of(eye, point.begins.y + (edge.y >> 16)) * ((flags & kAgainst1) != 0 ? -1 : 1);
+        if ((flags & kWalks0) != 0) weight -= facing_of(eye, point.begins.y + edge.planes.x) * ((flags & kAgainst0) != 0 ? -1 : 1);
+        if ((flags & kWalks1) != 0) weight -= facing_of(eye, point.begins.y + edge.planes.y) * ((flags & kAgainst1) != 0 ? -1 : 1);
     }
     return weight;
 }
 
-void see_edge(Point point, uvec4 edge, int weight) {
+void see_edge(Point point, Edge edge, int weight) {
     Eye eye = point.view.eye;
     // A loop of at most one turn, here and below: software devices skip such loops, but no branches.
     for (int turn = weight == 0 ? 1 : 0; turn < 1; turn++) {
-        uvec4 bits0 = groups[point.begins.x + (edge.x & 0xffffu)];
-        uvec4 bits1 = groups[point.begins.x + (edge.x >> 16)];
-        vec3 v0 = place_of(eye, uintBitsToFloat(bits0.xyz));
-        vec3 v1 = place_of(eye, uintBitsToFloat(bits1.xyz));
+        vec3 v0 = place_of(eye, frames[point.begins.x + edge.ends.x].xyz);
+        vec3 v1 = place_of(eye, frames[point.begins.x + edge.ends.y].xyz);
         End a = look_at(eye, v0);
         End b = look_at(eye, v1);
         bool above_a = (a.outside & kAboveOut) != 0;
         bool above_b = (b.outside & kAboveOut) != 0;
         if (above_a && above_b) break;
-        uvec2 named = uvec2(bits0.w, bits1.w);
+        uvec2 named = edge.ends;
         if (above_a || above_b) {
             End cut = look_at(eye, shadow_cut(v0, v1, eye.height));
             if (above_a) a = cut;
             if (above_b) b = cut;
-            if (above_a) named.x = kCutName | edge.z;
-            if (above_b) named.y = kCutName | edge.z;
+            if (above_a) named.x = kCutName | edge.number;
+            if (above_b) named.y = kCutName | edge.number;
         }
-        add_clipped(eye, a, b, named, kClipName | (2u * edge.z), weight);
+        add_clipped(eye, a, b, named, kClipName | (2u * edge.number), weight);
     }
 }
 
@@ -147,18 +143,23 @@ void see_edges(Point point) {
     uint count = answers[uint(kShadowAnswer) * point.answer + 1u].x;
     for (uint first = 0u; first < count && !too_much; first += LANES) {
         uint i = first + LANE;
-        uvec4 edge = i < count ? groups[point.begins.z + answers[list + i / 4u][i % 4u]] : uvec4(0u);
+        uint number = i < count ? answers[list + i / 4u][i % 4u] : 0u;
+        Edge edge = edge_of(number, i < count ? mesh[uint(kMeshHead) + number] : uvec4(0u));
         see_edge(point, edge, weight_of_edge(point, edge));
         gather_segments(segment_count);
     }
 }
 #else
 // The segments of all edges of the group. Few of them are silhouettes for a point. They wait in shared memory until all lanes project one.
+Edge edge_at(Point point, uint place) {
+    uint number = gathered[point.begins.z + place];
+    return edge_of(number, mesh[uint(kMeshHead) + number]);
+}
 void see_edges(Point point) {
     int waiting = 0;
     for (uint first = 0u; first < point.begins.w && !too_much; first += LANES) {
         uint e = first + LANE;
-        int weight = e < point.begins.w ? weight_of_edge(point, groups[point.begins.z + e]) : 0;
+        int weight = e < point.begins.w ? weight_of_edge(point, edge_at(point, e)) : 0;
         int all;
         int to = waiting + begin_of(weight != 0, all);
         if (weight != 0) piece_segments[FIRST + to] = kWaiting * weight + int(e);
@@ -167,7 +168,7 @@ void see_edges(Point point) {
         subgroupBarrier();
         for (int i = 0; i < waiting && !too_much; i += LANES) {
             int one = i + int(LANE) < waiting ? piece_segments[FIRST + i + int(LANE)] : 0;
-            see_edge(point, groups[point.begins.z + uint(one & (kWaiting - 1))], one >> kWaitingBits);
+            see_edge(point, edge_at(point, uint(one & (kWaiting - 1))), one >> kWaitingBits);
             gather_segments(segment_count);
         }
         waiting = 0;
@@ -177,10 +178,10 @@ void see_edges(Point point) {
 
 #if !FEW
 // The place at which the light's plane cuts a triangle's side, which goes from one corner to the next.
-End cut_of(Eye eye, uvec4 from, uvec4 to) {
-    vec3 a = place_of(eye, uintBitsToFloat(from.xyz));
-    vec3 b = place_of(eye, uintBitsToFloat(to.xyz));
-    return look_at(eye, from.w < to.w ? shadow_cut(a, b, eye.height) : shadow_cut(b, a, eye.height));
+End cut_of(Eye eye, uint vertices, uint from, uint to) {
+    vec3 a = place_of(eye, frames[vertices + from].xyz);
+    vec3 b = place_of(eye, frames[vertices + to].xyz);
+    return look_at(eye, from < to ? shadow_cut(a, b, eye.height) : shadow_cut(b, a, eye.height));
 }
 
 // The section of a triangle by the light's plane. It starts where the triangle's walk leaves the space below, and ends where it returns.
@@ -188,19 +189,15 @@ void see_section(Eye eye, uint vertices, uint planes, uint triangles, uint count
     if (t < count) {
         uvec4 triangle = groups[triangles + uint(kShadowTriangle) * t];
         uvec4 edges = groups[triangles + uint(kShadowTriangle) * t + 1u];
-        uvec4 corners[3];
-        corners[0] = groups[vertices + (triangle.x & 0xffffu)];
-        corners[1] = groups[vertices + (triangle.x >> 16)];
-        corners[2] = groups[vertices + (triangle.y & 0xffffu)];
         bvec3 below;
-        for (int c = 0; c < 3; c++) below[c] = place_of(eye, uintBitsToFloat(corners[c].xyz)).z < eye.height;
+        for (int c = 0; c < 3; c++) below[c] = place_of(eye, frames[vertices + triangle[c]].xyz).z < eye.height;
         int leaving = below.x && !below.y ? 0 : below.y && !below.z ? 1 : 2;
         int returning = below.y && !below.x ? 0 : below.z && !below.y ? 1 : 2;
-        End a = cut_of(eye, corners[leaving], corners[(leaving + 1) % 3]);
-        End b = cut_of(eye, corners[returning], corners[(returning + 1) % 3]);
-        uvec2 named = kCutName | uvec2(edges[leaving], edges[returning]);
-        int weight = -facing_of(eye, planes + (triangle.y >> 16));
-        if (any(below) && !all(below)) add_clipped(eye, a, b, named, kSectionName | (2u * triangle.z), weight);
+        End a = cut_of(eye, vertices, triangle[leaving], triangle[(leaving + 1) % 3]);
+        End b = cut_of(eye, vertices, triangle[returning], triangle[(returning + 1) % 3]);
+        uvec2 named = kCutName | uvec2(edges[1 + leaving], edges[1 + returning]);
+        int weight = -facing_of(eye, planes + triangle.w);
+        if (any(below) && !all(below)) add_clipped(eye, a, b, named, kSectionName | (2u * edges.x), weight);
     }
 }
 

@@ -7,7 +7,6 @@
 const int kAtOnce = 4;
 const int kSetOfPairs = 32;  // pairs of a segment whose results are bits of one number
 const int kMostTurns = 62000;
-const int kMostIncidences = 1024;  // tile_shadows.cpp
 int turns;  // remaining budget
 
 // An edge takes as many turns as a triangle. A segment takes a look at all others, kSetOfPairs at a time, and six loops and their ends.

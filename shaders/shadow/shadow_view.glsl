@@ -36,7 +36,7 @@ End look_at(Eye eye, vec3 v) {
 
 // Returns 1 if the point sees the front of a plane, else -1.
 int facing_of(Eye eye, uint plane) {
-    vec4 p = uintBitsToFloat(groups[plane]);
+    vec4 p = frames[plane];
     return int(shadow_facing(p.xyz, p.w, eye.at));
 }
 
@@ -83,8 +83,7 @@ Eye eye_at(uint at, uint header, bool turned) {
 
 // A point of a group.
 struct Point {
-    uvec4 begins;      // of vertices, planes and edges; number of edges
-    uint incidences;
+    uvec4 begins;      // of the frame's vertices and planes, and of the edges; number of edges
     uint triangles;    // number of those that cross the light's plane
     Corners corners;
     uint at;           // place of its vectors
@@ -94,6 +93,7 @@ struct Point {
 };
 
 Point point_of(uint name) {
+    uint head = name / uint(kGroupPoints) * uint(kGatheredHead);
     uint header = name / uint(kGroupPoints) * uint(kShadowHeader);
     uint number = name % uint(kGroupPoints);
     uvec4 h1 = groups[header + 1u];
@@ -102,8 +102,7 @@ Point point_of(uint name) {
     bool own = (h1.w & uint(kOwnCorners)) != 0u;
     uint vectors = uint(kShadowPoint + (turned ? kShadowPlane : 0));
     Point point;
-    point.begins = groups[header];
-    point.incidences = h1.x;
+    point.begins = uvec4(groups[header].xy, gathered[head], gathered[head + 1u]);
     point.triangles = h2.x / uint(kTriangles);
     point.corners = Corners(h1.y, 0u, h1.w % uint(kTurned));
     point.at = h1.z + number * (vectors + (own ? point.corners.count : 0u));
@@ -119,7 +118,9 @@ Point point_of(uint name) {
 void go_to_space(uint space, uint name, uint together) {
     uint place = atomicAdd(points_of[space], 1u);
     answers[spaces[space].w + place / 4u][place % 4u] = name;
-    if (place % together == 0u) atomicAdd(spaces[space].x, 1u);
+    uint group = place / together;
+    atomicMax(spaces[space].x, min(group + 1u, uint(kMostInRow)));
+    atomicMax(spaces[space].y, group / uint(kMostInRow) + 1u);
 }
 
 // Writes the answer: what the point sees if the ray to a place of the light, in cells, is free.

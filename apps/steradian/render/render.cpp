@@ -84,6 +84,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"shadows_estimated", stats.shadows_estimated},
           {"shadow_on_host", stats.shadow_on_host},
           {"shadow_pairs", stats.shadow_pairs},
+          {"shadow_looks", stats.shadow_looks},
           {"submissions", stats.submissions},
           {"exact_tiles", stats.exact_tiles},
           {"estimated_shadow_error", stats.estimated_shadow_error},

@@ -14,6 +14,8 @@ namespace {
 
 #include "shaders/layout.glsl"
 
+// Values of SHADOWED_LIGHTS of shaders/direct.glsl.
+constexpr int kUnoccluded = 0, kByPieces = 1, kWholeLights = 2;
 constexpr std::size_t kTexels = 6, kBuffers = 5;                // as bound in run
 constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
 constexpr std::size_t kTilesOfBatch = 256;
@@ -237,12 +239,12 @@ bool DirectPass::is_careful(const LightRecord& light, const SurfaceBounds& where
   return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
 }
 
-std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, bool shadowed) const {
+std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, int shadowed) const {
   const bool by_arcs = pass.procedure == Procedure::closed_form || pass.procedure == Procedure::half_vector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
   const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
   const bool specular = pass.over_lobe();
-  return {light.kind,
+  return {shadowed == kByPieces ? kPolygon : light.kind,
           pass.with_diffuse ? 1 : 0,
           specular && compact_table_ ? 1 : 0,
           specular ? static_cast<int>(method_.quality) : 1,
@@ -251,11 +253,11 @@ std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pa
                               : 0,
           careful ? 1 : 0,
           specular && fresnel_table_ ? 1 : 0,
-          light.ball ? 1 : 0,
+          light.ball && shadowed != kByPieces ? 1 : 0,
           fine ? 16 : 12,
           matrix_size_,
           magnitude_size_,
-          shadowed ? 1 : 0,
+          shadowed,
           whole ? 1 : 0,
           pass.asks_for_mean(light) ? 1 : 0,
           0,
@@ -268,7 +270,7 @@ std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pa
 // Lists the mean of a textured light for a lobe. It is an entry of its own, since software devices limit a thread's loop
 // turns.
 void DirectPass::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
-  std::vector<std::int32_t> constants = choices({}, {}, false, false, false);
+  std::vector<std::int32_t> constants = choices({}, {}, false, false, kUnoccluded);
   constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
   constants[9] = compact_size_;
   constants[14] = compact_first_;
@@ -341,7 +343,7 @@ void DirectPass::list(Work& work, std::uint32_t place, const Square& square, con
   // The irradiance of tubes and balls has the same formula in both cases.
   const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
   const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
-  const Work::Key key = {shader_of(own.procedure), choices(record, own, careful, whole, shadowed != nullptr)};
+  const auto key = [&](int how) { return Work::Key{shader_of(own.procedure), choices(record, own, careful, whole, how)}; };
   std::vector<std::uint32_t> numbers = {number};
   if (shadowed != nullptr) numbers.push_back(shadowed->states);
   if (own.asks_for_mean(record)) {
@@ -349,7 +351,9 @@ void DirectPass::list(Work& work, std::uint32_t place, const Square& square, con
     numbers.push_back(work.means);
     work.means += static_cast<std::uint32_t>(kSlotsOfSquare);
   }
-  work.add(key, own.name(), own.own != nullptr ? own.own->first : 0, place, numbers);
+  const auto add = [&](int how) { work.add(key(how), own.name(), own.own != nullptr ? own.own->first : 0, place, numbers); };
+  if (shadowed != nullptr && shadowed->searched) add(kByPieces);
+  add(shadowed != nullptr ? kWholeLights : kUnoccluded);
 }
 
 void DirectPass::run(const std::vector<Tile>& tiles, std::size_t first_tile, std::size_t end, const Visibility& visibility) {

@@ -69,6 +69,7 @@ class DirectPass {
     struct Shadowed {
       const PackLight* light;
       std::uint32_t states;  // first state of the tile
+      bool searched;         // some points may see a part
       bool shares;           // parts may count as fractions of a polygon's light: shaders/shadow/shadow_layout.glsl
     };
     std::vector<Shadowed> shadowed;
@@ -106,7 +107,7 @@ class DirectPass {
   void list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square);
   bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
   void list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const;
-  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, bool shadowed) const;
+  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, int shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
 
   Kept& kept_;

@@ -22,6 +22,14 @@
 namespace steradian::vulkan {
 namespace {
 
+void add_radiance(const TileVector& v, TileVector& to) {
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    to.x[i] += v.x[i];
+    to.y[i] += v.y[i];
+    to.z[i] += v.z[i];
+  }
+}
+
 bool has_bent_coats(const SurfaceMaterial& m) {
   return m.clearcoat > 0 && (m.normal_texture.image >= 0 || m.clearcoat_normal_texture.image >= 0);
 }
@@ -129,6 +137,11 @@ struct DeviceFrame::Parts {
       lacks = "its buffers have no space for the " + std::to_string(s.triangle_count()) + " triangles that shadow rays may meet";
       return;
     }
+    if (host.has_shadows() && !DeviceShadows::fits(device->info(), *parts.shadows, lights)) {
+      lacks = "its buffers have no space for the edges of " + std::to_string(s.triangle_count()) + " triangles before " +
+              std::to_string(lights.size()) + " lights";
+      return;
+    }
     if (has_bounce()) {
       bounce = &made(kept->bounce, *device);
       bounce->find_first_hits_by(maps ? device_rays : nullptr);
@@ -154,6 +167,9 @@ struct DeviceFrame::Parts {
     });
   }
 
+  // The surfaces of a job, and the light that the host adds to them after the device.
+  SurfaceTile& tile_of(std::size_t job) { return *job_tiles[job]; }
+
   // Returns true if the host needs the surfaces that the device finds.
   bool host_needs_surfaces() const { return host.has_shadows() || has_bounce() || surfaces.environment() != nullptr; }
 
@@ -170,6 +186,7 @@ struct DeviceFrame::Parts {
   std::vector<DirectPass::Tile> find_surfaces(std::vector<Job>& jobs, int sample, int layer) {
     std::vector<DirectPass::Tile> tiles(jobs.size());
     if (shadowed.size() < jobs.size()) shadowed.resize(jobs.size(), TileShadows());
+    while (host.has_shadows() && job_tiles.size() < jobs.size()) job_tiles.push_back(std::make_unique<SurfaceTile>());
     const bool drawn = raster && layer == 0;
     if (drawn)
       device_clock.run([&] { raster->find(jobs.front().tile, static_cast<int>(jobs.size()), direct.surfaces(), direct.radiance()); });
@@ -180,7 +197,7 @@ struct DeviceFrame::Parts {
         shadowed[i].clear();
         return lists_clock.run([&] { list_found(i, tiles[i]); });
       }
-      SurfaceTile& tile = *workspaces.local();
+      SurfaceTile& tile = host.has_shadows() ? tile_of(i) : *workspaces.local();
       TilePlane distances{};
       if (found)
         upload_clock.run([&] {
@@ -202,6 +219,7 @@ struct DeviceFrame::Parts {
         direct.list_lights(tiles[i]);
       });
       upload_clock.run([&] { found ? direct.put_radiance(i, tile) : direct.put(i, tile); });
+      for (TilePlane* plane : {&tile.radiance.x, &tile.radiance.y, &tile.radiance.z}) plane->fill(0);
       job.passing = tile.any_passing && layer + 1 < kMostLayers;
       if (!job.passing) return;
       // The fractions of this layer are still needed; those of the next one are stored beside them.
@@ -216,29 +234,30 @@ struct DeviceFrame::Parts {
     return tiles;
   }
 
-  // Lights as many tiles at once as there is capacity for their shadows' data: one submission, or two if points are left to the host.
+  // Lights as many tiles at once as there is capacity for their shadows' data, each time by one submission. The host adds the light of
+  // points that the device leaves to the tiles' surfaces.
   void light_tiles(std::vector<DirectPass::Tile>& tiles) {
     const std::span all(shadowed.data(), tiles.size());
     if (!host.has_shadows() || std::all_of(all.begin(), all.end(), [](const TileShadows& s) { return s.by_light.empty(); }))
       return direct.run(tiles);
-    if (!shadows) shadows.emplace(made(kept->shadows, *device), host, *device_rays);
+    if (!shadows) shadows.emplace(made(kept->shadows, *device), *device_rays, parts.shadows);
     for (std::size_t first = 0; first < tiles.size();) {
       const std::size_t end = first + shadows->upload(all.subspan(first));
       std::uint32_t states = 0;
       for (std::size_t i = first; i < end; ++i) {
         tiles[i].shadowed.clear();
         for (const TileShadows::Light& light : shadowed[i].by_light) {
-          if (light.listed) tiles[i].shadowed.push_back({light.light, states, light.shares});
+          tiles[i].shadowed.push_back({light.light, states, light.searched, light.shares});
           states += static_cast<std::uint32_t>(kTilePixels);
         }
       }
       direct.run(tiles, first, end,
                  {[&](const Buffer& gates) -> ComputeProgram& { return shadows->record(gates); }, &shadows->states(), &shadows->parts()});
-      const DeviceShadows::Outcome outcome = shadows->finish([this](std::size_t n, const auto& work) { each(n, work); });
-      // The next run adds the light of the points that are left, and of no other.
-      for (std::size_t i = first; outcome == DeviceShadows::Outcome::left && i < end; ++i)
-        for (DirectPass::Square& square : tiles[i].squares) square.lights.clear();
-      if (outcome == DeviceShadows::Outcome::done) first = end;
+      if (!shadows->finish()) continue;
+      each(end - first, [&](std::size_t i) {
+        shadows->each_left(i, [&](const PackLight& light, const TilePoints& points) { host.add_at(tile_of(first + i), points, light); });
+      });
+      first = end;
     }
   }
 
@@ -253,6 +272,7 @@ struct DeviceFrame::Parts {
       resolve_clock.run([&] {
         TileVector& radiance = *radiances.local();
         direct.take_radiance(i, radiance);
+        if (host.has_shadows()) add_radiance(tile_of(i).radiance, radiance);
         add_to_picture(radiance, surfaces.area(jobs[i].tile), jobs[i].ways ? &jobs[i].ways->shares : nullptr, weight, picture.pixels,
                        options.width);
       });
@@ -301,7 +321,8 @@ struct DeviceFrame::Parts {
       for (const auto& [name, ms] : raster->times()) stats.passes.push_back({"device: " + name, ms});
     for (const auto& [name, ms] : direct.times()) stats.passes.push_back({"device: " + name, ms});
     if (host.has_shadows()) {
-      stats.passes.push_back(host.shadow_time(threads));
+      for (const PassTime& pass : {host.shadow_time(threads), host.direct_time(threads), host.specular_time(threads)})
+        stats.passes.push_back(pass);
       const ShadowCounts counts = host.shadow_counts();
       const std::uint64_t found = shadows ? shadows->found() : 0, points = counts.points + (shadows ? shadows->points() : 0);
       const auto share = [](std::uint64_t some, std::uint64_t all) {
@@ -310,6 +331,7 @@ struct DeviceFrame::Parts {
       stats.shadow_fallback = share(counts.fallback, points);
       stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
       if (shadows) stats.shadow_pairs = shadows->pairs();
+      if (shadows) stats.shadow_looks = shadows->looks();
       if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
       if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
     }
@@ -354,8 +376,9 @@ struct DeviceFrame::Parts {
   std::shared_ptr<const SceneRays> device_rays;  // null without shadows, and if the host traces the bounce's shadow map
   std::string lacks;
   std::string kept_on_host;
-  std::optional<DeviceShadows> shadows;       // created on first use
-  std::vector<TileShadows> shadowed;          // by job
+  std::optional<DeviceShadows> shadows;  // created on first use
+  std::vector<TileShadows> shadowed;     // by job
+  std::vector<std::unique_ptr<SurfaceTile>> job_tiles;
   std::optional<RasterSurfaces> raster;       // none if the host finds the surfaces
   Bounce* bounce = nullptr;                   // null without a bounce
   std::optional<indirect::Pipeline> bounced;  // bounce of one frame

@@ -1,10 +1,12 @@
 // Shadows on a device: a subgroup per point finds the visible parts of lights behind edges (shaders/shadow/shadow_parts.comp). One ray per
 // point tests that the part is unoccluded (shaders/shadow/shadow_rays.comp). Lighting follows in the same submission. Points that exceed a
-// capacity of the subgroup or are uncertain are left: the host finds their parts, and a further run adds their light.
+// capacity of the subgroup or are uncertain are left to the host, which adds their light.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,7 +14,7 @@
 #include "device/shadow/tile_shadows.h"
 #include "device/vulkan/buffer.h"
 #include "device/vulkan/compute_program.h"
-#include "render/frame/tile_lighting.h"
+#include "render/shadow/viewpoints.h"
 
 namespace steradian::vulkan {
 
@@ -23,14 +25,18 @@ class DeviceShadows {
     explicit Kept(const Device& device);
     const Device& device;
     ComputeProgram program;
-    KeptBuffer groups, answers, parts, states;
+    KeptBuffer groups, answers, parts, states, mesh, frames, gathered;
+    std::shared_ptr<const ShadowEdges> edges;  // of `mesh`
   };
 
   // Returns true if a device supports a subgroup per point.
   static bool has(const DeviceInfo& device);
 
+  // Returns true if buffers of the device have capacity for the edges in the coordinates of all lights.
+  static bool fits(const DeviceInfo& device, const ShadowEdges& edges, const std::vector<PackLight>& lights);
+
   // All arguments must outlive this object.
-  DeviceShadows(Kept& kept, TileLighting& host, const SceneRays& rays);
+  DeviceShadows(Kept& kept, const SceneRays& rays, std::shared_ptr<const ShadowEdges> edges);
 
   // Uploads the points of the first tiles, as many as buffers have capacity for, and returns their number: at least one. Throws Error if
   // one is too many.
@@ -42,11 +48,10 @@ class DeviceShadows {
   const Buffer& states() const { return kept_.states.get(); }
   const Buffer& parts() const { return kept_.parts.get(); }
 
-  // To be called when the search has run. left: the tiles have only the points that the device has left, for another upload().
-  // no_room: the same tiles must be uploaded again. Calls each(count, work) for work in parallel.
-  enum class Outcome { done, left, no_room };
-  using Each = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
-  Outcome finish(const Each& each);
+  // To be called when the search has run. Returns false if the same tiles must be uploaded again: their parts exceeded the buffer.
+  bool finish();
+  // Calls add for each light of a tile of this search and its points that the device has left. Threads may ask for different tiles.
+  void each_left(std::size_t tile, const std::function<void(const PackLight&, const TilePoints&)>& add) const;
 
   // Milliseconds on the device so far.
   double time() const { return time_; }
@@ -56,27 +61,29 @@ class DeviceShadows {
   std::uint64_t found() const { return found_; }
   // RenderStats::shadow_pairs.
   const std::vector<std::uint64_t>& pairs() const { return pairs_; }
+  std::uint64_t looks() const { return looks_; }
 
  private:
   // First places of a tile's data among those of all.
   struct Begin {
-    std::size_t light = 0, point = 0, record = 0, row = 0, group = 0;
+    std::size_t light = 0, point = 0, row = 0, group = 0;
   };
+  void upload_frames();
   void upload_groups();
   void upload_states();
   void upload_points();
-  void ask_host(TileShadows& tile, std::size_t begin);
 
   Kept& kept_;
   const SceneRays& rays_;
-  TileLighting& host_;
-  std::span<TileShadows> tiles_;  // of the last upload()
-  std::vector<Begin> begins_;     // of each, and the end
-  std::uint64_t looks_ = 0;       // of points at the edges of their groups
-  std::size_t wanted_ = 0;        // vectors that the parts need, if a search has shown it
+  std::span<TileShadows> tiles_;               // of the last upload()
+  std::vector<Begin> begins_;                  // of each, and the end
+  std::size_t wanted_ = 0;                     // vectors that the parts need, if a search has shown it
+  std::size_t wanted_edges_ = 0;               // numbers that the edges of groups need, if a search has shown it
+  std::map<const void*, std::size_t> frames_;  // numbers of those written
+  std::uint32_t left_ = 0;                     // points of the last search
   std::size_t most_tiles_ = SIZE_MAX;
   double time_ = 0, rays_time_ = 0;
-  std::uint64_t points_ = 0, found_ = 0;
+  std::uint64_t points_ = 0, found_ = 0, looks_ = 0;
   std::vector<std::uint64_t> pairs_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "shadow/edges/gather.h"
+#include "shadow/edges/edge_arrays.h"
 
 namespace steradian::vulkan {
 namespace {
@@ -12,19 +12,16 @@ namespace {
 
 using shadow::Viewpoint;
 
-constexpr std::size_t kMostEdges = 20480, kMostIncidences = 1024, kMostCorners = 126;  // per group: shaders/shadow/shadow_turns.glsl
-constexpr std::size_t kMostValues = std::size_t{1} << 23;                              // per tile: a quarter of a buffer
-constexpr std::uint32_t kMostNumber = 1 << 27;                                         // vertex or edge: names have 28 bits
-constexpr std::size_t kMostPlaces = 1 << 16;                                           // vertices and planes per group
+constexpr std::size_t kMostCorners = 126;                  // per group
+constexpr std::size_t kMostValues = std::size_t{1} << 23;  // per tile: a quarter of a buffer
 
+static_assert(static_cast<std::size_t>(kShaftBounds) == shadow::kShaftSides);
 static_assert(std::tuple_size_v<decltype(TileShadows::Search::header)> == 4 * static_cast<std::size_t>(kShadowHeader));
 
 std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 std::uint32_t bits(double x) { return bits(static_cast<float>(x)); }
 std::uint32_t whole(std::size_t n) { return static_cast<std::uint32_t>(n); }
 std::uint32_t flag(int f) { return static_cast<std::uint32_t>(f); }
-
-Vec4Floats with(Vec3f v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
 using FourBits = std::array<std::uint32_t, 4>;
 FourBits with_bits(Vec3d v, double w) { return {bits(v.x), bits(v.y), bits(v.z), bits(w)}; }
@@ -40,46 +37,10 @@ class VectorRows {
     add(static_cast<std::uint32_t>(s.a.x), static_cast<std::uint32_t>(s.a.y), static_cast<std::uint32_t>(s.b.x),
         static_cast<std::uint32_t>(s.b.y));
   }
-  void fill() {
-    while (values_.size() % 4 != 0) values_.push_back(0);
-  }
 
  private:
   std::vector<std::uint32_t>& values_;
 };
-
-std::uint32_t walks_of(float walks, int there, int against) { return walks == 0 ? 0u : flag(there) | (walks < 0 ? flag(against) : 0u); }
-
-void add_edges(const shadow::EdgeArrays& arrays, std::vector<std::uint32_t>& values, std::array<std::uint32_t, 24>& header) {
-  const shadow::LaneEdges edges = arrays.lane_edges();
-  VectorRows rows(values);
-  header[0] = rows.size();
-  for (std::size_t i = 0; i < edges.vertex_count; ++i)
-    rows.add(bits(edges.vertices.x[i]), bits(edges.vertices.y[i]), bits(edges.vertices.z[i]), arrays.vertex_number(i));
-  header[1] = rows.size();
-  for (std::size_t i = 0; i < edges.plane_count; ++i)
-    rows.add(bits(edges.normals.x[i]), bits(edges.normals.y[i]), bits(edges.normals.z[i]), bits(edges.offsets[i]));
-  header[2] = rows.size();
-  header[3] = whole(edges.edge_count);
-  std::size_t more = 0, incidences = 0;
-  const shadow::EdgeView& e = edges.edges;
-  const auto pair = [](auto a, auto b) { return static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b) << 16; };
-  for (std::size_t i = 0; i < edges.edge_count; ++i) {
-    std::uint32_t planes = pair(e.plane0[i], e.plane1[i]);
-    std::uint32_t walks = walks_of(e.walks0[i], kWalks0, kAgainst0) | walks_of(e.walks1[i], kWalks1, kAgainst1);
-    if (more < edges.more_count && edges.more[more].edge == i) {
-      planes = pair(edges.more[more].first, edges.more[more].count);
-      incidences = edges.more[more].first + edges.more[more].count;
-      walks = flag(kManyWalks);
-      ++more;
-    }
-    rows.add(pair(e.v0[i], e.v1[i]), planes, arrays.edge_number(i), walks);
-  }
-  header[4] = rows.size();
-  for (std::size_t i = 0; i < incidences; ++i)
-    values.push_back(edges.incidences[i].plane | (edges.incidences[i].walks < 0 ? flag(kAgainst) : 0u));
-  rows.fill();
-}
 
 // Adds a point's position, its flags and its horizons.
 void add_point(const LightSide& side, const Viewpoint& at, bool shares, std::vector<std::uint32_t>& values) {
@@ -127,7 +88,6 @@ bool is_one_contour(const std::vector<shadow::Segment>& outline) {
 
 void TileShadows::clear() {
   by_light.clear();
-  records.clear();
   groups.clear();
   values.clear();
   points.clear();
@@ -135,24 +95,9 @@ void TileShadows::clear() {
 }
 
 bool TileShadows::find(const Group& asked) {
-  const shadow::EdgeArrays& edges = asked.edges;
-  const shadow::LaneEdges all = edges.lane_edges();
-  const std::vector<shadow::CrossingTriangle>& crossing = edges.crossing();
-  // A triangle takes one and a half times as many loop turns as an edge.
-  const std::size_t turns = all.edge_count + crossing.size() + crossing.size() / 2;
-  if (values.size() > kMostValues || turns > kMostEdges) return false;
-  if (edges.is_far()) return false;
-  for (const auto& triangle : crossing)
-    if (triangle.number >= kMostNumber || *std::max_element(std::begin(triangle.edges), std::end(triangle.edges)) >= kMostNumber)
-      return false;
-  if (all.vertex_count >= kMostPlaces || all.plane_count >= kMostPlaces) return false;
-  for (std::size_t i = 0; i < all.edge_count; ++i)
-    if (edges.edge_number(i) >= kMostNumber) return false;
-  for (std::size_t i = 0; i < all.vertex_count; ++i)
-    if (edges.vertex_number(i) >= kMostNumber) return false;
-  std::size_t incidences = 0;
-  for (std::size_t i = 0; i < all.more_count; ++i) incidences += all.more[i].count;
-  if (incidences > kMostIncidences) return false;
+  const shadow::EdgeMesh& mesh = asked.mesh;
+  if (values.size() > kMostValues || asked.crossing.size() > static_cast<std::size_t>(kMostEdges)) return false;
+  if (!(shadow::anchor_of(mesh.around, asked.frame) == asked.frame.origin)) return false;
 
   // Collect the sides, and test if they share one outline.
   const std::size_t sides_before = sides.size();
@@ -161,7 +106,7 @@ bool TileShadows::find(const Group& asked) {
   for (const std::uint32_t slot : asked.slots) {
     const LightSide* side = asked.side_at(slot);
     if (side == nullptr) continue;
-    if (asked.base != nullptr) side = &sides.emplace_back(*side);
+    if (asked.turned) side = &sides.emplace_back(*side);
     found.push_back({whole(by_light.size()), slot, side, asked.shares, asked.points[slot]});
     own_corners |= side->outline != found.front().side->outline;
   }
@@ -175,34 +120,40 @@ bool TileShadows::find(const Group& asked) {
     return false;
   }
 
-  Search group{};
-  group.points = found.size();
-  const bool turned = asked.base != nullptr;
-  add_edges(edges, values, group.header);
+  Search group{{}, found.size(), asked.key, asked.frame.axes, asked.frame.origin};
   VectorRows rows(values);
   group.header[5] = rows.size();
   for (const shadow::Segment& s : outline) {
     rows.add(s);
     rows.add(static_cast<std::uint32_t>(s.a.id & ~shadow::kCornerId), static_cast<std::uint32_t>(s.b.id & ~shadow::kCornerId), 0, 0);
   }
-  for (const auto& t : crossing) {
-    rows.add(t.corners[0] | t.corners[1] << 16, t.corners[2] | t.plane << 16, t.number, 0);
-    rows.add(t.edges[0], t.edges[1], t.edges[2], 0);
+  for (const std::uint32_t t : asked.crossing) {
+    const auto &at = mesh.triangles[t], &edges = mesh.triangle_edges[t];
+    rows.add(at[0], at[1], at[2], t);
+    rows.add(t, edges[0], edges[1], edges[2]);
   }
   group.header[6] = rows.size();
-  group.header[7] = whole(corners) + (turned ? flag(kTurned) : 0u) + (own_corners ? flag(kOwnCorners) : 0u);
-  group.header[8] = whole(found.size()) + flag(kTriangles) * whole(crossing.size());
+  group.header[7] = whole(corners) + (asked.turned ? flag(kTurned) : 0u) + (own_corners ? flag(kOwnCorners) : 0u);
+  group.header[8] = whole(found.size()) + flag(kTriangles) * whole(asked.crossing.size());
   group.header[9] = whole(points.size());
-  if (!turned) {
+  if (!asked.turned) {
     const shadow::LightFrame& f = found.front().side->frame;
     group.header[10] = bits(f.box_x);
     group.header[11] = bits(f.box_y);
     const std::array<FourBits, 3> plane = plane_of(f);
     for (std::size_t i = 0; i < plane.size(); ++i) std::copy(plane[i].begin(), plane[i].end(), group.header.begin() + 12 + 4 * i);
   }
+  const shadow::ShaftView shaft = asked.shaft.view_from(Frame::world(), mesh.around.middle);
+  auto to = group.header.begin() + 4 * kShaft;
+  const auto put = [&](const float v[3], float w) {
+    to = std::copy_n(FourBits{bits(v[0]), bits(v[1]), bits(v[2]), bits(w)}.begin(), 4, to);
+  };
+  for (std::size_t i = 0; i < shadow::kShaftSides; ++i) put(shaft.normal[i], shaft.offset[i]);
+  for (const auto& half : shaft.half) put(half, 0);
+  put(shaft.middle, shaft.reach);
   for (const Point& point : found) {
     add_point(*point.side, point.at, asked.shares, values);
-    if (turned) add_plane(point.side->frame, *asked.base, point.at, rows);
+    if (asked.turned) add_plane(point.side->frame, asked.frame, point.at, rows);
     if (own_corners)
       for (const shadow::Segment& s : *point.side->outline) rows.add(s);
   }
@@ -211,69 +162,17 @@ bool TileShadows::find(const Group& asked) {
   return true;
 }
 
-// Returns the place of the record.
-std::size_t TileShadows::add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b,
-                                    const Vec4Floats& area) {
-  records.insert(records.end(), {center, reach_a, reach_b, area});
-  return records.size() - static_cast<std::size_t>(kPartHeader);
-}
-
-std::size_t TileShadows::add_outline(const packed::Pieces& pieces, std::size_t point, float weight) {
-  constexpr std::size_t kBlock = packed::Pieces::kBlock;
-  const float* e = pieces.elements(point);
-  const auto element = [&](std::size_t first, float w) {
-    return with({e[first * kBlock], e[(first + 1) * kBlock], e[(first + 2) * kBlock]}, w);
-  };
-  const std::size_t begin = add_record(element(0, 0), element(3, e[12 * kBlock]), element(6, weight), element(9, 0));
-  const std::size_t first = records.size();
-  for (std::size_t k = 0; k < pieces.edge_count(point); ++k) {
-    const float* edge = pieces.edge(point, k);
-    const Vec3f a{edge[0], edge[kBlock], edge[2 * kBlock]}, b{edge[3 * kBlock], edge[4 * kBlock], edge[5 * kBlock]};
-    if (a == b) continue;
-    if (records.size() == first || with(a, 1) != records.back()) records.push_back(with(a, 0));
-    records.push_back(with(b, 1));
+void TileShadows::take(const PackLight& light, TileShadow& shadow) {
+  const bool searched = !points.empty() && points.back().light == by_light.size();
+  if (!searched && std::find(shadow.seen.begin(), shadow.seen.end(), TileShadow::Seen::whole) == shadow.seen.end()) return;
+  Light& to = by_light.emplace_back(Light{&light});
+  to.searched = searched;
+  to.shares = searched && points.back().shares;
+  for (std::size_t i = 0; i < kTilePixels; ++i) {
+    if (shadow.seen[i] != TileShadow::Seen::whole) continue;
+    to.states[i] = flag(kSeesWhole);
+    shadow.seen[i] = TileShadow::Seen::elsewhere;
   }
-  records[begin][3] = static_cast<float>(records.size() - first);
-  return begin;
-}
-
-// Returns the state of a slot that sees the part.
-std::uint32_t TileShadows::add_part(const TileShadow::Batch& batch, std::size_t point, Light& to) {
-  const std::size_t begin = add_outline(batch.visible, point, batch.passes[point]);
-  if (records[begin][3] == 0) return flag(kSeesNone);
-  if (batch.all.point_count() > 0) {
-    to.shares = true;
-    records.resize(records.size() + static_cast<std::size_t>(kPartSums), Vec4Floats{});
-    records[begin + 3][3] = static_cast<float>(records.size() - begin);
-    add_outline(batch.all, point, 1);
-  }
-  return flag(kSeesPart) + whole(begin);
-}
-
-void TileShadows::set(std::size_t light, const std::vector<std::uint32_t>& slots, const TileShadow& shadow) {
-  using Seen = TileShadow::Seen;
-  Light& to = by_light[light];
-  for (const std::uint32_t i : slots) {
-    const Seen seen = shadow.seen[i];
-    to.states[i] = flag(seen == Seen::whole ? kSeesWhole : kSeesNone);
-    if (seen == Seen::share) to.states[i] = flag(kSeesPart) + whole(add_record({}, {}, {0, 0, 0, shadow.share[i]}, {}));
-  }
-  for (std::size_t b = 0; b < shadow.batch_count; ++b) {
-    const TileShadow::Batch& batch = shadow.batches[b];
-    for (std::size_t k = 0; k < batch.slots.size(); ++k)
-      if (batch.slots[k] != kNoSlot) to.states[batch.slots[k]] = add_part(batch, k, to);
-  }
-}
-
-void TileShadows::take(const PackLight& light, const TileShadow& shadow) {
-  by_light.push_back({&light});
-  if (!points.empty() && points.back().light + 1 == by_light.size()) by_light.back().shares = points.back().shares;
-  static const std::vector<std::uint32_t> all = [] {
-    std::vector<std::uint32_t> slots(kTilePixels);
-    for (std::uint32_t i = 0; i < kTilePixels; ++i) slots[i] = i;
-    return slots;
-  }();
-  set(by_light.size() - 1, all, shadow);
 }
 
 }  // namespace steradian::vulkan

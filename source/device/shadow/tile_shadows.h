@@ -1,5 +1,5 @@
-// The device's part of a tile's shadows: visibility of its lights from the slots, as far as the host knows it, and groups of points for
-// the device to answer. Numbers are laid out as in shaders/shadow/shadow_layout.glsl.
+// The device's part of a tile's shadows: slots that see all of a light, and groups of points for the device to answer. Numbers are laid out
+// as in shaders/shadow/shadow_layout.glsl.
 #pragma once
 
 #include <array>
@@ -7,7 +7,6 @@
 #include <deque>
 #include <vector>
 
-#include "device/direct/light_records.h"
 #include "render/shadow/taker.h"
 
 namespace steradian::vulkan {
@@ -17,16 +16,13 @@ class TileShadows : public ShadowTaker {
   void clear();
 
   bool find(const Group& group) override;
-  void take(const PackLight& light, const TileShadow& shadow) override;
-
-  // Writes the visibility of a light from some slots.
-  void set(std::size_t light, const std::vector<std::uint32_t>& slots, const TileShadow& shadow);
+  void take(const PackLight& light, TileShadow& shadow) override;
 
   struct Light {
     const PackLight* light;
-    std::array<std::uint32_t, kTilePixels> states{};  // records of parts are counted from the tile's first one
-    bool shares = false;                              // parts may count as fractions of a polygon's light
-    bool listed = true;                               // the next run adds its light
+    std::array<std::uint32_t, kTilePixels> states{};
+    bool searched = false;  // the device finds the states of some
+    bool shares = false;    // parts may count as fractions of a polygon's light
   };
   struct Point {
     std::uint32_t light, slot;
@@ -35,20 +31,17 @@ class TileShadows : public ShadowTaker {
     shadow::Viewpoint at;
   };
   struct Search {
-    std::array<std::uint32_t, 24> header;  // places counted from the tile's first vector, the first answer from its first point
+    std::array<std::uint32_t, 68> header;  // places counted from the tile's first vector, the first answer from its first point
     std::size_t points;
+    const void* key;  // of the frame
+    Frame axes;
+    Vec3d origin;
   };
   std::vector<Light> by_light;
-  std::vector<Vec4Floats> records;  // records of parts
   std::vector<Search> groups;
   std::vector<std::uint32_t> values;  // data of groups
   std::vector<Point> points;
   std::deque<LightSide> sides;  // sides that are not stored elsewhere
-
- private:
-  std::size_t add_record(const Vec4Floats& center, const Vec4Floats& reach_a, const Vec4Floats& reach_b, const Vec4Floats& area);
-  std::size_t add_outline(const packed::Pieces& pieces, std::size_t point, float weight);
-  std::uint32_t add_part(const TileShadow::Batch& batch, std::size_t point, Light& to);
 };
 
 }  // namespace steradian::vulkan

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "device/vulkan/shaders.h"
 #include "render/lights/light_bounds.h"
@@ -64,7 +65,8 @@ void RasterSurfaces::write_view(PixelPlace place) {
 void RasterSurfaces::look(int sample) {
   const PixelPlace place = pixel_place(sample, samples_);
   write_view(place);
-  times_["triangles"] += kept_.visibility.draw(kept_.scene, view_, place);
+  kept_.visibility.draw(kept_.scene, view_, place);
+  drawn_ = true;
 }
 
 void RasterSurfaces::find(int first_tile, int count, Buffer& surfaces, Buffer& radiance) {
@@ -75,6 +77,7 @@ void RasterSurfaces::find(int first_tile, int count, Buffer& surfaces, Buffer& r
       {{kept_.program.pipeline(0, {taken_ ? 1 : 0, scene.has_layers() ? 1 : 0, smooth_ ? 1 : 0}), static_cast<std::uint32_t>(kGroupsOfTile),
         static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(first_tile)}});
   if (!ms.empty()) times_["surfaces"] += ms.front();
+  if (std::exchange(drawn_, false)) times_["triangles"] += kept_.visibility.time();
 }
 
 bool RasterSurfaces::is_for_host(const Buffer& radiance, std::size_t place) {

@@ -53,6 +53,7 @@ class RasterSurfaces {
   const PixelSteps steps_;
   const int samples_;
   const bool smooth_, taken_;
+  bool drawn_ = false;  // look() has drawn what find() has not taken yet
   std::map<std::string, double> times_;
 };
 

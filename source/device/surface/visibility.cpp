@@ -138,7 +138,6 @@ struct Visibility::Handles {
   vk::raii::DescriptorPool pool = nullptr;
   vk::raii::DescriptorSet set = nullptr;
   vk::raii::CommandBuffer commands = nullptr;
-  vk::raii::Fence done = nullptr;
   vk::raii::QueryPool queries = nullptr;
 };
 
@@ -159,12 +158,14 @@ Visibility::Visibility(const Device& device) : device_(device), seen_(device), h
     h.pool = d.device.createDescriptorPool({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size});
     h.set = std::move(d.device.allocateDescriptorSets({*h.pool, *h.set_layout}).front());
     h.commands = std::move(d.device.allocateCommandBuffers({*d.commands, vk::CommandBufferLevel::ePrimary, 1}).front());
-    h.done = d.device.createFence({});
     if (device.info().timestamps) h.queries = d.device.createQueryPool({{}, vk::QueryType::eTimestamp, 2});
   });
 }
 
-Visibility::~Visibility() { device_.handles().leave(handles_); }
+Visibility::~Visibility() {
+  std::erase(device_.handles().ahead, *handles_->commands);
+  device_.handles().leave(handles_);
+}
 
 // Makes pictures as wide and as high as any so far; a corner of them is drawn to.
 void Visibility::fit(int width, int height) {
@@ -187,12 +188,12 @@ void Visibility::fit(int width, int height) {
   height_ = high;
 }
 
-double Visibility::draw(const SceneBuffers& scene, const CameraView& view, PixelPlace place) {
+void Visibility::draw(const SceneBuffers& scene, const CameraView& view, PixelPlace place) {
   if (device_.only_compiles()) {
     seen_.fit(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height) * sizeof(std::uint32_t));
-    return 0;
+    return;
   }
-  return checked(device_, "draw triangles", [&] {
+  checked(device_, "draw triangles", [&] {
     fit(view.width, view.height);
     const Handles& h = *handles_;
     const vk::BufferView buffers[] = {*scene.vertices().handles().texels, *scene.triangles().handles().texels};
@@ -222,9 +223,15 @@ double Visibility::draw(const SceneBuffers& scene, const CameraView& view, Pixel
     h.commands.pipelineBarrier(Stage::eTransfer, Stage::eComputeShader | Stage::eHost, {}, copied, nullptr, nullptr);
     if (timed) h.commands.writeTimestamp(Stage::eBottomOfPipe, *h.queries, 1);
     h.commands.end();
-    submit_and_wait(device_, {*h.commands}, h.done, "drawing");
-    return timed ? times_between(device_, h.queries, 2).front() : 0.0;
+    std::vector<vk::CommandBuffer>& ahead = device_.handles().ahead;
+    std::erase(ahead, *h.commands);  // an earlier drawing that no submission has taken
+    ahead.push_back(*h.commands);
   });
+}
+
+double Visibility::time() const {
+  if (device_.only_compiles() || !device_.info().timestamps) return 0;
+  return checked(device_, "read the time of triangles", [&] { return times_between(device_, handles_->queries, 2).front(); });
 }
 
 }  // namespace steradian::vulkan

@@ -23,8 +23,10 @@ class Visibility {
   explicit Visibility(const Device& device);
   ~Visibility();
 
-  // Finds the triangles visible through one position of every pixel, and returns when they are in seen(). Returns its milliseconds.
-  double draw(const SceneBuffers& scene, const CameraView& view, PixelPlace place);
+  // Records how to find the triangles visible through one position of every pixel. The device's next submission puts them into seen().
+  void draw(const SceneBuffers& scene, const CameraView& view, PixelPlace place);
+  // Milliseconds of the last drawing, after that submission; 0 if the device does not report them.
+  double time() const;
   // By pixel, row by row: 0, or the triangle's number from 1.
   const Buffer& seen() const { return seen_.get(); }
 

@@ -48,7 +48,8 @@ struct Device::Handles {
   mutable std::vector<PipelineReport> reports;
   std::vector<std::string> messages;
   mutable std::size_t allocations = 0, submissions = 0;
-  mutable bool hangs = false;  // submitted work has not ended, and still uses its objects
+  mutable std::vector<vk::CommandBuffer> ahead;  // recorded commands that the next submission takes first
+  mutable bool hangs = false;                    // submitted work has not ended, and still uses its objects
 
   vk::PipelineCreateFlags pipeline_flags() const {
     return has_statistics ? vk::PipelineCreateFlagBits::eCaptureStatisticsKHR : vk::PipelineCreateFlags();
@@ -96,11 +97,13 @@ inline vk::raii::ShaderModule module_of(const vk::raii::Device& device, std::spa
   return device.createShaderModule({{}, spirv.size_bytes(), spirv.data()});
 }
 
-// Submits the commands to the device at once and waits until they are done. work: what a hanging device did not finish, for the error.
-inline void submit_and_wait(const Device& device, const std::vector<vk::CommandBuffer>& commands, const vk::raii::Fence& done,
-                            const char* work) {
+// Submits the commands to the device at once, after those that wait ahead of it, and waits until they are done. work: what a hanging device
+// did not finish, for the error.
+inline void submit_and_wait(const Device& device, std::vector<vk::CommandBuffer> commands, const vk::raii::Fence& done, const char* work) {
   constexpr std::uint64_t longest = 300'000'000'000;  // ns
   const Device::Handles& d = device.handles();
+  commands.insert(commands.begin(), d.ahead.begin(), d.ahead.end());
+  d.ahead.clear();
   d.device.resetFences(*done);
   d.queue.submit(vk::SubmitInfo({}, {}, commands, {}), *done);
   ++d.submissions;

@@ -259,10 +259,11 @@ std::vector<const PackLight*> TileLighting::hand_over_shadows(SurfaceTile& tile,
   return add_past_blockers(tile, lights, *work_.local(), &taker);
 }
 
-const TileShadow& TileLighting::find_at(const TilePoints& points, const PackLight& light) {
+void TileLighting::add_at(SurfaceTile& tile, const TilePoints& points, const PackLight& light) {
   Work& work = *work_.local();
   shadow_clock_.run([&] { shadows_->find_at(points, light, work.shadow, work.counts); });
-  return work.shadow;
+  add_whole(tile, light, work);
+  add_parts(tile, light, work);
 }
 
 // Returns the lights that nothing occludes; the caller adds them as usual. For the others, evaluates the slots that see all of the light or
@@ -286,10 +287,7 @@ std::vector<const PackLight*> TileLighting::add_past_blockers(SurfaceTile& tile,
       plain.push_back(light);
       continue;
     }
-    if (taker != nullptr) {
-      shadow_clock_.run([&] { taker->take(*light, work.shadow); });
-      continue;
-    }
+    if (taker != nullptr) shadow_clock_.run([&] { taker->take(*light, work.shadow); });
     add_whole(tile, *light, work);
     add_parts(tile, *light, work);
   }

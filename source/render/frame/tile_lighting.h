@@ -54,10 +54,11 @@ class TileLighting {
   // The same with the shadows of area lights estimated by a few rays. Adds to the estimate.
   void add_shadowed_by_rays(SurfaceTile& tile, const std::vector<const PackLight*>& lights, std::size_t rays, int sample,
                             EstimatedShadows& estimate);
-  // Finds the lights that are occluded from the tile: `taker` takes their visibility, and adds their light. Returns the others.
+  // Finds the lights that are occluded from the tile. `taker` adds the light of all pairs that it takes; this adds that of the others.
+  // Returns the lights that nothing occludes.
   std::vector<const PackLight*> hand_over_shadows(SurfaceTile& tile, const std::vector<const PackLight*>& lights, ShadowTaker& taker);
-  // Visibility of an area light from some points. The result is valid until the thread asks again.
-  const TileShadow& find_at(const TilePoints& points, const PackLight& light);
+  // Adds the light of an area light at some points of the tile.
+  void add_at(SurfaceTile& tile, const TilePoints& points, const PackLight& light);
 
   PassTime direct_time(int threads) const { return direct_clock_.time(threads); }
   PassTime specular_time(int threads) const { return specular_clock_.time(threads); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "render/lights/solid_lights.h"
 #include "render/shadow/work.h"
@@ -162,31 +163,38 @@ void ShadowPass::find_side(const std::vector<const std::vector<std::uint32_t>*>&
   }
   if (with_light.empty()) return;
   const Shaft shaft(side.frame, work.positions, work.up);
-  tree_.gather(packs_, shaft, work.edges);
-  work.crossing.clear();
-  for (const std::uint32_t t : side.crossing)
-    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
-  work.tile.assign(mesh_, side.frame, work.edges, work.crossing);
+  work.gathered = false;
+  const SideAt side_at = [&](std::uint32_t) { return &side; };
   for (const auto& slots : with_light) {
     work.take(slots);
     const Shaft of_group(side.frame, work.positions, work.up);
     work.cut_outs = meets_cut_outs(of_group);
+    if (is_taken(slots, side.frame, &side, of_group, side.crossing, side_at, work)) continue;
+    if (!std::exchange(work.gathered, true)) {
+      tree_.gather(packs_, shaft, work.edges);
+      work.find_crossing(shaft, mesh_, side.crossing);
+      work.tile.assign(mesh_, side.frame, work.edges, work.crossing);
+    }
     work.group.assign_needed(packs_, mesh_, work.tile, side.frame, of_group);
-    find_group(
-        slots, [&](std::uint32_t) { return &side; }, work);
+    find_group(slots, side_at, work);
   }
+}
+
+bool ShadowPass::is_taken(const std::vector<std::uint32_t>& slots, const LightFrame& frame, const void* key, const Shaft& shaft,
+                          const std::vector<std::uint32_t>& crossing, const SideAt& side_at, Work& work) const {
+  if (work.taker == nullptr || work.cut_outs || work.in_parts || work.in_parts_only) return false;
+  if (work.flat != nullptr && !work.flat->inside.empty()) return false;
+  work.find_crossing(shaft, mesh_, crossing);
+  if (!work.taker->find({mesh_, shaft, work.crossing, frame, work.turned, key, work.whole_outline, slots, *work.points, side_at}))
+    return false;
+  for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
+  return true;
 }
 
 void ShadowPass::find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const {
   const bool by_rays = work.group.edge_count() > kMostEdges && mode_ != Shadows::exact && !work.in_parts_only;
   const bool empty = work.group.empty() && !work.in_parts_only;
-  const bool even = !by_rays && !empty && !work.cut_outs;
-  if (even && work.taker != nullptr && !work.in_parts && (work.flat == nullptr || work.flat->inside.empty()) &&
-      work.taker->find({work.group, work.turned ? &work.base : nullptr, work.whole_outline, slots, *work.points, side_at})) {
-    for (const std::uint32_t i : slots) work.result->seen[i] = Seen::elsewhere;
-    return;
-  }
-  if (even && !work.in_parts) {
+  if (!by_rays && !empty && !work.cut_outs && !work.in_parts) {
     const LightSide* sides[shadow::kPoints];
     std::uint32_t of[shadow::kPoints];
     std::size_t count = 0;

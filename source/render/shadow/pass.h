@@ -71,10 +71,15 @@ class ShadowPass {
   void find_solid_group(const std::vector<std::uint32_t>& all, const shadow::SolidLight& light, const LightSide& side, Work& work) const;
   void find_punctual(const SurfaceTile& tile, const PackLight& light, Work& work) const;
   using SideAt = ShadowTaker::SideAt;
+  // Returns true if the taker takes a group. crossing: triangles that may cross the light's plane.
+  bool is_taken(const std::vector<std::uint32_t>& slots, const shadow::LightFrame& frame, const void* key, const shadow::Shaft& shaft,
+                const std::vector<std::uint32_t>& crossing, const SideAt& side_at, Work& work) const;
   // work.group holds the data that the group needs.
   void find_group(const std::vector<std::uint32_t>& slots, const SideAt& side_at, Work& work) const;
   void gather_round(const Flat& flat, const shadow::Shaft& shaft, Work& work) const;
-  void find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together, Work& work) const;
+  // together: the shaft of all groups with an edge list in common, or null. It is gathered when a group first needs it.
+  void find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, const shadow::Shaft* together,
+                        Work& work) const;
   void find_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, Work& work) const;
   void add_lanes(const LightSide* const* sides, const std::uint32_t* slots, std::size_t count, std::uint32_t lanes, Work& work) const;
   void find_point(const LightSide& side, std::uint32_t slot, Work& work) const;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 #include "render/shadow/side.h"
 #include "shadow/rays/shafts.h"
@@ -172,9 +173,10 @@ void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, c
     if (with_light.empty()) continue;
     // Gathers once for the cluster if one frame holds it; otherwise, each group gathers by itself.
     const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
-    const bool together = behind.has_value();
-    if (together) gather_round(flat, Shaft(*behind, work.positions, work.up, shadow::Sections::anywhere), work);
-    for (const auto& slots : with_light) find_round_group(light, flat, slots, together, work);
+    std::optional<Shaft> together;
+    if (behind) together.emplace(*behind, work.positions, work.up, shadow::Sections::anywhere);
+    work.gathered = false;
+    for (const auto& slots : with_light) find_round_group(light, flat, slots, together ? &*together : nullptr, work);
   }
 }
 
@@ -182,47 +184,45 @@ void ShadowPass::find_round(const PointGroups& groups, const PackLight& light, c
 void ShadowPass::gather_round(const Flat& flat, const Shaft& shaft, Work& work) const {
   tree_.gather(packs_, shaft, work.edges);
   // The planes differ from point to point: any triangle near the light may cross one of them.
-  work.crossing.clear();
-  for (const std::uint32_t t : flat.near)
-    if (shaft.needs_triangle(mesh_, t)) work.crossing.push_back(t);
+  work.find_crossing(shaft, mesh_, flat.near);
   work.tile.assign(mesh_, work.base, work.edges, work.crossing, flat.inside);
 }
 
-void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, bool together,
+void ShadowPass::find_round_group(const PackLight& light, const Flat& flat, const std::vector<std::uint32_t>& slots, const Shaft* together,
                                   Work& work) const {
   work.take(slots);
   const std::optional<LightFrame> behind = shadow::frame_behind(*light.area, work.positions);
   const shadow::Ball ball = shadow::ball_around(*light.area);
   const Box3d box = box_around(work.positions);
   const int axis = box.longest_side();
-  if (!behind && !together && coordinate(box.size(), axis) > ball.radius) {
+  if (!behind && together == nullptr && coordinate(box.size(), axis) > ball.radius) {
     // The group is too wide for a frame behind the light, but its halves may have one.
     const double middle = coordinate(box.center(), axis);
     std::array<std::vector<std::uint32_t>, 2> halves;
     for (const std::uint32_t i : slots) halves[coordinate(work.at(i).position, axis) < middle ? 0 : 1].push_back(i);
     for (const auto& half : halves)
-      if (!half.empty()) find_round_group(light, flat, half, false, work);
+      if (!half.empty()) find_round_group(light, flat, half, nullptr, work);
     return;
   }
   const Shaft shaft = behind ? Shaft(*behind, work.positions, work.up, shadow::Sections::anywhere)
                              : Shaft(ball.center, shadow::reach_of_polygon(*light.area), work.positions, work.up);
   work.cut_outs = meets_cut_outs(shaft);
-  if (!together) gather_round(flat, shaft, work);
-  work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
-  const std::vector<shadow::CrossingTriangle>& crossing = work.group.crossing();
-  const auto crowds_end = [&](const shadow::CrossingTriangle& t) { return is_near_end(*work.tube, shadow::box_of(mesh_, t.number)); };
+  work.find_crossing(shaft, mesh_, flat.near);
+  const std::vector<std::uint32_t>& crossing = work.crossing;
+  const auto crowds_end = [&](std::uint32_t t) { return is_near_end(*work.tube, shadow::box_of(mesh_, t)); };
   work.in_parts = work.tube != nullptr && !crossing.empty() &&
                   (std::any_of(crossing.begin(), crossing.end(), crowds_end) ||
                    std::any_of(slots.begin(), slots.end(), [&](std::uint32_t i) { return is_oblique(*work.tube, work.at(i).position); }));
   std::deque<LightSide> sides;  // find_group keeps addresses
-  find_group(
-      slots,
-      [&](std::uint32_t i) {
-        std::optional<LightSide> side = side_of_round(light, *flat.body, work.at(i).position, ellipse_);
-        if (side) sides.push_back(std::move(*side));
-        return side ? &sides.back() : nullptr;
-      },
-      work);
+  const SideAt side_at = [&](std::uint32_t i) {
+    std::optional<LightSide> side = side_of_round(light, *flat.body, work.at(i).position, ellipse_);
+    if (side) sides.push_back(std::move(*side));
+    return side ? &sides.back() : nullptr;
+  };
+  if (is_taken(slots, work.base, &flat, shaft, flat.near, side_at, work)) return;
+  if (together == nullptr || !std::exchange(work.gathered, true)) gather_round(flat, together != nullptr ? *together : shaft, work);
+  work.group.assign_needed(packs_, mesh_, work.tile, work.base, shaft);
+  find_group(slots, side_at, work);
 }
 
 // The shadow pass for a single point.

@@ -35,6 +35,7 @@ struct ShadowPass::Work {
   std::vector<std::uint32_t> slots, edges, crossing;
   shadow::LightFrame base;     // for round lights: the frame of the arrays' coordinates
   bool turned = false;         // the arrays are in that frame
+  bool gathered = false;       // `tile` has the edges of the groups
   bool whole_outline = false;  // parts come with their light's polygon
   bool cut_outs = false;       // the group's shaft meets cut-outs
   bool in_parts_only = false;  // the light is never found whole: that of a solid has no whole outline
@@ -52,6 +53,12 @@ struct ShadowPass::Work {
     positions.clear();
     up = {};
     add(of);
+  }
+  // Puts the triangles of a list into `crossing` whose sections the shaft needs.
+  void find_crossing(const shadow::Shaft& shaft, const shadow::EdgeMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+    crossing.clear();
+    for (const std::uint32_t t : triangles)
+      if (shaft.needs_triangle(mesh, t)) crossing.push_back(t);
   }
   void add(const std::vector<std::uint32_t>& of) {
     for (const std::uint32_t i : of) {

@@ -116,10 +116,10 @@ void EdgeArrays::Vectors::push_back(const Vec3f& v) {
   z.push_back(v.z);
 }
 
-Vec3d EdgeArrays::anchor_of(const LightFrame& frame) const {
+Vec3d anchor_of(const Around& triangles, const LightFrame& frame) {
   // Farther away than this many radii, roundings of the light's coordinates come near a point's distance from its triangle.
   constexpr double kFar = 4;
-  return length(frame.origin - around_.middle) > kFar * around_.radius ? around_.middle : frame.origin;
+  return length(frame.origin - triangles.middle) > kFar * triangles.radius ? triangles.middle : frame.origin;
 }
 
 void EdgeArrays::clear() {
@@ -181,7 +181,6 @@ void EdgeArrays::assign(const EdgeMesh& mesh, const LightFrame& frame, const std
   clear();
   around_ = mesh.around;
   anchor_ = anchor_of(frame);
-  is_far_ = !(anchor_ == frame.origin);
   vertices_seen.begin(mesh.vertices.size());
   planes_seen.begin(mesh.triangles.size());
   const auto vertex = [&](std::uint32_t v) {
@@ -242,7 +241,6 @@ void EdgeArrays::assign_needed(const ShadowTable& packs, const EdgeMesh& mesh, c
   clear();
   around_ = tile.around_;
   anchor_ = tile.anchor_;
-  is_far_ = tile.is_far_;
   found_.resize(tile.walks0_.size());
   const std::size_t kept = packs.filter(tile.view(), tile.vertices_.view(), tile.normals_.view(), tile.offsets_.data(),
                                         shaft.view_from(frame.axes, anchor_), tile.has_more_.data(), found_.data());

@@ -15,6 +15,10 @@
 
 namespace steradian::shadow {
 
+// Positions in float are relative to an anchor: the origin of a light's frame, or the middle of all triangles for a light that is so far
+// away that its coordinates have no digits for distances between triangles.
+Vec3d anchor_of(const Around& triangles, const LightFrame& frame);
+
 class EdgeArrays {
  public:
   // Takes edges and crossing triangles with these numbers, ascending, in the coordinates of a frame.
@@ -28,11 +32,8 @@ class EdgeArrays {
   // Adds edges of a solid light, in the coordinates of the frame of `assign`: each of its contours bounds a layer of the light.
   void add_light(const EdgeMesh& mesh, const LightFrame& frame, const SolidLight& light, const std::vector<std::uint32_t>& edges);
 
-  // Positions in float are relative to an anchor: the origin of a light's frame, or the middle of all triangles for a light that is so far
-  // away that its coordinates have no digits for distances between triangles.
   Vec3d anchor() const { return anchor_; }
-  Vec3d anchor_of(const LightFrame& frame) const;
-  bool is_far() const { return is_far_; }  // the light
+  Vec3d anchor_of(const LightFrame& frame) const { return shadow::anchor_of(around_, frame); }
 
   bool empty() const { return edge_.empty() && crossing_.empty(); }
   std::size_t edge_count() const { return edge_.size(); }
@@ -78,7 +79,6 @@ class EdgeArrays {
 
   Around around_;
   Vec3d anchor_;
-  bool is_far_ = false;
   std::size_t vertex_count_ = 0, plane_count_ = 0;
   std::size_t of_light_ = 0;  // first vertex of a solid light
   Vectors vertices_;
