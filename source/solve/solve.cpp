@@ -18,8 +18,8 @@ namespace {
 using namespace solving;
 
 constexpr int kCoarseSteps = 25;    // of each starting point
-constexpr double kRounding = 5e-7;  // rms residual of pictures in single precision; shadows' edges, and coarse pictures, end at more:
-constexpr double kRoughly = 2e-6;
+constexpr double kRounding = 5e-7;  // rms residual of pictures in single precision
+constexpr double kShadowed = 2e-6;  // of pictures with shadows, whose edges are less true
 
 constexpr double kMeanSlack = 1e-3;  // of a wanted mean, for the search of the least power
 
@@ -64,7 +64,7 @@ class Solver {
       settings_.typical.push_back(u.typical);
     }
     settings_.max_steps = options.max_steps;
-    settings_.rounding = cost_of(options.render.shadows != Shadows::off ? kRoughly : kRounding);
+    settings_.rounding = cost_of(options.render.shadows != Shadows::off ? kShadowed : kRounding);
     settings_.tolerance = options.tolerance;
     settings_.same = [this](std::vector<double> x) { return with_quarter_turns(lights_, std::move(x)); };
   }
@@ -132,7 +132,6 @@ class Solver {
     const double own_cost = problem_.evaluate(own, Wants::cost).cost;
     if (own_cost <= settings_.rounding) return own;
     BoxSettings settings = settings_;
-    settings.rounding = cost_of(kRoughly);
     if (options_.starts > 1) settings.max_steps = kCoarseSteps;
     reference::Random random(options_.seed);
     BoxMinimum best;
