@@ -95,7 +95,8 @@ void find_leaves(uint shaft) {
 // that the group needs from a place on, if `writes` is true. Returns their number.
 uint list_edges(uint shaft, bool writes, uint to) {
     uint count = 0u;
-    for (uint i = 0u; i < leaf_count; i++) {
+    uint all = writes ? counts[gl_LocalInvocationID.x] : leaf_count;
+    for (uint i = 0u; i < leaf_count && count < all; i++) {
         uint at = gl_LocalInvocationID.x * leaf_count + i;
         uint number = met_leaves[at / uint(kLeaf)] + at % uint(kLeaf);
         if (number >= mesh[0].x) continue;
