@@ -179,7 +179,13 @@ TEST(ViewWorker, ShowsDirectLightThenAPreviewThenAllLight) {
   EXPECT_EQ(shown(true), (std::vector<Shown>{{ShownLight::direct, 1, false}})) << "a preview takes too long";
   preview_ms = 1;
   EXPECT_EQ(shown(false).back(), (Shown{ShownLight::all, 1, true}));
-  EXPECT_EQ(shown(true), (std::vector<Shown>{{ShownLight::preview, 1, false}}));
+  const std::vector<Shown> preview{{ShownLight::preview, 1, false}};
+  EXPECT_EQ(shown(true), preview);
+  preview_ms = 190;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(shown(true), preview) << "five pictures a second";
+  preview_ms = 1e3;
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(shown(true), preview) << "one picture that takes long does not end the previews";
+  EXPECT_EQ(shown(true), (std::vector<Shown>{{ShownLight::direct, 1, false}})) << "but two of them do";
 }
 
 TEST(ViewWorker, ChoosesTheLargestPictureThatTheTimeAllows) {
