@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kFrameMs = 1000.0 / 30;   // of a picture while things move
 constexpr double kPreviewMs = 1000.0 / 5;  // of one with all light
+constexpr double kColdPreviewMs = 1000;    // of the first one ever, which also pays for cold caches
 constexpr double kLongMs = 500;            // of a picture that a smaller one precedes, at rest
 
 double ms_since(std::chrono::steady_clock::time_point start) {
@@ -172,9 +173,10 @@ Worker::Step Worker::first_step(const RenderRequest& request) const {
   const bool bounces = request.options.bounces != 0;
   if (bounces) {
     const Cost preview = cost_of(ShownLight::preview);
+    const bool cold = costs_[static_cast<std::size_t>(ShownLight::preview)].before.divisor == 0;
     const int divisor = divisor_within(kPreviewMs, preview);
-    if (preview.divisor != 0 && preview.fixed_ms + whole_ms({0, preview.pixels_ms, preview.divisor}) / (divisor * divisor) <= kPreviewMs)
-      return {ShownLight::preview, divisor};
+    const double time_ms = preview.fixed_ms + whole_ms({0, preview.pixels_ms, preview.divisor}) / (divisor * divisor);
+    if (preview.divisor != 0 && time_ms <= (cold ? kColdPreviewMs : kPreviewMs)) return {ShownLight::preview, divisor};
   }
   const ShownLight light = bounces ? ShownLight::direct : ShownLight::all;
   const Cost cost = cost_of(light);
