@@ -9,7 +9,8 @@ namespace steradian::view {
 namespace {
 
 constexpr double kFrameMs = 1000.0 / 30;   // of a picture while things move
-constexpr double kPreviewMs = 1000.0 / 6;  // of one with all light
+constexpr double kPreviewMs = 1000.0 / 5;  // of one with all light
+constexpr double kColdPreviewMs = 1000;    // of the first one ever, which also pays for cold caches
 constexpr double kLongMs = 500;            // of a picture that a smaller one precedes, at rest
 
 double ms_since(std::chrono::steady_clock::time_point start) {
@@ -162,17 +163,23 @@ void Worker::answer(const Job& job) {
   if (frame.pairs > 0) accumulate(job, std::move(frame));
 }
 
+Cost Worker::cost_of(ShownLight light) const {
+  const auto& [last, before] = costs_[static_cast<std::size_t>(light)];
+  return before.divisor != 0 && whole_ms(before) < whole_ms(last) ? before : last;
+}
+
 // The light and the size of the picture that is shown while things move.
 Worker::Step Worker::first_step(const RenderRequest& request) const {
   const bool bounces = request.options.bounces != 0;
   if (bounces) {
-    const Cost& preview = costs_[static_cast<std::size_t>(ShownLight::preview)];
+    const Cost preview = cost_of(ShownLight::preview);
+    const bool cold = costs_[static_cast<std::size_t>(ShownLight::preview)].before.divisor == 0;
     const int divisor = divisor_within(kPreviewMs, preview);
-    if (preview.divisor != 0 && preview.fixed_ms + whole_ms({0, preview.pixels_ms, preview.divisor}) / (divisor * divisor) <= kPreviewMs)
-      return {ShownLight::preview, divisor};
+    const double time_ms = preview.fixed_ms + whole_ms({0, preview.pixels_ms, preview.divisor}) / (divisor * divisor);
+    if (preview.divisor != 0 && time_ms <= (cold ? kColdPreviewMs : kPreviewMs)) return {ShownLight::preview, divisor};
   }
   const ShownLight light = bounces ? ShownLight::direct : ShownLight::all;
-  const Cost& cost = costs_[static_cast<std::size_t>(light)];
+  const Cost cost = cost_of(light);
   return {light, cost.divisor == 0 ? 4 : divisor_within(kFrameMs, cost)};
 }
 
@@ -183,7 +190,7 @@ std::vector<Worker::Step> Worker::further_steps(const RenderRequest& request, St
   const bool bounces = request.options.bounces != 0;
   if (bounces && first.light == ShownLight::direct) steps.push_back({ShownLight::preview, 4});
   // If the whole picture takes long, one of half the size comes before it.
-  const Cost& cost = costs_[static_cast<std::size_t>(ShownLight::all)];
+  const Cost cost = cost_of(ShownLight::all);
   const bool takes_long = cost.divisor == 0 ? bounces : whole_ms(cost) > kLongMs;
   if (takes_long && (bounces || first.divisor > 2)) steps.push_back({ShownLight::all, 2});
   steps.push_back({ShownLight::all, 1});
@@ -235,7 +242,8 @@ bool Worker::show(const Job& job, RenderedFrame& frame, Step step) {
     return false;
   }
   const double fixed = fixed_ms(frame.stats) + fixed_ms(frame.other_stats);
-  costs_[static_cast<std::size_t>(step.light)] = {fixed, std::max(ms_since(start) - fixed, 0.0), step.divisor};
+  Measured& measured = costs_[static_cast<std::size_t>(step.light)];
+  measured = {{fixed, std::max(ms_since(start) - fixed, 0.0), step.divisor}, measured.last};
   frame.divisor = step.divisor;
   frame.light = step.light;
   frame.last = last && (frame.pairs == 0 || frame.standard_error <= request.other->target_error);

@@ -6,7 +6,7 @@
 // long as there is no new request. Sorted data of one picture is cached for the next (LoadOptions::meshes, RenderCache).
 //
 // With bounces, the first picture at rest has direct light alone, then comes a preview of all light, then all light. While things move,
-// pictures are previews if those take no more than a sixth of a second, else direct light.
+// pictures are previews if those take no more than a fifth of a second, else direct light.
 #pragma once
 
 #include <array>
@@ -91,6 +91,7 @@ class Worker {
     int divisor;
     bool operator==(const Step&) const = default;
   };
+  Cost cost_of(ShownLight light) const;  // the lesser of the last two: the machine may have delayed one picture
   Step first_step(const RenderRequest& request) const;
   std::vector<Step> further_steps(const RenderRequest& request, Step first) const;
   bool show(const Job& job, RenderedFrame& frame, Step step);  // false: cancelled
@@ -115,7 +116,10 @@ class Worker {
   RenderCache cache_;
   Accumulation accumulation_;
   std::string device_lost_;
-  std::array<Cost, 3> costs_;  // by light
+  struct Measured {
+    Cost last, before;
+  };
+  std::array<Measured, 3> costs_;  // by light
 
   const Render render_;
   std::thread thread_;
