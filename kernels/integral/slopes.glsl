@@ -12,7 +12,7 @@
 // No projection is needed, since the normal is across both ends. Where the light is seen from behind, the sum changes its sign.
 // Frame and walk order: as polygon.glsl has them. docs/theory/derivatives.md has the derivation.
 // Needs: constants.glsl inverse_trig.glsl polygon.glsl complex.glsl quartic.glsl gauss_legendre.glsl microfacet.glsl phong.glsl conic.glsl ltc.glsl ggx_closed_form.glsl moment.glsl moment_cosine.glsl
-// Topics: edge, polygon_edge, polygon_part, ltc_edge, ltc_part, phong_edge, ggx_edge
+// Topics: edge, polygon_edge, polygon_part, ltc_edge, ltc_part, phong_edge, phong_part, ggx_edge
 // Source: Reynolds' transport theorem, applied to the boundary integrals of polygon.glsl, ltc.glsl, moment.glsl and ggx_closed_form.glsl.
 // SPDX-License-Identifier: MIT, (c) 2026 The Steradian authors.
 

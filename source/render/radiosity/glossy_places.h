@@ -15,7 +15,7 @@ struct GlossyPlaces {
   std::vector<float> x, y, z;           // directions in the lobe's frame
   std::vector<float> red, green, blue;  // radiance times solid angle
   std::vector<float> alpha_x, alpha_y;  // of the lobe, widened
-  // What the lobe sends over what it sends when it is widened for few rays: without Fresnel, and of Schlick's fifth power.
+  // Light that the lobe sends, over that of the lobe widened for few rays: without Fresnel, and of Schlick's fifth power.
   std::vector<float> energy, grazing_energy;
 
   void add(Vec3f direction, Vec3f light, float width_x, float width_y, float over_wider, float grazing_over_wider) {

@@ -9,9 +9,9 @@ using radiosity::GlossyTable;
 
 float sum_of(PackReal x) { return xsimd::hadd(x.v); }
 
-enum class Width { own, wider, wider_with_its_energy };
+enum class LobeWidth { own, wider, wider_with_its_energy };
 
-template <Width width>
+template <LobeWidth lobe_width>
 __attribute__((flatten)) GlossyTable::Sent sent_by(const GlossyPlaces& places, std::size_t first, std::size_t count, Vec3f view_of,
                                                    float wider) {
   PackKernels k;
@@ -23,12 +23,12 @@ __attribute__((flatten)) GlossyTable::Sent sent_by(const GlossyPlaces& places, s
     const PackVec3 h = k.microfacet_half_vector(l, view);
     const auto widened = [&](const float* alpha) {
       const PackReal own = load(alpha);
-      return width == Width::own ? own : sqrt(own * own + wider2);
+      return lobe_width == LobeWidth::own ? own : sqrt(own * own + wider2);
     };
     const PackReal shape = k.ggx_lobe(l, view, widened(&places.alpha_x[i]), widened(&places.alpha_y[i]));
     const PackReal power = k.fresnel_schlick(zero, PackReal(1.0), dot(view, h));
     const PackVec3 light = PackVec3(load(&places.red[i]), load(&places.green[i]), load(&places.blue[i])) * shape;
-    if constexpr (width == Width::wider_with_its_energy) {
+    if constexpr (lobe_width == LobeWidth::wider_with_its_energy) {
       all = all + light * load(&places.energy[i]);
       grazing = grazing + light * (power * load(&places.grazing_energy[i]));
     } else {
@@ -40,9 +40,9 @@ __attribute__((flatten)) GlossyTable::Sent sent_by(const GlossyPlaces& places, s
 }
 
 GlossyTable::Sent sent(const GlossyPlaces& places, std::size_t first, std::size_t count, Vec3f view, float wider, bool keeps_energy) {
-  if (wider == 0) return sent_by<Width::own>(places, first, count, view, wider);
-  return keeps_energy ? sent_by<Width::wider_with_its_energy>(places, first, count, view, wider)
-                      : sent_by<Width::wider>(places, first, count, view, wider);
+  if (wider == 0) return sent_by<LobeWidth::own>(places, first, count, view, wider);
+  return keeps_energy ? sent_by<LobeWidth::wider_with_its_energy>(places, first, count, view, wider)
+                      : sent_by<LobeWidth::wider>(places, first, count, view, wider);
 }
 
 }  // namespace
