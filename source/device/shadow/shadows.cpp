@@ -98,14 +98,14 @@ bool DeviceShadows::fits(const DeviceInfo& device, const ShadowEdges& edges, con
   return std::max(of_mesh, frames * vectors_of_frame(mesh)) * kVector <= device.storage_buffer;
 }
 
-// Writes the vertices and planes for lights that no earlier search has asked for.
+// Writes the vertices and planes for lights that no earlier search has asked for. Point lights need none, but the buffer is there.
 void DeviceShadows::upload_frames() {
   std::vector<const TileShadows::Search*> added;
   const std::size_t before = frames_.size();
   for (const TileShadows& tile : tiles_)
     for (const TileShadows::Search& group : tile.groups)
       if (frames_.emplace(group.key, frames_.size()).second) added.push_back(&group);
-  if (added.empty()) return;
+  if (added.empty() && before > 0) return;
   const shadow::EdgeMesh& mesh = kept_.edges->mesh;
   const std::size_t vectors = vectors_of_frame(mesh), all = std::max<std::size_t>(frames_.size() * vectors, 1);
   const void* last = before > 0 ? kept_.frames.get().mapped() : nullptr;
