@@ -136,7 +136,6 @@ TEST(ViewSession, GoesOnWithTheCpuWhereADeviceIsLost) {
   EXPECT_EQ(render(shown, cpu).pixels, s.frame().picture.pixels);
 }
 
-// Steps of a picture with bounces: a render that takes no time of its own, and tells the times of its passes.
 struct Shown {
   ShownLight light;
   int divisor;
@@ -144,6 +143,7 @@ struct Shown {
   bool operator==(const Shown&) const = default;
 };
 
+// Steps of a picture with bounces: a render that takes no time of its own, and tells the times of its passes.
 struct Steps {
   explicit Steps(double preview) : preview_ms(preview) {
     request.file = scene::read_gltf_file(room());

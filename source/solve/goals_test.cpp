@@ -10,6 +10,8 @@
 #include "core/random.h"
 #include "night.h"
 #include "solve/lamp_room_test.h"
+#include "steradian/area_light.h"
+#include "steradian/polygon_light.h"
 #include "steradian/solve.h"
 
 namespace steradian::solve_test {
@@ -153,6 +155,9 @@ TEST(SolveGoals, FindLampsTogether) {
     const Fits fits = lamps_together(c.lamps, c.rounds, c.width, c.height, c.threads);
     std::printf("| %d | %d x %d | %td of %d | %.0f | %.2f s | %.2f s | %.1e m |\n", c.lamps, c.width, c.height, fits.found(), c.rounds,
                 median(fits.evaluations), median(fits.processor), median(fits.wall), median(fits.off));
+    if (c.lamps < 8) {
+      EXPECT_GE(6 * fits.found(), 5 * c.rounds) << c.lamps << " lamps";  // of eight lamps, most fits end in a trap
+    }
   }
 }
 
@@ -176,8 +181,20 @@ TEST(SolveGoals, IlluminateTenThousandPoints) {
   const std::vector<LightTarget> targets{floor};
   const LightModel model(scene, fits, {}, targets, options);
   std::vector<double> times;
-  for (int i = 0; i < 5; ++i) times.push_back(time_of([&] { model.at(model.start()); }).processor);
+  LightModel::Values lux;
+  for (int i = 0; i < 5; ++i) times.push_back(time_of([&] { lux = model.at(model.start()); }).processor);
   std::printf("| illuminances | processor time |\n|---|---|\n| 100 lamps, 10,000 points | %.1f ms |\n", 1e3 * median(times));
+  // Each of 100 lamps in single precision is within 1e-6 of its irradiance.
+  ASSERT_EQ(lux.value.size(), floor.points.size());
+  for (std::size_t k = 0; k < floor.points.size(); k += 777) {
+    double truth = 0;
+    for (const AreaLight& light : scene.area_lights) {
+      PolygonLight panel;
+      panel.vertices = std::get<Polygon>(light.shape).vertices;
+      truth += luminance(light.radiance) * polygon_irradiance(prepare_polygon(panel), floor.points[k], {0, 1, 0});
+    }
+    EXPECT_NEAR(lux.value[k], truth, 1e-6 * truth) << k;
+  }
 }
 
 }  // namespace steradian::solve_test

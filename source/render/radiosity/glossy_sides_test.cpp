@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "core/lattices.h"
-#include "support/boxes.h"
+#include "steradian/scene.h"
 
 namespace steradian {
 
