@@ -19,12 +19,11 @@ Vec3f root(Vec3f v) { return {std::sqrt(v.x), std::sqrt(v.y), std::sqrt(v.z)}; }
 float x_of(std::size_t lane) { return static_cast<float>(lane % 4); }
 float y_of(std::size_t lane) { return static_cast<float>(lane / 4); }
 
-// True if two surfaces lie in one plane.
-bool share_plane(const Surface& a, const Surface& b) {
-  constexpr float kSameDirection = 0.98f;  // cosine
-  constexpr float kFlat = 0.1f;            // distance from the plane over the distance
+// True if two surfaces lie in one plane. same_direction: least cosine between their normals.
+bool share_plane(const Surface& a, const Surface& b, float same_direction) {
+  constexpr float kOff = 0.1f;  // distance from the plane over the distance
   const Vec3f way = b.position - a.position;
-  return dot(a.normal, b.normal) > kSameDirection && std::fabs(dot(way, a.normal)) <= kFlat * length(way);
+  return dot(a.normal, b.normal) > same_direction && std::fabs(dot(way, a.normal)) <= kOff * length(way);
 }
 
 }  // namespace
@@ -74,6 +73,9 @@ void LinearFit::shrink_slopes() {
   slope_y_ = shrunk(slope_y_, yy_);
 }
 
+BlockFit::BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked, bool alone, float turn)
+    : surfaces_(surfaces), asked_(asked), alone_(alone), same_direction_(std::cos(turn)) {}
+
 // The error of the fit's value has the distance from the pixel's own value, too.
 FittedValue BlockFit::at(std::size_t lane, const std::array<Gathered, kLanes>& means, Keeps keeps) const {
   constexpr int kFewest = 6;  // pixels of a fit
@@ -83,7 +85,7 @@ FittedValue BlockFit::at(std::size_t lane, const std::array<Gathered, kLanes>& m
   std::size_t count = 0;
   Vec3f low = means[lane].value, high = low;
   SixteenSurfaces::each(asked_, [&](std::size_t i) {
-    if (i != lane && !share_plane(surfaces_.surface[lane], surfaces_.surface[i])) return;
+    if (i != lane && !share_plane(surfaces_.surface[lane], surfaces_.surface[i], same_direction_)) return;
     points[count++] = {x_of(i), y_of(i), means[i]};
     low = each_channel([](float a, float b) { return std::min(a, b); }, low, means[i].value);
     high = each_channel([](float a, float b) { return std::max(a, b); }, high, means[i].value);
@@ -111,9 +113,10 @@ FittedValue BlockFit::at(std::size_t lane, const std::array<Gathered, kLanes>& m
 }
 
 bool in_one_plane(const FourBlocks& blocks) {
+  const float same_direction = std::cos(BlockFit::kFlat);
   for (const SixteenSurfaces& block : blocks) {
     for (const Surface& s : block.surface)
-      if (&s != &blocks[0].surface[0] && !share_plane(blocks[0].surface[0], s)) return false;
+      if (&s != &blocks[0].surface[0] && !share_plane(blocks[0].surface[0], s, same_direction)) return false;
   }
   return true;
 }

@@ -47,8 +47,9 @@ struct FittedValue {
 class BlockFit {
  public:
   static constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
-  // alone: every pixel keeps its own value.
-  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked, bool alone) : surfaces_(surfaces), asked_(asked), alone_(alone) {}
+  static constexpr float kFlat = 0.2f;  // angle between the normals of pixels in one plane
+  // alone: every pixel keeps its own value. turn: most angle between the normals of pixels that one fit joins.
+  BlockFit(const SixteenSurfaces& surfaces, std::uint32_t asked, bool alone, float turn = kFlat);
 
   // own_values: the pixel's own value takes the place of the fit's where the values differ by more than their errors.
   enum class Keeps { nothing, own_values };
@@ -58,6 +59,7 @@ class BlockFit {
   const SixteenSurfaces& surfaces_;
   const std::uint32_t asked_;
   const bool alone_;
+  const float same_direction_;  // least cosine between normals
 };
 
 // Four blocks of 4 x 4 pixels that make 8 x 8.

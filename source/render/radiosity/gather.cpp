@@ -42,6 +42,26 @@ Vec3f error_of_quarters(const std::array<Vec3f, 4>& values, Vec3f mean) {
   return {std::sqrt(squares.x / 12), std::sqrt(squares.y / 12), std::sqrt(squares.z / 12)};
 }
 
+// A sum of the light of four quarters of the directions, with its standard error.
+Gathered mean_of_quarters(const std::array<Vec3f, 4>& light) {
+  Gathered result{};
+  std::array<Vec3f, 4> alone;  // each quarter as if it were all
+  for (std::size_t q = 0; q < 4; ++q) {
+    result.value += light[q];
+    alone[q] = light[q] * 4;
+  }
+  result.error = error_of_quarters(alone, result.value);
+  return result;
+}
+
+// Place in a lobe of direction `k` of `count`, for a pixel of 4 x 4. Each pixel has a lattice of its own: together they see as many
+// directions as all.
+std::array<double, 2> place_in_lobe(std::size_t k, std::size_t count, std::size_t pixel, double turn) {
+  const auto [shift, turned] = r2_place(kPlaces[pixel]);
+  const auto [u, v] = fibonacci_place(k, count, turn + turned);
+  return {u + (shift - 0.5) / static_cast<double>(count), v};
+}
+
 Vec3d ratio(Vec3d a, Vec3d b) {
   const auto one = [](double x, double y) { return y > 0 ? x / y : 1.0; };
   return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
@@ -51,6 +71,18 @@ Vec3d ratio(Vec3d a, Vec3d b) {
 float gathered_fraction(const SurfaceLobe& lobe) {
   const Material& m = lobe.material;
   return m.brdf == Brdf::ggx ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y)) : 1;
+}
+
+// True if one of sixteen lobes reflects so much that its noise would show more than that of diffuse light.
+bool reflects_much(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, SixteenSurfaces::kLanes>& lobes) {
+  constexpr double kMuch = 0.2;
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (lobes[i] == nullptr) continue;
+    const std::optional<Vec3d> albedo =
+        lobes::known_albedo(lobes[i]->material, static_cast<double>(dot(lobes[i]->normal, surfaces.view[i])));
+    if (!albedo || std::max({albedo->x, albedo->y, albedo->z}) > kMuch) return true;
+  }
+  return false;
 }
 
 // Surfaces that have a diffuse lobe.
@@ -162,14 +194,7 @@ std::array<FittedValue, Gather::kLanes> Gather::bright(const SixteenSurfaces& su
   Quarters<Vec3f> light{};
   add_bright(surfaces, asked, sample, level, light);
   std::array<Gathered, kLanes> means{};
-  SixteenSurfaces::each(asked, [&](std::size_t i) {
-    std::array<Vec3f, 4> of_places;
-    for (std::size_t q = 0; q < 4; ++q) {
-      means[i].value += light[i][q];
-      of_places[q] = light[i][q] * 4;
-    }
-    means[i].error = error_of_quarters(of_places, means[i].value);
-  });
+  SixteenSurfaces::each(asked, [&](std::size_t i) { means[i] = mean_of_quarters(light[i]); });
   // The places of a pixel lie between those of its neighbours: its quarters are nearer to each other than to the truth.
   const BlockFit fit(surfaces, asked, strict_);
   SixteenSurfaces::each(asked, [&](std::size_t i) { fitted[i] = fit.at(i, means, BlockFit::Keeps::nothing); });
@@ -287,7 +312,7 @@ bool Gather::diffuse_of_square(const FourBlocks& blocks, int sample, std::array<
 // One glossy lobe of each surface that has one.
 Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
                            std::size_t level) const {
-  const std::size_t count = lobe_rays_ << (2 * level);
+  const std::size_t finer = std::min(level + (reflects_much(surfaces, of) ? 1 : 0), kFinest), count = lobe_rays_ << (2 * finer);
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;
@@ -297,6 +322,8 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     Vec3d weights;  // sum over the directions, which the albedo corrects
   };
   std::array<std::optional<Walker>, kLanes> walkers;
+  std::uint32_t asked = 0;
+  float narrowest = BlockFit::kFlat;
   BounceRays rays(rays_, light_.patches());
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (of[i] == nullptr) continue;
@@ -307,52 +334,60 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     if (!lobe.above_surface()) continue;
     rays.start(i, s);
     // Half of its width is about the distance between 64 directions of a lobe, in half vectors.
-    const double width = std::min(std::max(of[i]->material.alpha_x, of[i]->material.alpha_y), 0.25);
+    const Material& material = of[i]->material;
+    const double width = std::min(std::max(material.alpha_x, material.alpha_y), 0.25);
+    // Where the normals turn by half of the width, the lobe turns by half of it too.
+    narrowest = std::min(narrowest, static_cast<float>(0.5 * std::min(material.alpha_x, material.alpha_y)));
     walkers[i] = Walker{frame,
                         lobe,
                         static_cast<double>(gathered_fraction(*of[i])),
-                        static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(level))),
+                        static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(finer))),
                         lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
                         Vec3d{}};
+    asked |= 1u << i;
   }
-  std::array<std::array<Vec3f, 2>, kLanes> halves{};
+  Quarters<Vec3f> light{};
   std::array<Vec3f, kLanes> widened{};  // change by the added width
   for (std::size_t k = 0; k < count; ++k) {
-    const auto [u, v] = fibonacci_place(k, count, static_cast<double>(sample % samples_) / samples_);
     std::array<Vec3f, kLanes> weight{}, to{};
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      if (!walkers[i]) continue;
+    SixteenSurfaces::each(asked, [&](std::size_t i) {
+      const auto [u, v] = place_in_lobe(k, count, i, static_cast<double>(sample % samples_) / samples_);
       const lobes::Lobe& lobe = walkers[i]->lobe;
       const Vec3d l = lobe.sample(u, v);
-      if (!(l.z > 0)) continue;
+      if (!(l.z > 0)) return;
       const double pdf = lobe.pdf(l);
-      if (!(pdf > 0)) continue;
+      if (!(pdf > 0)) return;
       const Vec3d whole = lobe.radiance(lobe.evaluate(l)) * (1 / (pdf * static_cast<double>(count)));
       walkers[i]->weights += whole;
       weight[i] = static_cast<Vec3f>(whole * walkers[i]->fraction);
       to[i] = static_cast<Vec3f>(walkers[i]->frame.to_world(l));
       rays.set(i, to[i]);
-    }
+    });
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
       const Vec3f weighted = weight[i] * rays.tint(i);
-      halves[i][k % 2] += light_.radiance(met[i]) * weighted;
+      light[i][k % 4] += light_.radiance(met[i]) * weighted;
       if (!light_.has_lobe(met[i].side)) continue;
       const Vec3f of_lobe = light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider);
-      halves[i][k % 2] += of_lobe * weighted;
+      light[i][k % 4] += of_lobe * weighted;
       widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * weighted;
     }
   }
+  std::array<Gathered, kLanes> gathered{};
+  SixteenSurfaces::each(asked, [&](std::size_t i) {
+    if (walkers[i]->albedo)
+      for (Vec3f& quarter : light[i]) quarter = quarter * static_cast<Vec3f>(ratio(*walkers[i]->albedo, walkers[i]->weights));
+    gathered[i] = mean_of_quarters(light[i]);
+  });
+  const BlockFit fit(surfaces, asked, strict_, narrowest);
   Lit lit;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    if (walkers[i] && walkers[i]->albedo)
-      for (Vec3f& half : halves[i]) half = half * static_cast<Vec3f>(ratio(*walkers[i]->albedo, walkers[i]->weights));
-    lit.result.radiance[i] = halves[i][0] + halves[i][1];
-    // Each half stands for half of the light.
-    lit.standard[i] = absolute(halves[i][0] - halves[i][1]) + absolute(widened[i]);
-    lit.result.error[i] = lit.standard[i];
-  }
+  SixteenSurfaces::each(asked, [&](std::size_t i) {
+    const FittedValue fitted = fit.at(i, gathered, BlockFit::Keeps::own_values);
+    lit.result.radiance[i] = fitted.value;
+    lit.standard[i] = fitted.standard + absolute(widened[i]);
+    lit.result.error[i] = fitted.error + absolute(widened[i]);
+  });
   return lit;
 }
 
