@@ -68,9 +68,9 @@ Vec3d ratio(Vec3d a, Vec3d b) {
 }
 
 // Fraction of a lobe's light that its own directions gather.
-float gathered_fraction(const SurfaceLobe& lobe) {
+float gathered_fraction(const SurfaceLobe& lobe, Gather::Mirrored mirrored) {
   const Material& m = lobe.material;
-  return m.brdf == Brdf::ggx ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y)) : 1;
+  return m.brdf == Brdf::ggx && mirrored == Gather::Mirrored::by_rays ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y)) : 1;
 }
 
 // True if one of sixteen lobes reflects so much that its noise would show more than that of diffuse light.
@@ -311,7 +311,7 @@ bool Gather::diffuse_of_square(const FourBlocks& blocks, int sample, std::array<
 
 // One glossy lobe of each surface that has one.
 Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
-                           std::size_t level) const {
+                           Mirrored mirrored, std::size_t level) const {
   const std::size_t finer = std::min(level + (reflects_much(surfaces, of) ? 1 : 0), kFinest), count = lobe_rays_ << (2 * finer);
   struct Walker {
     Frame frame;
@@ -340,7 +340,7 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     narrowest = std::min(narrowest, static_cast<float>(0.5 * std::min(material.alpha_x, material.alpha_y)));
     walkers[i] = Walker{frame,
                         lobe,
-                        static_cast<double>(gathered_fraction(*of[i])),
+                        static_cast<double>(gathered_fraction(*of[i], mirrored)),
                         static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(finer))),
                         lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
                         Vec3d{}};
@@ -417,30 +417,30 @@ void Gather::add_diffuse(const SixteenSurfaces& surfaces, int sample, std::size_
   refine([&](std::size_t level) { return diffuse(surfaces, asked, sample, level, block, level == 0 ? first : nullptr); }, sum);
 }
 
-void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Result& sum) const {
+void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored, Result& sum) const {
   std::array<std::vector<SurfaceLobe>, kLanes> lobes;
   std::size_t most = 0;
   SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
     for (SurfaceLobe& lobe : lobes_of(surfaces.surface[i]))
-      if (lobe.material.brdf != Brdf::lambert && gathered_fraction(lobe) > 0) lobes[i].push_back(std::move(lobe));
+      if (lobe.material.brdf != Brdf::lambert && gathered_fraction(lobe, mirrored) > 0) lobes[i].push_back(std::move(lobe));
     most = std::max(most, lobes[i].size());
   });
   for (std::size_t k = 0; k < most; ++k) {
     std::array<const SurfaceLobe*, kLanes> of{};
     for (std::size_t i = 0; i < kLanes; ++i)
       if (k < lobes[i].size()) of[i] = &lobes[i][k];
-    refine([&](std::size_t level) { return glossy(surfaces, of, sample, level); }, sum);
+    refine([&](std::size_t level) { return glossy(surfaces, of, sample, mirrored, level); }, sum);
   }
 }
 
-Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample) const {
+Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored) const {
   Result result;
   add_diffuse(surfaces, sample, 0, nullptr, result);
-  add_glossy(surfaces, sample, result);
+  add_glossy(surfaces, sample, mirrored, result);
   return result;
 }
 
-std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sample) const {
+std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sample, Mirrored mirrored) const {
   std::array<Result, 4> results;
   std::array<Sums, 4> first;
   std::array<Lit, 4> lit;
@@ -452,7 +452,7 @@ std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sa
       add(lit[b].result, results[b]);
     else
       add_diffuse(blocks[b], sample, b, may_join ? &first[b] : nullptr, results[b]);
-    add_glossy(blocks[b], sample, results[b]);
+    add_glossy(blocks[b], sample, mirrored, results[b]);
   }
   return results;
 }

@@ -3,7 +3,7 @@
 // A diffuse lobe takes the mean over a grid of directions, weighted by the cosine. Each of 4 x 4 pixels shifts the grid by its own fraction
 // of a cell, and a linear fit over the pixels of one surface joins their means: together they see sixteen times as many directions. Where
 // the light of 8 x 8 pixels is a plane, a quarter of the directions serves each. A glossy lobe takes directions of its own. Narrow lobes
-// would show single patches: mirrors serve them (mirrored_fraction).
+// would show single patches: mirrored rays serve them (mirrored_fraction) but in the last mirror of a row.
 #pragma once
 
 #include <array>
@@ -30,13 +30,15 @@ class Gather {
   // All must outlive this object, but for the options.
   Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, const Options& options);
 
+  // The light of narrow lobes: mirrored rays show it, or there are no such rays.
+  enum class Mirrored { by_rays, from_patches };
   // Radiance that each surface reflects to its view, and an estimate of its error.
   struct Result {
     std::array<Vec3f, kLanes> radiance{}, error{};
   };
-  Result reflected(const SixteenSurfaces& surfaces, int sample) const;
+  Result reflected(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored) const;
   // The same for 8 x 8 pixels.
-  std::array<Result, 4> reflected(const FourBlocks& blocks, int sample) const;
+  std::array<Result, 4> reflected(const FourBlocks& blocks, int sample, Mirrored mirrored) const;
 
  private:
   // Sums by quarter of the rays. The differences between the quarters estimate the error of all.
@@ -64,9 +66,10 @@ class Gather {
   Lit diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, std::size_t block,
               const Sums* first) const;
   bool diffuse_of_square(const FourBlocks& blocks, int sample, std::array<Sums, 4>& first, std::array<Lit, 4>& lit) const;
-  Lit glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, std::size_t level) const;
+  Lit glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, Mirrored mirrored,
+             std::size_t level) const;
   void add_diffuse(const SixteenSurfaces& surfaces, int sample, std::size_t block, const Sums* first, Result& sum) const;
-  void add_glossy(const SixteenSurfaces& surfaces, int sample, Result& sum) const;
+  void add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored, Result& sum) const;
   template <class Of>
   void refine(Of of, Result& sum) const;
   static void add(const Result& result, Result& sum);
