@@ -31,6 +31,7 @@ AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, std::un
       patches_(std::move(patches)),
       bounds_(std::move(bounds)),
       gather_(*patches_, surfaces.rays(), radiosity::fineness_of(options), {options.bounce_error, options.bounce_strict, options.aa}),
+      in_lobes_(*patches_, surfaces.rays(), options.aa),
       mirror_images_(kMostTurns, radiosity::MirrorImage(options.width, options.height, size_of_pixel(surfaces.camera().steps(1)),
                                                         kFar * static_cast<float>(surfaces.rays().reach()))),
       surfaces_(surfaces),
@@ -132,7 +133,9 @@ void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, 
       const std::size_t slot = tile_slot(x, y), from = radiosity::traced_slot(stands_for, x, y);
       if (mirrors->ways.bent[slot] != 0) steradian::add(error, slot, get(error_of_mirrored, from));
     }
-  image.take({tile, *mirrors, stands_for, reach, mirrored, seen.shares, seen.weight}, seen.area);
+  TileVector patches;
+  in_lobes_.along_rays(*mirrors, stands_for, patches);
+  image.take({tile, *mirrors, stands_for, reach, mirrored, &patches, seen.shares, seen.weight}, seen.area);
   for (std::size_t i = 0; i < kTilePixels; ++i) steradian::add(light, i, get(mirrored, i));
 }
 
@@ -182,7 +185,7 @@ void AllLight::add_bounds(const SurfaceTile& tile, const TileVector& light, cons
 
 void AllLight::finish(Picture& picture) {
   clock_.run([&] {
-    for (const radiosity::MirrorImage& image : mirror_images_) image.blur(picture);
+    for (const radiosity::MirrorImage& image : mirror_images_) image.blur(picture, &in_lobes_);
   });
 }
 

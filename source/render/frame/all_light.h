@@ -51,6 +51,7 @@ class AllLight {
   const std::shared_ptr<const radiosity::PatchLight> patches_;
   const std::unique_ptr<const certificate::BounceBounds> bounds_;
   const radiosity::Gather gather_;
+  const radiosity::PatchesInLobes in_lobes_;
   std::vector<radiosity::MirrorImage> mirror_images_;  // by layer of surfaces
   const FrameSurfaces& surfaces_;
   const radiosity::AddDirect add_direct_;

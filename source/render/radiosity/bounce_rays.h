@@ -19,6 +19,11 @@ class BounceRays {
 
   // Lets the rays of a lane begin on a surface.
   void start(std::size_t lane, const Surface& from);
+  // Lets the rays of a lane begin at a place off its surface. above: they go to the side of this direction.
+  void start_off(std::size_t lane, Vec3f origin, Vec3f above) {
+    origin_[lane] = origin;
+    normal_[lane] = above;
+  }
   // Sets the direction of a lane's ray, and asks for it. Rays into the surface's triangle meet nothing.
   void set(std::size_t lane, Vec3f direction) {
     if (!(dot(direction, normal_[lane]) > 0)) return;

@@ -18,6 +18,15 @@ constexpr float kFine = 0.33f;       // size of a block over the distance in whi
 constexpr float kCoarse = 0.5f;      // ... and far out, where little of the lobe is
 constexpr float kContinuous = 0.9f;  // cosine between normals of neighbours on one smooth surface
 
+
+// Weight of the patches in a mean of so many rays that fill a fraction of a lobe.
+float asks_patches(float rays, float filled) {
+  constexpr float kFew = 16, kMany = 64, kMost = 0.9f, kLeast = 0.7f;
+  return std::max(std::clamp((kMany - rays) / (kMany - kFew), 0.0f, 1.0f), std::clamp((kMost - filled) / (kMost - kLeast), 0.0f, 1.0f));
+}
+
+Vec3f not_below_zero(Vec3f v) { return {std::max(v.x, 0.0f), std::max(v.y, 0.0f), std::max(v.z, 0.0f)}; }
+
 Vec3f divided(Vec3f a, Vec3f by) {
   const auto one = [](float x, float y) { return y > 0 ? x / y : 0.0f; };
   return {one(a.x, by.x), one(a.y, by.y), one(a.z, by.z)};
@@ -28,7 +37,8 @@ Vec3f divided(Vec3f a, Vec3f by) {
 // Places that mirrors show, by blocks of pixels: level k holds blocks of 2^k x 2^k.
 struct MirrorImage::Cells {
   struct Cell {
-    Vec3f place, light;  // light: mean radiance
+    Vec3f place, light, patches;  // light, patches: mean radiance
+    int rays = 0;
     float area = 0;      // sum of the footprints
     float radius = 0;    // of a ball about the place that holds all of them
     const SurfaceMaterial* material = nullptr;
@@ -52,11 +62,14 @@ struct MirrorImage::Cells {
       whole.material = part->material;
       whole.place += part->place * part->area;
       whole.light += part->light * part->area;
+      whole.patches += part->patches * part->area;
+      whole.rays += part->rays;
       whole.area += part->area;
     }
     if (whole.area == 0) return whole;
     whole.place = whole.place * (1 / whole.area);
     whole.light = whole.light * (1 / whole.area);
+    whole.patches = whole.patches * (1 / whole.area);
     for (const Cell* part : parts)
       if (part != nullptr && part->area > 0) whole.radius = std::max(whole.radius, length(part->place - whole.place) + part->radius);
     return whole;
@@ -78,10 +91,11 @@ struct MirrorImage::Cells {
     }
   }
 
-  // The mean of the places' light that a pixel's lobe sees, and the fraction of the lobe that they fill.
+  // The mean of the places' light that a pixel's lobe sees, the fraction of the lobe that they fill, and the number of rays that would
+  // tell as much if the lobe weighed all alike.
   struct Seen {
-    Vec3f light;
-    float filled = 0;
+    Vec3f light, patches;
+    float filled = 0, rays = 0;
   };
   Seen seen_from(const Pixel& pixel) const {
     Kernels<float> k;
@@ -91,8 +105,8 @@ struct MirrorImage::Cells {
     const auto local = [&](Vec3f v) { return Kernels<float>::vec3(along(ax, v), along(ay, v), along(az, v)); };
     const auto view = local(pixel.view);
     const float width = 2 * std::max(pixel.alpha_x, pixel.alpha_y), fine = 2 * std::min(pixel.alpha_x, pixel.alpha_y);
-    Vec3f light{};
-    float sum = 0;
+    Vec3f light{}, patches{};
+    float sum = 0, squares = 0;
     std::array<Block, 64> stack;
     std::size_t waiting = 0;
     stack[waiting++] = {levels.size() - 1, 0, 0};
@@ -119,10 +133,12 @@ struct MirrorImage::Cells {
       }
       const float weight = k.ggx_lobe(local(to), view, pixel.alpha_x, pixel.alpha_y).v * cell.area / square;
       light += cell.light * weight;
+      patches += cell.patches * weight;
       sum += weight;
+      squares += weight * weight / static_cast<float>(cell.rays);
     }
-    if (!(sum > 0)) return {{}, -1};
-    return {light * (1 / sum), std::min(sum, 1.0f)};
+    if (!(sum > 0)) return {{}, {}, -1, 0};
+    return {light * (1 / sum), patches * (1 / sum), std::min(sum, 1.0f), sum * sum / squares};
   }
 
   void push_parts(Block block, std::array<Block, 64>& stack, std::size_t& waiting) const {
@@ -157,6 +173,7 @@ void MirrorImage::take(const Taken& taken, TileArea area) {
         pixel.y = area.y + y;
         pixel.position = get(mirrors.ways.origin, slot);
         pixel.normal = get(mirrors.normal, slot);
+        pixel.geometric_normal = get(taken.tile.geometric_normal, slot);
         pixel.tangent = get(taken.tile.tangent, slot);
         pixel.view = get(taken.tile.view, slot);
         pixel.direction = get(mirrors.ways.direction, slot);
@@ -175,34 +192,49 @@ void MirrorImage::take(const Taken& taken, TileArea area) {
       pixel.share += get(mirrors.ways.shares, slot) * arrives;
       if (taken.stands_for[slot] != 0) pixel.traced_share += get(mirrors.ways.shares, slot) * arrives;
       pixel.light += get(taken.light, slot) * arrives;
+      if (taken.patches != nullptr) pixel.patches += get(*taken.patches, slot) * arrives;
     }
+}
+
+// Change of of(pixel) from a pixel to the next ones of the same smooth surface, on both sides. Zero if there is none.
+template <class Of>
+Vec3f MirrorImage::step(const Pixel& pixel, const Places& at, int dx, int dy, Of of) const {
+  Vec3f steps{};
+  int count = 0;
+  for (const int sign : {-1, 1}) {
+    const int x = pixel.x + sign * dx, y = pixel.y + sign * dy;
+    if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
+    const Pixel* next = at[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+    if (next == nullptr || next->material != pixel.material || !(dot(next->normal, pixel.normal) > kContinuous)) continue;
+    steps += (of(*next) - of(pixel)) * static_cast<float>(sign);
+    ++count;
+  }
+  return count > 0 ? steps * (1 / static_cast<float>(count)) : Vec3f{};
 }
 
 // Area of the footprint of a pixel at the place that it shows, across the ray. The next pixels of the same surface tell how the mirror
 // spreads it.
-float MirrorImage::footprint(const Pixel& pixel, const std::vector<const Pixel*>& at) const {
-  const auto step = [&](int dx, int dy) {
-    Vec3f steps{};
-    int count = 0;
-    for (const int sign : {-1, 1}) {
-      const int x = pixel.x + sign * dx, y = pixel.y + sign * dy;
-      if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
-      const Pixel* next = at[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-      if (next == nullptr || next->material != pixel.material || !(dot(next->normal, pixel.normal) > kContinuous)) continue;
-      const float reach = length(pixel.place - pixel.position);
-      steps += ((next->position - pixel.position) + (next->direction - pixel.direction) * reach) * static_cast<float>(sign);
-      ++count;
-    }
-    return count > 0 ? steps * (1 / static_cast<float>(count)) : Vec3f{};
-  };
-  const Vec3f right = step(1, 0), down = step(0, 1);
+float MirrorImage::footprint(const Pixel& pixel, const Places& at) const {
+  const float reach = length(pixel.place - pixel.position);
+  const auto end = [&](const Pixel& p) { return p.position + p.direction * reach; };
+  const Vec3f right = step(pixel, at, 1, 0, end), down = step(pixel, at, 0, 1, end);
   const float least = pixel_ * pixel.length, area = std::fabs(dot(cross(right, down), pixel.direction));
   if (area > 0) return area;
   return least * std::max({length(right), length(down), least});
 }
 
-void MirrorImage::blur(Picture& picture) const {
-  std::vector<const Pixel*> at(picture.pixels.size(), nullptr), all;
+MirrorLobe MirrorImage::lobe_of(const Pixel& pixel, const Places& at) const {
+  const auto moved = [&](int dx, int dy) {
+    return MirrorLobe::Step{step(pixel, at, dx, dy, [](const Pixel& p) { return p.position; }),
+                            step(pixel, at, dx, dy, [](const Pixel& p) { return p.normal; }),
+                            step(pixel, at, dx, dy, [](const Pixel& p) { return p.view; })};
+  };
+  return {pixel.position, pixel.normal,  pixel.geometric_normal, pixel.tangent, pixel.view,
+          pixel.alpha_x,  pixel.alpha_y, moved(1, 0),            moved(0, 1)};
+}
+
+void MirrorImage::blur(Picture& picture, const PatchesInLobes* in_lobes) const {
+  Places at(picture.pixels.size(), nullptr), all;
   const auto place = [&](const Pixel& pixel) {
     return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(pixel.x);
   };
@@ -218,8 +250,13 @@ void MirrorImage::blur(Picture& picture) const {
     const Pixel& pixel = *all[i];
     if (pixel.stands_for == 0) return;
     const float area = footprint(pixel, at) * static_cast<float>(pixel.stands_for);
-    cells.levels[0].cells[place(pixel)] = {pixel.place, divided(pixel.light, pixel.traced_share), area,
-                                           std::sqrt(area / std::numbers::pi_v<float>), pixel.material};
+    cells.levels[0].cells[place(pixel)] = {pixel.place,
+                                           divided(pixel.light, pixel.traced_share),
+                                           divided(pixel.patches, pixel.traced_share),
+                                           1,
+                                           area,
+                                           std::sqrt(area / std::numbers::pi_v<float>),
+                                           pixel.material};
   });
   cells.add_levels();
   std::vector<Vec3f>&indirect = picture.layers.at("indirect"), &error = picture.layers.at("bounce_error");
@@ -227,10 +264,18 @@ void MirrorImage::blur(Picture& picture) const {
     const Pixel& pixel = *all[i];
     const Cells::Seen seen = cells.seen_from(pixel);
     if (seen.filled < 0) return;
-    const Vec3f light = seen.light * pixel.share, change = light - pixel.light;
+    Vec3f mean = seen.light, off = mean * (1 - seen.filled);
+    const float asked = in_lobes != nullptr ? asks_patches(seen.rays, seen.filled) : 0;
+    if (asked > 0) {
+      const PatchesInLobes::Seen of_lobe = in_lobes->seen_by(lobe_of(pixel, at));
+      mean = not_below_zero(mean + (of_lobe.mean - seen.patches) * asked);
+      constexpr float kStandardErrors = 2;
+      off = off * (1 - asked) + of_lobe.error * (kStandardErrors * asked);
+    }
+    const Vec3f light = mean * pixel.share, change = light - pixel.light;
     picture.pixels[place(pixel)] += change;
     indirect[place(pixel)] += change;
-    error[place(pixel)] += light * (1 - seen.filled);
+    error[place(pixel)] += off * pixel.share;
   });
 }
 

@@ -69,9 +69,9 @@ Picture picture_of(float alpha_x, float alpha_y) {
           put(*light, slot, {value, value, value});
           picture.at(left + x, top + y) = {value, value, value};
         }
-      image.take({*tile, *mirrors, stands_for, reach, *light, nullptr, 1}, {left, top, kTileSide, kTileSide});
+      image.take({*tile, *mirrors, stands_for, reach, *light, nullptr, nullptr, 1}, {left, top, kTileSide, kTileSide});
     }
-  image.blur(picture);
+  image.blur(picture, nullptr);
   return picture;
 }
 

@@ -43,14 +43,13 @@ std::optional<Mirror> mirror_of(const Surface& surface, Vec3f view) {
   return mirror;
 }
 
-// A direction below the triangle's horizon moves onto it. Else the last facets before a smooth outline would be black.
-Vec3f above(Vec3f direction, Vec3f geometric_normal) {
+}  // namespace
+
+Vec3f above_triangle(Vec3f direction, Vec3f geometric_normal) {
   constexpr float kLeast = 1e-3f;
   const float height = dot(direction, geometric_normal);
   return height > kLeast ? direction : normalized(direction + geometric_normal * (kLeast - height));
 }
-
-}  // namespace
 
 float mirrored_fraction(float alpha_x, float alpha_y) {
   const float x = std::clamp((kNoMirror - std::sqrt(alpha_x * alpha_y)) / (kNoMirror - kAllMirror), 0.0f, 1.0f);
@@ -72,7 +71,7 @@ bool find_mirrors(const RayScene& rays, const SurfaceTile& tile, const TilePlane
     ways.bent[i] = 1;
     put(ways.shares, i, mirror->weight);
     put(ways.origin, i, static_cast<Vec3f>(origin));
-    put(ways.direction, i, above(mirror->direction, surface.geometric_normal));
+    put(ways.direction, i, above_triangle(mirror->direction, surface.geometric_normal));
     ways.length[i] = distance[i];
     put(mirrors.normal, i, mirror->normal);
     mirrors.alpha_x[i] = mirror->alpha_x;

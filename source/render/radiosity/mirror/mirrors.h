@@ -18,6 +18,9 @@ struct Mirrors {
 // Finds a tile's mirrors. distance: of the tile's surfaces from the viewer, along the way. Returns false if there is no mirror.
 bool find_mirrors(const RayScene& rays, const SurfaceTile& tile, const TilePlane& distance, Mirrors& mirrors);
 
+// A direction below the triangle's horizon moves onto it. Else the last facets before a smooth outline would be black.
+Vec3f above_triangle(Vec3f direction, Vec3f geometric_normal);
+
 // Number of pixels that the ray of each stands for; 0: it has no ray.
 using StandsFor = std::array<std::uint8_t, kTilePixels>;
 
