@@ -7,6 +7,10 @@
 
 namespace steradian::radiosity {
 
+// Difference of a rough solid's true lobe from the one that stands for it, over that, rms over the lobe: the spread of the light in the
+// lobe times this is an error of its light.
+inline constexpr float kShapeOfSolids = 0.5f;
+
 struct Fineness {
   std::size_t patches;      // of the whole scene, if its triangles are large
   std::size_t rays;         // of each side

@@ -62,6 +62,12 @@ std::array<double, 2> place_in_lobe(std::size_t k, std::size_t count, std::size_
   return {u + (shift - 0.5) / static_cast<double>(count), v};
 }
 
+// Standard deviation of radiances about their mean, times the weight of all. squares, light: their weighted sums.
+Vec3f spread(Vec3f squares, Vec3f light, Vec3f whole) {
+  const auto one = [](float s, float l, float w) { return std::sqrt(std::max(s * w - l * l, 0.0f)); };
+  return {one(squares.x, light.x, whole.x), one(squares.y, light.y, whole.y), one(squares.z, light.z, whole.z)};
+}
+
 Vec3d ratio(Vec3d a, Vec3d b) {
   const auto one = [](double x, double y) { return y > 0 ? x / y : 1.0; };
   return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
@@ -70,7 +76,9 @@ Vec3d ratio(Vec3d a, Vec3d b) {
 // Fraction of a lobe's light that its own directions gather.
 float gathered_fraction(const SurfaceLobe& lobe, Gather::Mirrored mirrored) {
   const Material& m = lobe.material;
-  return m.brdf == Brdf::ggx && mirrored == Gather::Mirrored::by_rays ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y)) : 1;
+  return m.brdf == Brdf::ggx && mirrored == Gather::Mirrored::by_rays
+             ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y))
+             : 1;
 }
 
 // True if one of sixteen lobes reflects so much that its noise would show more than that of diffuse light.
@@ -310,8 +318,8 @@ bool Gather::diffuse_of_square(const FourBlocks& blocks, int sample, std::array<
 }
 
 // One glossy lobe of each surface that has one.
-Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
-                           Mirrored mirrored, std::size_t level) const {
+Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample, Mirrored mirrored,
+                           std::size_t level) const {
   const std::size_t finer = std::min(level + (reflects_much(surfaces, of) ? 1 : 0), kFinest), count = lobe_rays_ << (2 * finer);
   struct Walker {
     Frame frame;
@@ -319,7 +327,8 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     double fraction;  // of the lobe that these directions gather
     float wider;      // added width of the lobes that it sees: the rays of a wide lobe are far apart, and would miss narrow highlights
     std::optional<Vec3d> albedo;
-    Vec3d weights;  // sum over the directions, which the albedo corrects
+    Vec3d weights;   // sum over the directions, which the albedo corrects
+    bool is_solids;  // the lobe of a rough solid, whose shape is not known exactly
   };
   std::array<std::optional<Walker>, kLanes> walkers;
   std::uint32_t asked = 0;
@@ -343,11 +352,13 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
                         static_cast<double>(gathered_fraction(*of[i], mirrored)),
                         static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(finer))),
                         lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
-                        Vec3d{}};
+                        Vec3d{},
+                        s.material->solid};
     asked |= 1u << i;
   }
   Quarters<Vec3f> light{};
   std::array<Vec3f, kLanes> widened{};  // change by the added width
+  std::array<Vec3f, kLanes> squares{};  // of the radiance that the directions see
   for (std::size_t k = 0; k < count; ++k) {
     std::array<Vec3f, kLanes> weight{}, to{};
     SixteenSurfaces::each(asked, [&](std::size_t i) {
@@ -367,7 +378,9 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (met[i].side == kNoSide) continue;
       const Vec3f weighted = weight[i] * rays.tint(i);
-      light[i][k % 4] += light_.radiance(met[i]) * weighted;
+      const Vec3f radiance = light_.radiance(met[i]);
+      light[i][k % 4] += radiance * weighted;
+      squares[i] += radiance * radiance * weighted;
       if (!light_.has_lobe(met[i].side)) continue;
       const Vec3f of_lobe = light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider);
       light[i][k % 4] += of_lobe * weighted;
@@ -387,6 +400,10 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     lit.result.radiance[i] = fitted.value;
     lit.standard[i] = fitted.standard + absolute(widened[i]);
     lit.result.error[i] = fitted.error + absolute(widened[i]);
+    if (walkers[i]->is_solids) {
+      const Vec3f whole = static_cast<Vec3f>(walkers[i]->weights * walkers[i]->fraction);
+      lit.result.error[i] += spread(squares[i], gathered[i].value, whole) * kShapeOfSolids;
+    }
   });
   return lit;
 }

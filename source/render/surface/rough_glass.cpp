@@ -30,7 +30,9 @@ Vec3f lossless(const Surface& lobe, Vec3f view) {
 
 }  // namespace
 
-RoughGlass::RoughGlass(const Scene& scene) : scene_(scene), behind_(scene.materials.size()) {}
+RoughGlass::RoughGlass(const Scene& scene) : scene_(scene), behind_(scene.materials.size()) {
+  for (std::size_t i = 0; i < behind_.size(); ++i) behind_[i].solid = scene.materials[i].solid;
+}
 
 bool RoughGlass::blurs(const Surface& s) { return has_lobe_behind(*s.material) && std::max(s.alpha_x, s.alpha_y) > kSharp; }
 

@@ -171,9 +171,9 @@ TEST(RoughGlass, ASolidShowsWhatPathsFind) {
       scene.cameras = {camera_at({0.1, 0.1, 0.9}, {0, -0.05, -1}, 0.3)};
       std::printf("roughness %.2f, %s: ", static_cast<double>(roughness), ball ? "ball" : "slab");
       const Off off = off_from_paths(scene, 128);
-      // The noise of the paths leaves 0.015 uncertain: 0.09 times the fourth root of 2 over 3,072 values. Wider facets reflect light
-      // within, which the lobe leaves out and no estimate covers (docs/glass.md).
-      EXPECT_LT(off.from_paths, roughness < 0.4f ? off.estimated + 0.015 : 0.6) << roughness;
+      // The noise of the paths leaves 0.02 uncertain: 0.12 times the fourth root of 2 over 3,072 values. Wider facets reflect light
+      // within, which leaves at other places than where it is shown: no estimate covers that (docs/glass.md).
+      EXPECT_LT(off.from_paths, roughness < 0.6f ? off.estimated + 0.02 : 0.6) << roughness;
     }
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "lobes/lobe_parts.h"
+#include "render/radiosity/fineness.h"
 
 namespace steradian::radiosity {
 namespace {
@@ -17,7 +18,6 @@ constexpr float kWidest = 8;         // half vectors farther out than so many al
 constexpr float kFine = 0.33f;       // size of a block over the distance in which the lobe changes, at the lobe's middle ...
 constexpr float kCoarse = 0.5f;      // ... and far out, where little of the lobe is
 constexpr float kContinuous = 0.9f;  // cosine between normals of neighbours on one smooth surface
-
 
 // Weight of the patches in a mean of so many rays that fill a fraction of a lobe.
 float asks_patches(float rays, float filled) {
@@ -39,8 +39,8 @@ struct MirrorImage::Cells {
   struct Cell {
     Vec3f place, light, patches;  // light, patches: mean radiance
     int rays = 0;
-    float area = 0;      // sum of the footprints
-    float radius = 0;    // of a ball about the place that holds all of them
+    float area = 0;    // sum of the footprints
+    float radius = 0;  // of a ball about the place that holds all of them
     const SurfaceMaterial* material = nullptr;
     bool mixed = false;  // of several materials
   };
@@ -229,8 +229,8 @@ MirrorLobe MirrorImage::lobe_of(const Pixel& pixel, const Places& at) const {
                             step(pixel, at, dx, dy, [](const Pixel& p) { return p.normal; }),
                             step(pixel, at, dx, dy, [](const Pixel& p) { return p.view; })};
   };
-  return {pixel.position, pixel.normal,  pixel.geometric_normal, pixel.tangent, pixel.view,
-          pixel.alpha_x,  pixel.alpha_y, moved(1, 0),            moved(0, 1)};
+  return {pixel.position, pixel.normal, pixel.geometric_normal, pixel.tangent, pixel.view, pixel.alpha_x, pixel.alpha_y,
+          moved(1, 0),    moved(0, 1)};
 }
 
 void MirrorImage::blur(Picture& picture, const PatchesInLobes* in_lobes) const {
@@ -265,12 +265,14 @@ void MirrorImage::blur(Picture& picture, const PatchesInLobes* in_lobes) const {
     const Cells::Seen seen = cells.seen_from(pixel);
     if (seen.filled < 0) return;
     Vec3f mean = seen.light, off = mean * (1 - seen.filled);
+    const bool is_solids = pixel.material->solid;
     const float asked = in_lobes != nullptr ? asks_patches(seen.rays, seen.filled) : 0;
-    if (asked > 0) {
+    if (asked > 0 || (in_lobes != nullptr && is_solids)) {
       const PatchesInLobes::Seen of_lobe = in_lobes->seen_by(lobe_of(pixel, at));
       mean = not_below_zero(mean + (of_lobe.mean - seen.patches) * asked);
       constexpr float kStandardErrors = 2;
       off = off * (1 - asked) + of_lobe.error * (kStandardErrors * asked);
+      if (is_solids) off += of_lobe.spread * kShapeOfSolids;
     }
     const Vec3f light = mean * pixel.share, change = light - pixel.light;
     picture.pixels[place(pixel)] += change;

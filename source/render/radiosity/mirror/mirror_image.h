@@ -51,8 +51,8 @@ class MirrorImage {
   struct Pixel {
     int x = 0, y = 0;
     Vec3f position, normal, geometric_normal, tangent, view, direction, place;  // place: that the ray met
-    float alpha_x = 0, alpha_y = 0, length = 0;               // length: from the viewer to the place
-    Vec3f share, traced_share, light, patches;                // traced_share: of the samples that were traced
+    float alpha_x = 0, alpha_y = 0, length = 0;                                 // length: from the viewer to the place
+    Vec3f share, traced_share, light, patches;                                  // traced_share: of the samples that were traced
     int stands_for = 1;
     const SurfaceMaterial* material = nullptr;
   };

@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kDirections = 128;
 constexpr std::size_t kLanes = BounceRays::kLanes;
 
+Vec3f root_of(Vec3f v) { return {std::sqrt(std::max(v.x, 0.0f)), std::sqrt(std::max(v.y, 0.0f)), std::sqrt(std::max(v.z, 0.0f))}; }
+
 }  // namespace
 
 // The highlights that a lobe sees are widened by about the distance between its directions. Rays and directions see the same.
@@ -57,6 +59,7 @@ PatchesInLobes::Seen PatchesInLobes::seen_by(const MirrorLobe& at) const {
   const float width = std::max(at.alpha_x, at.alpha_y);
   std::array<Vec3f, kQuarters> light{};
   std::array<float, kQuarters> weights{};
+  Vec3f of_squares{};
   for (std::size_t first = 0; first < kDirections; first += kLanes) {
     std::array<Vec3f, kLanes> to{};
     std::array<float, kLanes> weight{};
@@ -87,7 +90,9 @@ PatchesInLobes::Seen PatchesInLobes::seen_by(const MirrorLobe& at) const {
     const auto met = rays.trace();
     for (std::size_t i = 0; i < kLanes; ++i) {
       weights[i % kQuarters] += weight[i];
-      light[i % kQuarters] += radiance(met[i], to[i], width) * rays.tint(i) * weight[i];
+      const Vec3f seen = radiance(met[i], to[i], width) * rays.tint(i);
+      light[i % kQuarters] += seen * weight[i];
+      of_squares += seen * seen * weight[i];
     }
   }
   const float all = weights[0] + weights[1] + weights[2] + weights[3];
@@ -100,7 +105,8 @@ PatchesInLobes::Seen PatchesInLobes::seen_by(const MirrorLobe& at) const {
     squares += off * off;
   }
   constexpr float kOver = 1.0f / (kQuarters * (kQuarters - 1));
-  seen.error = {std::sqrt(squares.x * kOver), std::sqrt(squares.y * kOver), std::sqrt(squares.z * kOver)};
+  seen.error = root_of(squares * kOver);
+  seen.spread = root_of(of_squares * (1 / all) - seen.mean * seen.mean);
   return seen;
 }
 

@@ -32,6 +32,7 @@ class PatchesInLobes {
 
   struct Seen {
     Vec3f mean, error;  // error: standard error
+    Vec3f spread;       // standard deviation over the lobe
   };
   // The mean radiance of the patches that a lobe sees.
   Seen seen_by(const MirrorLobe& lobe) const;
