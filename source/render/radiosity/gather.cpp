@@ -178,6 +178,14 @@ void Gather::add_bright(const SixteenSurfaces& surfaces, std::uint32_t asked, in
 struct Gather::Lit {
   Result result;
   std::array<Vec3f, kLanes> standard{};
+  // False where the noise of a pixel would show.
+  bool is_smooth() const {
+    constexpr float kShown = 0.02f;  // of the mean light of the pixels
+    Vec3f mean{};
+    for (const Vec3f& r : result.radiance) mean += r * (1.0f / kLanes);
+    const float most = kShown * std::max({mean.x, mean.y, mean.z});
+    return std::all_of(standard.begin(), standard.end(), [&](Vec3f e) { return std::max({e.x, e.y, e.z}) <= most; });
+  }
   // Puts the diffuse light of a surface, whose mean radiance from all sides is given.
   void put(std::size_t i, const SixteenSurfaces& surfaces, const FittedValue& mean) {
     const Surface& s = surfaces.surface[i];
@@ -320,7 +328,7 @@ bool Gather::diffuse_of_square(const FourBlocks& blocks, int sample, std::array<
 // One glossy lobe of each surface that has one.
 Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample, Mirrored mirrored,
                            std::size_t level) const {
-  const std::size_t finer = std::min(level + (reflects_much(surfaces, of) ? 1 : 0), kFinest), count = lobe_rays_ << (2 * finer);
+  const std::size_t count = lobe_rays_ << (2 * level);
   struct Walker {
     Frame frame;
     lobes::Lobe lobe;
@@ -345,12 +353,12 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     // Half of its width is about the distance between 64 directions of a lobe, in half vectors.
     const Material& material = of[i]->material;
     const double width = std::min(std::max(material.alpha_x, material.alpha_y), 0.25);
-    // Where the normals turn by half of the width, the lobe turns by half of it too.
+    // A turn of the normals by half of the width moves the lobe by half of it, too.
     narrowest = std::min(narrowest, static_cast<float>(0.5 * std::min(material.alpha_x, material.alpha_y)));
     walkers[i] = Walker{frame,
                         lobe,
                         static_cast<double>(gathered_fraction(*of[i], mirrored)),
-                        static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(finer))),
+                        static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(level))),
                         lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
                         Vec3d{},
                         s.material->solid};
@@ -384,7 +392,8 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
       if (!light_.has_lobe(met[i].side)) continue;
       const Vec3f of_lobe = light_.glossy_radiance(met[i].side, -to[i], walkers[i]->wider);
       light[i][k % 4] += of_lobe * weighted;
-      widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * weighted;
+      // One direction of four tells the change.
+      if (k % 4 == 0) widened[i] += (of_lobe - light_.glossy_radiance(met[i].side, -to[i], 0)) * (weighted * 4);
     }
   }
   std::array<Gathered, kLanes> gathered{};
@@ -408,18 +417,6 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
   return lit;
 }
 
-// Adds the first result of of(level), from the coarsest level on, whose standard errors are all within the tolerance, or that of the
-// finest.
-template <class Of>
-void Gather::refine(Of of, Result& sum) const {
-  Lit lit;
-  for (std::size_t level = strict_ ? grids_.size() - 1 : 0; level < grids_.size(); ++level) {
-    lit = of(level);
-    if (is_within(lit)) break;
-  }
-  add(lit.result, sum);
-}
-
 void Gather::add(const Result& result, Result& sum) {
   for (std::size_t i = 0; i < kLanes; ++i) {
     sum.radiance[i] += result.radiance[i];
@@ -427,11 +424,14 @@ void Gather::add(const Result& result, Result& sum) {
   }
 }
 
-// Adds the diffuse light of the surfaces that have such a lobe.
+// Adds the diffuse light of the surfaces that have such a lobe, by more directions until its standard errors are within the tolerance.
 void Gather::add_diffuse(const SixteenSurfaces& surfaces, int sample, std::size_t block, const Sums* first, Result& sum) const {
   const std::uint32_t asked = with_diffuse(surfaces);
   if (asked == 0) return;
-  refine([&](std::size_t level) { return diffuse(surfaces, asked, sample, level, block, level == 0 ? first : nullptr); }, sum);
+  std::size_t level = strict_ ? kFinest : 0;
+  Lit lit = diffuse(surfaces, asked, sample, level, block, level == 0 ? first : nullptr);
+  while (level < kFinest && !is_within(lit)) lit = diffuse(surfaces, asked, sample, ++level, block, nullptr);
+  add(lit.result, sum);
 }
 
 void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored, Result& sum) const {
@@ -446,7 +446,12 @@ void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mi
     std::array<const SurfaceLobe*, kLanes> of{};
     for (std::size_t i = 0; i < kLanes; ++i)
       if (k < lobes[i].size()) of[i] = &lobes[i][k];
-    refine([&](std::size_t level) { return glossy(surfaces, of, sample, mirrored, level); }, sum);
+    std::size_t level = strict_ ? kFinest : 0;
+    Lit lit = glossy(surfaces, of, sample, mirrored, level);
+    const bool must_be_smooth = reflects_much(surfaces, of);
+    while (level < kFinest && (!is_within(lit) || (level == 0 && must_be_smooth && !lit.is_smooth())))
+      lit = glossy(surfaces, of, sample, mirrored, ++level);
+    add(lit.result, sum);
   }
 }
 

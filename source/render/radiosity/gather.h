@@ -70,8 +70,6 @@ class Gather {
              std::size_t level) const;
   void add_diffuse(const SixteenSurfaces& surfaces, int sample, std::size_t block, const Sums* first, Result& sum) const;
   void add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored, Result& sum) const;
-  template <class Of>
-  void refine(Of of, Result& sum) const;
   static void add(const Result& result, Result& sum);
   void add_grids(int rows);
 
