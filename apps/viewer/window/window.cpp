@@ -146,6 +146,7 @@ class Window {
   Library library_;
   GLFWwindow* window_ = nullptr;
   GLuint texture_ = 0;
+  int pictures_ = 0, pictures_of_all_light_ = 0;  // taken so far
   ViewState state_;
   std::map<char, bool> held_;  // the held keys that fly
   bool flying_ = false;
@@ -208,6 +209,8 @@ void Window::open_window() {
 void Window::take_picture() {
   state_.display_wanted = true;
   if (state_.session != nullptr && state_.session->frame().same) return;
+  ++pictures_;
+  pictures_of_all_light_ += state_.session != nullptr && state_.session->frame().light != ShownLight::direct ? 1 : 0;
   constexpr std::size_t kShown = 120;
   state_.history.push_back(state_.session != nullptr ? state_.session->frame().stats.passes
                                                      : std::vector<PassTime>{{"tiles", state_.drawing->stats().ms}});
@@ -389,7 +392,8 @@ void Window::play(const ScriptEvent& event) {
         wait_until_ = Clock::now() + std::chrono::microseconds(static_cast<std::int64_t>(std::min(event.number, 3600.0) * 1e6));
       break;
     case ScriptWord::time:
-      std::printf("%s %.3f s\n", event.text.c_str(), std::chrono::duration<double>(Clock::now() - start_).count());
+      std::printf("%s %.3f s, pictures %d, with all light %d\n", event.text.c_str(),
+                  std::chrono::duration<double>(Clock::now() - start_).count(), pictures_, pictures_of_all_light_);
       break;
     case ScriptWord::shot: shot_ = event.text; break;
     case ScriptWord::picture: state_.stage->save_picture(event.text, state_.exposure, state_.tone); break;
