@@ -19,6 +19,7 @@ class BounceRays {
 
   // Lets the rays of a lane begin on a surface.
   void start(std::size_t lane, const Surface& from);
+  Vec3d origin(std::size_t lane) const { return static_cast<Vec3d>(origin_[lane]); }
   // Sets the direction of a lane's ray, and asks for it. Rays into the surface's triangle meet nothing.
   void set(std::size_t lane, Vec3f direction) {
     if (!(dot(direction, normal_[lane]) > 0)) return;
