@@ -100,8 +100,13 @@ class Window {
       fly();
       run_time();
       watch_file();
-      if (state_.stage->update()) take_picture();
-      draw();
+      const bool fresh = state_.stage->update();
+      if (fresh) take_picture();
+      // What is drawn takes its time from the picture that is computed.
+      constexpr std::chrono::milliseconds kStill{100};
+      if (!busy || fresh || std::exchange(touched_, false) || !shot_.empty() || flying_ || state_.playing ||
+          Clock::now() - last_draw_ >= kStill)
+        draw();
     }
     if (!options_.record.empty()) write_file(options_.record, recorded_);
   }
@@ -150,7 +155,8 @@ class Window {
   ViewState state_;
   std::map<char, bool> held_;  // the held keys that fly
   bool flying_ = false;
-  Clock::time_point last_fly_ = Clock::now(), last_look_ = Clock::now(), last_moment_ = Clock::now();
+  bool touched_ = false;  // input since the window was drawn
+  Clock::time_point last_fly_ = Clock::now(), last_look_ = Clock::now(), last_moment_ = Clock::now(), last_draw_ = Clock::now();
 
   std::vector<ScriptEvent> script_;
   std::size_t next_event_ = 0;
@@ -180,6 +186,7 @@ void Window::open_window() {
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { of(w).on_move(Vec2d{x, y} * of(w).pixels_per_point()); });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) { of(w).on_wheel(steps, of(w).pointer()); });
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+    of(w).touched_ = true;
     if (const std::string name = name_of_key(key, mods); !name.empty() && action != GLFW_REPEAT) of(w).on_key(name, action == GLFW_PRESS);
   });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int width, int height) { of(w).state_.stage->resize(width, height); });
@@ -246,6 +253,7 @@ void Window::make_display() {
 }
 
 void Window::draw() {
+  last_draw_ = Clock::now();
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   if (width == 0 || height == 0) return;  // minimised
@@ -292,6 +300,7 @@ void Window::shoot(const std::string& path) {
 // ---- a hand
 
 void Window::on_pointer(PointerButton button, bool down, bool shift, Vec2d at) {
+  touched_ = true;
   record({down ? ScriptWord::press : ScriptWord::release, name_of(button), at, 0, shift, {}});
   if (!down)
     attempt(state_, [&] { state_.stage->release(at); });
@@ -300,11 +309,13 @@ void Window::on_pointer(PointerButton button, bool down, bool shift, Vec2d at) {
 }
 
 void Window::on_move(Vec2d at) {
+  touched_ = true;
   record({ScriptWord::move, {}, at, 0, false, {}});
   attempt(state_, [&] { state_.stage->drag(at); });
 }
 
 void Window::on_wheel(double steps, Vec2d at) {
+  touched_ = true;
   record({ScriptWord::wheel, {}, at, steps, false, {}});
   if (!ImGui::GetIO().WantCaptureMouse) state_.stage->wheel(steps, at);
 }
@@ -355,6 +366,7 @@ void Window::play() {
     if (next.number == kPicture && state_.display.width == 0 && !state_.stage->settled()) return;
   }
   const ScriptEvent event = script_[next_event_++];
+  touched_ = true;
   attempt(state_, [&] { play(event); });
 }
 

@@ -459,7 +459,7 @@ float PatchSolver::turn_of(std::uint32_t side) const {
 // Spreads places over the bright sides in proportion to their light.
 void PatchSolver::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
-  constexpr std::size_t kPlaces = 1024;
+  const std::size_t most = options_.fineness.bright;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
   const auto radiance = [&](std::uint32_t side) { return light_.sides_[side].radiance + even_glossy_[side]; };
   const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance(side))); };
@@ -478,13 +478,15 @@ void PatchSolver::find_bright_sides() {
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (bright[side] == 0) continue;
     before += brightness(side) * static_cast<double>(area_of(side));
-    while (light_.places_.size() < kPlaces && (static_cast<double>(light_.places_.size()) + 0.5) * bright_power < before * kPlaces) {
+    while (light_.places_.size() < most &&
+           (static_cast<double>(light_.places_.size()) + 0.5) * bright_power < before * static_cast<double>(most)) {
       const Surface s = surface_of(side);
-      light_.places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
+      light_.places_.push_back(
+          {s.position, s.geometric_normal, side, static_cast<float>(bright_power / static_cast<double>(most) / brightness(side))});
     }
   }
   for (std::uint32_t side = 0; side < sides; ++side) light_.sides_[side].bright = bright[side] & 1u;
-  light_.bright_area_ = static_cast<float>(bright_area / kPlaces);
+  light_.bright_area_ = static_cast<float>(bright_area / static_cast<double>(most));
 }
 
 }  // namespace steradian::radiosity
