@@ -264,7 +264,7 @@ Gather::Lit Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked
   return lit;
 }
 
-// The same for 8 x 8 pixels in one plane, by one pixel of 2 x 2. The others take the means of their neighbours.
+// The same for 8 x 8 pixels in one plane, by one pixel of 2 x 2.
 void Gather::diffuse_of_every_other(const FourBlocks& blocks, int sample, std::array<Lit, 4>& lit) const {
   const auto lane_of = [](std::size_t x, std::size_t y) { return y % 4 * 4 + x % 4; };
   const auto block_of = [](std::size_t x, std::size_t y) { return y / 4 * 2 + x / 4; };
@@ -277,17 +277,7 @@ void Gather::diffuse_of_every_other(const FourBlocks& blocks, int sample, std::a
   }
   const std::array<FittedValue, kLanes> sum = arriving(some, kAllLanes, sample, 0, 0, nullptr);
   for (std::size_t y = 0; y < 8; ++y)
-    for (std::size_t x = 0; x < 8; ++x) {
-      FittedValue mean{};
-      for (const std::size_t below : {y / 2, std::min((y + 1) / 2, std::size_t{3})})
-        for (const std::size_t beside : {x / 2, std::min((x + 1) / 2, std::size_t{3})}) {
-          const FittedValue& near = sum[4 * below + beside];
-          mean.value += near.value * 0.25f;
-          mean.error += near.error * 0.25f;
-          mean.standard += near.standard * 0.25f;
-        }
-      lit[block_of(x, y)].put(lane_of(x, y), blocks[block_of(x, y)], mean);
-    }
+    for (std::size_t x = 0; x < 8; ++x) lit[block_of(x, y)].put(lane_of(x, y), blocks[block_of(x, y)], between_even_pixels(sum, x, y));
 }
 
 // The same for 8 x 8 pixels, by a quarter of the directions. False where their light is no plane, or its error is above the tolerance; then
