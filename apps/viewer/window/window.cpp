@@ -102,7 +102,7 @@ class Window {
       watch_file();
       const bool fresh = state_.stage->update();
       if (fresh) take_picture();
-      // What is drawn takes its time from the picture that is computed.
+      // Drawing takes time from the picture that is computed.
       constexpr std::chrono::milliseconds kStill{100};
       if (!busy || fresh || std::exchange(touched_, false) || !shot_.empty() || flying_ || state_.playing ||
           Clock::now() - last_draw_ >= kStill)
