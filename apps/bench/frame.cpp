@@ -5,6 +5,7 @@
 // frame/disk/EMISSION/720p    a spot of 0.2 m over a glossy floor with a board in its light: `even`, or `profiled` by a cone of 45 degrees
 // frame/gallery/METHOD/720p   the gallery's direct light without shadows
 // frame/moved/METHOD/SIZE     the same after its polygons have moved, with the contents of RenderCache, including all preparation
+// frame/dragged/cornell/SIZE  the window's preview of all light after the lamp of the box has moved, from the file's JSON on
 // frame/rays/arcade/1080p     primary rays of the colonnade alone
 //
 // On a Vulkan device the same benches except the rays run under vulkan/frame/...
@@ -25,6 +26,7 @@
 #include "floor.h"
 #include "frame.h"
 #include "render/surface/gbuffer.h"
+#include "scene/gltf/gltf_file.h"
 #include "steradian/load_scene.h"
 #include "steradian/render.h"
 #include "steradian/render_cache.h"
@@ -74,6 +76,7 @@ Bench disk(const Where& where, const std::string& name, bool profiled, int threa
   return bench_of(name, frame);
 }
 
+std::string box_file() { return std::string(STERADIAN_SCENES) + "/cornell.glb"; }
 std::string gallery_file() { return std::string(STERADIAN_SCENES) + "/gallery.glb"; }
 
 Bench gallery(const Where& where, const std::string& name, const std::string& method, int threads) {
@@ -103,6 +106,37 @@ Bench moved(const Where& where, const std::string& name, const std::string& meth
             keep(render(moved->scene, frame->options, moved->cache).pixels.front());
           },
           false};
+}
+
+// The lamp goes round a small circle, so that no picture has the light of one before.
+Bench dragged(const std::string& name, int width, int height, int threads) {
+  struct Dragged {
+    scene::GltfFile file = scene::read_gltf_file(box_file());
+    LoadOptions loading{};
+    int step = 0;
+  };
+  auto frame = frame_on({}, threads);
+  frame->options.width = width;
+  frame->options.height = height;
+  frame->options.shadows = Shadows::on;
+  frame->options.bounces = kAllBounces;
+  frame->options.bounce_preview = true;
+  frame->cached = true;
+  const auto dragged = std::make_shared<Dragged>();
+  dragged->loading.meshes = make_kept_meshes();
+  const auto call = [frame, dragged] {
+    for (auto& node : dragged->file.json["nodes"]) {
+      if (node["name"] != "lamp") continue;
+      const double angle = 0.5 * ++dragged->step;
+      node["translation"][0] = 0.2 * std::cos(angle);
+      node["translation"][2] = 0.2 * std::sin(angle);
+    }
+    frame->scene = scene::load_scene(dragged->file, dragged->loading).scene;
+    frame->call();
+  };
+  return {name, static_cast<std::size_t>(width) * static_cast<std::size_t>(height), name_of(active_simd()), call, false, [frame] {
+            return frame->medians();
+          }};
 }
 
 struct Rays {
@@ -171,6 +205,10 @@ void add_frame(BenchList& list, const Where& where) {
     for (const auto& [size, width, height] : {std::tuple{"80x45", 80, 45}, {"720p", 1280, 720}})
       add_by(std::string("moved/ltc-compact/") + size,
              [=](const std::string& name, int threads) { return moved(where, name, "ltc-compact", width, height, threads); });
+  if (on_cpu && std::filesystem::exists(box_file()))
+    for (const auto& [size, width, height] : {std::tuple{"320x180", 320, 180}, {"640x360", 640, 360}, {"720p", 1280, 720}})
+      frame_add(list, std::string("frame/dragged/cornell/") + size,
+                [=](const std::string& name, int threads) { return dragged(name, width, height, threads); });
   if (on_cpu && std::filesystem::exists(arcade())) frame_add(list, "frame/rays/arcade/1080p", frame_rays);
 }
 

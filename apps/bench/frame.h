@@ -21,9 +21,10 @@ struct BenchFrame {
   std::vector<std::string> order;
   std::map<std::string, std::vector<double>> passes;
   RenderCache cache = {};  // holds the Vulkan device and its pipelines
+  bool cached = false;     // also on the CPU
 
   Picture rendered(RenderStats& stats) {
-    return options.backend == Backend::cpu ? render(scene, options, &stats) : render(scene, options, cache, &stats);
+    return cached || options.backend != Backend::cpu ? render(scene, options, cache, &stats) : render(scene, options, &stats);
   }
   void call() {
     RenderStats stats;

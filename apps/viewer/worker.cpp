@@ -9,7 +9,8 @@ namespace steradian::view {
 namespace {
 
 constexpr double kFrameMs = 1000.0 / 30;   // of a picture while things move
-constexpr double kPreviewMs = 1000.0 / 5;  // of one with all light
+constexpr double kPreviewMs = 1000.0 / 6;  // of one with all light, by whose size it is chosen
+constexpr double kLongPreviewMs = 500;     // of the smallest one that is still shown
 constexpr double kColdPreviewMs = 1000;    // of the first one ever, which also pays for cold caches
 constexpr double kLongMs = 500;            // of a picture that a smaller one precedes, at rest
 
@@ -176,7 +177,7 @@ Worker::Step Worker::first_step(const RenderRequest& request) const {
     const bool cold = costs_[static_cast<std::size_t>(ShownLight::preview)].before.divisor == 0;
     const int divisor = divisor_within(kPreviewMs, preview);
     const double time_ms = preview.fixed_ms + whole_ms({0, preview.pixels_ms, preview.divisor}) / (divisor * divisor);
-    if (preview.divisor != 0 && time_ms <= (cold ? kColdPreviewMs : kPreviewMs)) return {ShownLight::preview, divisor};
+    if (preview.divisor != 0 && time_ms <= (cold ? kColdPreviewMs : kLongPreviewMs)) return {ShownLight::preview, divisor};
   }
   const ShownLight light = bounces ? ShownLight::direct : ShownLight::all;
   const Cost cost = cost_of(light);

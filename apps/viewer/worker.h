@@ -6,7 +6,8 @@
 // long as there is no new request. Sorted data of one picture is cached for the next (LoadOptions::meshes, RenderCache).
 //
 // With bounces, the first picture at rest has direct light alone, then comes a preview of all light, then all light. While things move,
-// pictures are previews if those take no more than a fifth of a second, else direct light.
+// pictures are previews of the size that a sixth of a second allows. If even small ones take more than half a second, they have direct
+// light.
 #pragma once
 
 #include <array>

@@ -191,15 +191,15 @@ TEST(ViewWorker, ShowsDirectLightThenAPreviewThenAllLight) {
   steps.preview_ms = 1;
   EXPECT_EQ(steps.shown(false).back(), (Shown{ShownLight::all, 1, true}));
   EXPECT_EQ(steps.shown(true), kPreview);
-  steps.preview_ms = 190;
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(steps.shown(true), kPreview) << "five pictures a second";
+  steps.preview_ms = 450;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(steps.shown(true), kPreview) << "two pictures a second";
   steps.preview_ms = 1e3;
   for (int i = 0; i < 2; ++i) EXPECT_EQ(steps.shown(true), kPreview) << "one picture that takes long does not end the previews";
   EXPECT_EQ(steps.shown(true), kDirect) << "but two of them do";
 }
 
 TEST(ViewWorker, ForgivesTheFirstPreview) {
-  Steps steps(400);
+  Steps steps(700);
   steps.shown(false);
   steps.preview_ms = 100;
   for (int i = 0; i < 3; ++i) EXPECT_EQ(steps.shown(true), kPreview) << "the first one paid for cold caches";

@@ -6,7 +6,7 @@
 //
 // Unchanged data is detected: meshes are compared with those of the previous picture by their triangles, images by a fingerprint of their
 // texels. A camera that moves costs nothing. A light that moves costs its own shape, a mesh its own triangles and the order of all edges
-// that cast shadows.
+// that cast shadows. With bounces, where two surfaces lie at one place, rays may meet the other one after a light has moved.
 #pragma once
 
 #include <memory>

@@ -28,6 +28,7 @@ struct ReceivingTiles::Room {
   RenderOptions options;
   DirectMethod method;
   SceneParts parts;
+  std::shared_ptr<const radiosity::PatchLinks> links;  // of all computations; null before the first one
   tbb::task_arena arena;
   std::mutex one_at_a_time;  // of the computations, which take turns with the scene's lights and the tiles' radiance
 
@@ -179,6 +180,7 @@ void ReceivingTiles::take_materials(const std::vector<SurfaceMaterial>& material
   Room& room = *room_;
   if (materials.empty() || materials == room.scene.materials) return;
   std::copy(materials.begin(), materials.end(), room.scene.materials.begin());  // in place: tiles point to them
+  room.links.reset();
   room.take_fixed_lights();
   for (const auto& view : views_) {
     fill(*view);
@@ -387,8 +389,8 @@ void ReceivingTiles::add_bounces(LampTable& table, std::size_t first, std::size_
       sampler.find_incident(surface, 16, random, found);
     };
     const radiosity::Fineness fineness = radiosity::fineness_of(quality);
-    const radiosity::PatchLight patches =
-        radiosity::solve_patches(room.scene, *room.parts.rays, *room.parts.maps, {room.options.bounces, fineness}, direct, incident);
+    const radiosity::PatchLight patches = radiosity::solve_patches(room.scene, *room.parts.rays, *room.parts.maps,
+                                                                   {room.options.bounces, fineness}, direct, incident, &room.links);
     const radiosity::Gather gather(patches, *room.parts.rays, fineness, {room.options.bounce_error, room.options.bounce_strict});
     each(tiles_.size(), [&](std::size_t index) { add_gathered(gather, *tiles_[index].surfaces, light(index)); });
   });

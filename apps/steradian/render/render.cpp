@@ -74,6 +74,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"specular_residual", stats.specular_residual},
           {"patches", stats.patches},
           {"bounce_iterations", stats.bounce_iterations},
+          {"patch_rays", stats.patch_rays},
           {"bounce_left_out", stats.bounce_left_out},
           {"bounce_error", stats.bounce_error},
           {"bound_elements", stats.bound_elements},

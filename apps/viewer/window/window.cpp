@@ -100,8 +100,13 @@ class Window {
       fly();
       run_time();
       watch_file();
-      if (state_.stage->update()) take_picture();
-      draw();
+      const bool fresh = state_.stage->update();
+      if (fresh) take_picture();
+      // Drawing takes time from the picture that is computed.
+      constexpr std::chrono::milliseconds kStill{100};
+      if (!busy || fresh || std::exchange(touched_, false) || !shot_.empty() || flying_ || state_.playing ||
+          Clock::now() - last_draw_ >= kStill)
+        draw();
     }
     if (!options_.record.empty()) write_file(options_.record, recorded_);
   }
@@ -146,10 +151,12 @@ class Window {
   Library library_;
   GLFWwindow* window_ = nullptr;
   GLuint texture_ = 0;
+  int pictures_ = 0, pictures_of_all_light_ = 0;  // taken so far
   ViewState state_;
   std::map<char, bool> held_;  // the held keys that fly
   bool flying_ = false;
-  Clock::time_point last_fly_ = Clock::now(), last_look_ = Clock::now(), last_moment_ = Clock::now();
+  bool touched_ = false;  // input since the window was drawn
+  Clock::time_point last_fly_ = Clock::now(), last_look_ = Clock::now(), last_moment_ = Clock::now(), last_draw_ = Clock::now();
 
   std::vector<ScriptEvent> script_;
   std::size_t next_event_ = 0;
@@ -179,6 +186,7 @@ void Window::open_window() {
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { of(w).on_move(Vec2d{x, y} * of(w).pixels_per_point()); });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) { of(w).on_wheel(steps, of(w).pointer()); });
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+    of(w).touched_ = true;
     if (const std::string name = name_of_key(key, mods); !name.empty() && action != GLFW_REPEAT) of(w).on_key(name, action == GLFW_PRESS);
   });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int width, int height) { of(w).state_.stage->resize(width, height); });
@@ -208,6 +216,8 @@ void Window::open_window() {
 void Window::take_picture() {
   state_.display_wanted = true;
   if (state_.session != nullptr && state_.session->frame().same) return;
+  ++pictures_;
+  pictures_of_all_light_ += state_.session != nullptr && state_.session->frame().light != ShownLight::direct ? 1 : 0;
   constexpr std::size_t kShown = 120;
   state_.history.push_back(state_.session != nullptr ? state_.session->frame().stats.passes
                                                      : std::vector<PassTime>{{"tiles", state_.drawing->stats().ms}});
@@ -243,6 +253,7 @@ void Window::make_display() {
 }
 
 void Window::draw() {
+  last_draw_ = Clock::now();
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   if (width == 0 || height == 0) return;  // minimised
@@ -289,6 +300,7 @@ void Window::shoot(const std::string& path) {
 // ---- a hand
 
 void Window::on_pointer(PointerButton button, bool down, bool shift, Vec2d at) {
+  touched_ = true;
   record({down ? ScriptWord::press : ScriptWord::release, name_of(button), at, 0, shift, {}});
   if (!down)
     attempt(state_, [&] { state_.stage->release(at); });
@@ -297,11 +309,13 @@ void Window::on_pointer(PointerButton button, bool down, bool shift, Vec2d at) {
 }
 
 void Window::on_move(Vec2d at) {
+  touched_ = true;
   record({ScriptWord::move, {}, at, 0, false, {}});
   attempt(state_, [&] { state_.stage->drag(at); });
 }
 
 void Window::on_wheel(double steps, Vec2d at) {
+  touched_ = true;
   record({ScriptWord::wheel, {}, at, steps, false, {}});
   if (!ImGui::GetIO().WantCaptureMouse) state_.stage->wheel(steps, at);
 }
@@ -352,6 +366,7 @@ void Window::play() {
     if (next.number == kPicture && state_.display.width == 0 && !state_.stage->settled()) return;
   }
   const ScriptEvent event = script_[next_event_++];
+  touched_ = true;
   attempt(state_, [&] { play(event); });
 }
 
@@ -389,7 +404,8 @@ void Window::play(const ScriptEvent& event) {
         wait_until_ = Clock::now() + std::chrono::microseconds(static_cast<std::int64_t>(std::min(event.number, 3600.0) * 1e6));
       break;
     case ScriptWord::time:
-      std::printf("%s %.3f s\n", event.text.c_str(), std::chrono::duration<double>(Clock::now() - start_).count());
+      std::printf("%s %.3f s, pictures %d, with all light %d\n", event.text.c_str(),
+                  std::chrono::duration<double>(Clock::now() - start_).count(), pictures_, pictures_of_all_light_);
       break;
     case ScriptWord::shot: shot_ = event.text; break;
     case ScriptWord::picture: state_.stage->save_picture(event.text, state_.exposure, state_.tone); break;

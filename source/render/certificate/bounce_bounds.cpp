@@ -126,7 +126,7 @@ BounceBounds::BounceBounds(const Scene& scene, const RayScene& rays, const Rende
     };
     const OrientedTriangle front = OrientedTriangle::of({place(0, 0), place(1, 0), place(0, 1)});
     const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
-    const Vec3d albedo = mesh.is_light_shape ? Vec3d{} : Vec3d{m.base_color.x, m.base_color.y, m.base_color.z};
+    const Vec3d albedo{m.base_color.x, m.base_color.y, m.base_color.z};
     sides_.push_back({radiosity::Patches::is_front(static_cast<std::uint32_t>(s)) ? front : front.reversed(), albedo, {}});
   }
   add_lamps(scene);

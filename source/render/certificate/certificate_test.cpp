@@ -169,6 +169,7 @@ TEST(BounceBounds, EncloseThePathsOfTheCornellBox) {
     options.method = "auto";
     options.quality = Quality::draft;
     options.bound = true;
+    options.bounce_strict = true;  // less noise, which leaves narrow bounds
     RenderStats stats;
     const Picture picture = render(scene, options, &stats);
     options.bound = false;

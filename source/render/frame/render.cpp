@@ -333,14 +333,14 @@ class Renderer {
   void solve_bounces() {
     const auto start = Clock::now();
     if (options_.bound) certificate::BounceBounds::check(scene_, options_);
-    const auto solve = [&] { return solve_patches(); };
+    const auto solve = [&](std::shared_ptr<const radiosity::PatchLinks>& links) { return solve_patches(&links); };
     std::shared_ptr<const radiosity::PatchLight> patches;
     if (cache_ != nullptr && !many_lights_) {
       std::shared_ptr<radiosity::KeptPatches>& kept = cache_->parts().patches;
       if (kept == nullptr) kept = std::make_shared<radiosity::KeptPatches>();
       patches = kept->light(scene_, options_, solve);
     } else {
-      patches = solve();
+      patches = solve_patches(nullptr);
     }
     patches_ms_ = ms_since(start);
     std::unique_ptr<const certificate::BounceBounds> bounds;
@@ -356,7 +356,7 @@ class Renderer {
                                             [this](SurfaceTile& tile) { light_directly(tile, ReceiverKind::asked); });
   }
 
-  std::shared_ptr<const radiosity::PatchLight> solve_patches() {
+  std::shared_ptr<const radiosity::PatchLight> solve_patches(std::shared_ptr<const radiosity::PatchLinks>* links) {
     radiosity::PatchOptions wanted{options_.bounces, radiosity::fineness_of(options_), options_.stop};
     const std::uint64_t solve_steps = radiosity::solve_tiles(scene_, wanted);
     steps_ += solve_steps;
@@ -376,7 +376,7 @@ class Renderer {
     };
     return arena_.execute([&] {
       return std::make_shared<const radiosity::PatchLight>(
-          radiosity::solve_patches(scene_, surfaces_.rays(), *parts_.maps, wanted, add_direct, find_incident));
+          radiosity::solve_patches(scene_, surfaces_.rays(), *parts_.maps, wanted, add_direct, find_incident, links));
     });
   }
 

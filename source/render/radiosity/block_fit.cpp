@@ -162,4 +162,16 @@ bool fit_square(const std::array<std::array<Gathered, BlockFit::kLanes>, 4>& mea
   return true;
 }
 
+FittedValue between_even_pixels(const std::array<FittedValue, BlockFit::kLanes>& even, std::size_t x, std::size_t y) {
+  FittedValue sum{};
+  for (const std::size_t down : {y / 2, std::min((y + 1) / 2, std::size_t{3})})
+    for (const std::size_t across : {x / 2, std::min((x + 1) / 2, std::size_t{3})}) {
+      const FittedValue& near = even[4 * down + across];
+      sum.value += near.value * 0.25f;
+      sum.error += near.error * 0.25f;
+      sum.standard += near.standard * 0.25f;
+    }
+  return sum;
+}
+
 }  // namespace steradian::radiosity

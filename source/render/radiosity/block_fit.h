@@ -73,4 +73,8 @@ bool in_one_plane(const FourBlocks& blocks);
 bool fit_square(const std::array<std::array<Gathered, BlockFit::kLanes>, 4>& means,
                 std::array<std::array<FittedValue, BlockFit::kLanes>, 4>& fitted);
 
+// The value at a pixel of 8 x 8, from those of the pixels with even coordinates, row by row: linear between them, and the last one beyond
+// it.
+FittedValue between_even_pixels(const std::array<FittedValue, BlockFit::kLanes>& even, std::size_t x, std::size_t y);
+
 }  // namespace steradian::radiosity

@@ -82,4 +82,17 @@ TEST(BlockFit, RefusesRareLight) {
   }
 }
 
+// A plane through the pixels with even coordinates holds those between them, too.
+TEST(BlockFit, IsLinearBetweenEvenPixels) {
+  const auto value = [](std::size_t x, std::size_t y) { return 2 + 0.25f * static_cast<float>(x) - 0.125f * static_cast<float>(y); };
+  std::array<FittedValue, BlockFit::kLanes> even;
+  for (std::size_t i = 0; i < even.size(); ++i) even[i] = {{value(i % 4 * 2, i / 4 * 2), 0, 0}, {1, 0, 0}, {1, 0, 0}};
+  for (std::size_t y = 0; y < 8; ++y)
+    for (std::size_t x = 0; x < 8; ++x) {
+      const FittedValue between = between_even_pixels(even, x, y);
+      EXPECT_EQ(between.value.x, value(std::min(x, std::size_t{6}), std::min(y, std::size_t{6}))) << x << " " << y;  // multiples of 1/16
+      EXPECT_EQ(between.error.x, 1);
+    }
+}
+
 }  // namespace steradian::radiosity

@@ -59,6 +59,7 @@ std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
     // Embree's normal is that of the winding.
     const float towards = packet_.hit.Ng_x[i] * ray.dir_x[i] + packet_.hit.Ng_y[i] * ray.dir_y[i] + packet_.hit.Ng_z[i] * ray.dir_z[i];
     const PatchPlace place = patches_.place_at(met[i], packet_.hit.primID[i], packet_.hit.u[i], packet_.hit.v[i], towards < 0);
+    if (place.side == kNoSide) continue;
     const Vec3f way = {ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]};
     places[i] = patches_.seen_along(place, origin_[i] + way * ray.tfar[i], rays_);
   }

@@ -24,6 +24,7 @@ class BounceRays {
     origin_[lane] = origin;
     normal_[lane] = above;
   }
+  Vec3d origin(std::size_t lane) const { return static_cast<Vec3d>(origin_[lane]); }
   // Sets the direction of a lane's ray, and asks for it. Rays into the surface's triangle meet nothing.
   void set(std::size_t lane, Vec3f direction) {
     if (!(dot(direction, normal_[lane]) > 0)) return;

@@ -114,6 +114,7 @@ Gather::Gather(const PatchLight& light, const RayScene& rays, const Fineness& fi
       strict_(options.strict),
       samples_(std::min(options.samples, kMostShifts)),
       lobe_rays_(fineness.lobe_rays),
+      every_other_(fineness.every_other && !options.strict),
       tolerance_(static_cast<float>(options.error * light.mean_radiance())) {
   const std::size_t finest = options.error > 0 || strict_ ? kFinest : 0;
   for (std::size_t level = 0; level <= finest; ++level) add_grids(fineness.rows << level);
@@ -263,10 +264,9 @@ Gathered Gather::mean_of(const Sums& sums, std::size_t lane) {
   return result;
 }
 
-// The mean radiance about each surface, weighted by the cosine, times its albedo. first: sums over the first quarters, or null; block: of
-// those.
-Gather::Lit Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, std::size_t block,
-                            const Sums* first) const {
+// The mean radiance about each surface, weighted by the cosine. first: sums over the first quarters, or null; block: of those.
+std::array<FittedValue, Gather::kLanes> Gather::arriving(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample,
+                                                         std::size_t level, std::size_t block, const Sums* first) const {
   Sums all;
   for (std::size_t round = 0; round < 4; ++round) {
     // Rays that are traced together are nearest where all take the same quarter.
@@ -286,15 +286,39 @@ Gather::Lit Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked
   SixteenSurfaces::each(asked, [&](std::size_t i) { means[i] = mean_of(all, i); });
   const BlockFit fit(surfaces, asked, strict_);
   const std::array<FittedValue, kLanes> of_bright = bright(surfaces, asked, sample, level);
-  Lit lit;
+  std::array<FittedValue, kLanes> sum{};
   SixteenSurfaces::each(asked, [&](std::size_t i) {
     const FittedValue of_rays = fit.at(i, means, BlockFit::Keeps::own_values);
     const float weight = all.weight[i][0] + all.weight[i][1] + all.weight[i][2] + all.weight[i][3];
     const Vec3f basis = weight > 0 ? absolute(all.basis[i] * (1 / weight)) : Vec3f{};
-    lit.put(i, surfaces,
-            {of_rays.value + of_bright[i].value, of_rays.error + of_bright[i].error + basis, of_rays.standard + of_bright[i].standard});
+    sum[i] = {of_rays.value + of_bright[i].value, of_rays.error + of_bright[i].error + basis, of_rays.standard + of_bright[i].standard};
   });
+  return sum;
+}
+
+// The same times the surfaces' albedo.
+Gather::Lit Gather::diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, std::size_t block,
+                            const Sums* first) const {
+  const std::array<FittedValue, kLanes> sum = arriving(surfaces, asked, sample, level, block, first);
+  Lit lit;
+  SixteenSurfaces::each(asked, [&](std::size_t i) { lit.put(i, surfaces, sum[i]); });
   return lit;
+}
+
+// The same for 8 x 8 pixels in one plane, by one pixel of 2 x 2.
+void Gather::diffuse_of_every_other(const FourBlocks& blocks, int sample, std::array<Lit, 4>& lit) const {
+  const auto lane_of = [](std::size_t x, std::size_t y) { return y % 4 * 4 + x % 4; };
+  const auto block_of = [](std::size_t x, std::size_t y) { return y / 4 * 2 + x / 4; };
+  SixteenSurfaces some;
+  some.lit = kAllLanes;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::size_t x = i % 4 * 2, y = i / 4 * 2;
+    some.surface[i] = blocks[block_of(x, y)].surface[lane_of(x, y)];
+    some.view[i] = blocks[block_of(x, y)].view[lane_of(x, y)];
+  }
+  const std::array<FittedValue, kLanes> sum = arriving(some, kAllLanes, sample, 0, 0, nullptr);
+  for (std::size_t y = 0; y < 8; ++y)
+    for (std::size_t x = 0; x < 8; ++x) lit[block_of(x, y)].put(lane_of(x, y), blocks[block_of(x, y)], between_even_pixels(sum, x, y));
 }
 
 // The same for 8 x 8 pixels, by a quarter of the directions. False where their light is no plane, or its error is above the tolerance; then
@@ -468,7 +492,8 @@ std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sa
   std::array<Lit, 4> lit;
   const auto is_diffuse = [](const SixteenSurfaces& block) { return with_diffuse(block) == kAllLanes; };
   const bool may_join = !strict_ && std::all_of(blocks.begin(), blocks.end(), is_diffuse) && in_one_plane(blocks);
-  const bool joined = may_join && diffuse_of_square(blocks, sample, first, lit);
+  if (may_join && every_other_) diffuse_of_every_other(blocks, sample, lit);
+  const bool joined = may_join && (every_other_ || diffuse_of_square(blocks, sample, first, lit));
   for (std::size_t b = 0; b < 4; ++b) {
     if (joined)
       add(lit[b].result, results[b]);

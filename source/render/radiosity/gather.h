@@ -2,8 +2,9 @@
 //
 // A diffuse lobe takes the mean over a grid of directions, weighted by the cosine. Each of 4 x 4 pixels shifts the grid by its own fraction
 // of a cell, and a linear fit over the pixels of one surface joins their means: together they see sixteen times as many directions. Where
-// the light of 8 x 8 pixels is a plane, a quarter of the directions serves each. A glossy lobe takes directions of its own. Narrow lobes
-// would show single patches: mirrored rays serve them (mirrored_fraction) but in the last mirror of a row.
+// the light of 8 x 8 pixels is a plane, a quarter of the directions serves each. In previews, one pixel of 2 x 2 gathers for all of a
+// plane. A glossy lobe takes directions of its own. Narrow lobes would show single patches: mirrored rays serve them (mirrored_fraction) but
+// in the last mirror of a row.
 #pragma once
 
 #include <array>
@@ -63,8 +64,11 @@ class Gather {
   Sums quarter_sums(const SixteenSurfaces& surfaces, std::uint32_t asked, const Grid& cells,
                     const std::array<std::size_t, kLanes>& quarters) const;
   static Gathered mean_of(const Sums& sums, std::size_t lane);
+  std::array<FittedValue, kLanes> arriving(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
+                                           std::size_t block, const Sums* first) const;
   Lit diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, std::size_t block,
               const Sums* first) const;
+  void diffuse_of_every_other(const FourBlocks& blocks, int sample, std::array<Lit, 4>& lit) const;
   bool diffuse_of_square(const FourBlocks& blocks, int sample, std::array<Sums, 4>& first, std::array<Lit, 4>& lit) const;
   Lit glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, Mirrored mirrored,
              std::size_t level) const;
@@ -79,6 +83,7 @@ class Gather {
   const bool strict_;
   const int samples_;
   const std::size_t lobe_rays_;
+  const bool every_other_;
   float near_ = 0;  // distance within which rays meet bright sides more often than places stand for them
   const float tolerance_;
   std::vector<std::vector<Grid>> grids_;  // by level and primary sample

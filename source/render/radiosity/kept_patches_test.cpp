@@ -40,6 +40,25 @@ void expect_same(const Picture& a, const Picture& b) {
   for (const char* layer : {"indirect", "bounce_error", "bounce_bound"}) EXPECT_EQ(a.layers.at(layer), b.layers.at(layer)) << layer;
 }
 
+// Moves a lamp and its shape, or scales its light.
+struct Change {
+  Vec3d by{};
+  double light = 1;
+};
+Scene with_lamp(Scene scene, const Change& change) {
+  AreaLight& lamp = scene.area_lights.front();
+  std::vector<Vec3d>& vertices = std::get<Polygon>(lamp.shape).vertices;
+  for (Vec3d& v : vertices) v += change.by;
+  lamp.radiance = lamp.radiance * change.light;
+  for (Mesh& mesh : scene.meshes) {
+    if (!mesh.is_light_shape) continue;
+    for (Vec3f& p : mesh.positions) p += static_cast<Vec3f>(change.by);
+    SurfaceMaterial& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    material.emissive = material.emissive * static_cast<float>(change.light);
+  }
+  return scene;
+}
+
 }  // namespace
 
 TEST(KeptPatches, ServeAnotherCameraAndNoOtherLight) {
@@ -67,6 +86,53 @@ TEST(KeptPatches, ServeAnotherCameraAndNoOtherLight) {
   check("a light", false, [](Scene& s, RenderOptions&) { s.area_lights.front().radiance.x *= 2; });
   check("a material", false, [](Scene& s, RenderOptions&) { s.materials.front().base_color.x *= 0.5f; });
   check("a mesh", false, [](Scene& s, RenderOptions&) { s.meshes.back().positions.front().y += 0.01f; });
+}
+
+// While lights alone change, the rays from patch to patch stay, but for those near a lamp's shape. No picture differs by it. The boxes
+// float above the floor: of two surfaces at one place, rays may meet either.
+TEST(KeptPatches, KeepTheirRaysWhileLightsChange) {
+  Scene cornell = load_scene(test::kSourceDir + "/scenes/cornell.glb").scene;
+  for (Mesh& mesh : cornell.meshes)
+    if (mesh.name.ends_with("box"))
+      for (Vec3f& p : mesh.positions) p.y += 0.01f;
+  Scene glass = cornell;
+  for (const Mesh& mesh : cornell.meshes)
+    if (mesh.name == "short box") {
+      glass.meshes[static_cast<std::size_t>(&mesh - cornell.meshes.data())].material = static_cast<int>(glass.materials.size());
+      glass.materials.push_back({});
+      glass.materials.back().metallic = 0;
+      glass.materials.back().roughness = 0;
+      glass.materials.back().base_color = {0.9f, 0.6f, 0.7f, 1};
+      glass.materials.back().transmission = 1;
+    }
+  ASSERT_GT(glass.materials.size(), cornell.materials.size());
+  RenderOptions options = tiny();
+  options.bounce_preview = true;
+  for (const Scene& scene : {cornell, glass}) {
+    RenderCache cache;
+    RenderStats all;
+    render(scene, options, cache, &all);
+    EXPECT_GT(all.patch_rays, 0u);
+    // Returns the fraction of the rays that were traced again.
+    const auto traced = [&](const char* name, const Scene& changed) {
+      SCOPED_TRACE(name);
+      RenderStats stats;
+      expect_same(render(changed, options, cache, &stats), render(changed, options));
+      return static_cast<double>(stats.patch_rays) / static_cast<double>(all.patch_rays);
+    };
+    EXPECT_EQ(traced("more light", with_lamp(scene, {{}, 2})), 0);
+    // Even rays within a box meet a ball as often as the ball's area over the box's says: 5 % for each of two.
+    const double near = traced("to the side", with_lamp(scene, {{0.3, 0, 0.4}}));
+    EXPECT_GT(near, 0);
+    EXPECT_LT(near, 0.15);
+    EXPECT_LT(traced("down", with_lamp(scene, {{0.3, -1, 0.4}})), 0.15);
+    Scene other = scene;
+    other.meshes.front().positions.front().x -= 0.25f;
+    EXPECT_GE(traced("another floor", other), 1);
+    Scene red = scene;
+    red.materials.front().base_color.y *= 0.5f;
+    EXPECT_EQ(traced("another wall", red), 1);
+  }
 }
 
 // A preview is kept beside the picture's own light.

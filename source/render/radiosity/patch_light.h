@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,7 +21,7 @@ struct BrightPlace {
 
 class PatchLight {
  public:
-  const Patches& patches() const { return patches_; }
+  const Patches& patches() const { return *patches_; }
   // Radiance at a place that is on a side. A side beside a border of light has a direct light for each part.
   Vec3f radiance(PatchPlace at) const {
     const Side& side = sides_[at.side];
@@ -40,12 +41,13 @@ class PatchLight {
   float bright_area() const { return bright_area_; }       // mean of the places' areas
   double mean_radiance() const { return mean_radiance_; }  // luminance, over the sides that send light
   int iterations() const { return iterations_; }
+  std::uint64_t traced() const { return traced_; }  // rays from side to side that were traced for it
   // Bound of the radiance that the bounces after the last iteration would add to any side. None if they do not become less.
   std::optional<float> left_out() const { return left_out_; }
 
  private:
   friend class PatchSolver;
-  explicit PatchLight(Patches patches) : patches_(std::move(patches)), sides_(patches_.side_count()) {}
+  explicit PatchLight(std::shared_ptr<const Patches> patches) : patches_(std::move(patches)), sides_(patches_->side_count()) {}
 
   static constexpr std::uint32_t kNoParts = (1u << 31) - 1;
   // All that a ray asks of a side, in half a cache line.
@@ -56,7 +58,7 @@ class PatchLight {
     std::uint32_t glossy = GlossySides::kNone;  // lobe of glossy_
   };
 
-  Patches patches_;
+  std::shared_ptr<const Patches> patches_;
   GlossySides glossy_;
   std::vector<Side> sides_;
   std::vector<std::array<Vec3f, kPatchParts>> change_in_parts_;  // from the side's mean
@@ -64,6 +66,7 @@ class PatchLight {
   float bright_area_ = 0;
   double mean_radiance_ = 0;
   int iterations_ = 0;
+  std::uint64_t traced_ = 0;
   std::optional<float> left_out_ = 0;
 };
 

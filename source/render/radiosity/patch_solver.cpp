@@ -10,7 +10,6 @@
 
 #include "core/float_mode.h"
 #include "render/radiosity/even_reflectance.h"
-#include "render/radiosity/side_rays.h"
 #include "render/surface/gbuffer.h"
 #include "steradian/area_light.h"  // luminance
 
@@ -22,12 +21,6 @@ constexpr float kSmallChange = 1e-4f;                     // of the largest radi
 constexpr float kNoChange = 1e-6f;                        // the same where the factor from bounce to bounce is not yet below 1
 constexpr int kMostIterations = 500;
 constexpr std::uint32_t kFromSides = UINT32_MAX;  // in the place of a light's number: bounced light
-
-Patches patches_for(const Scene& scene, const RayScene& rays, std::size_t wanted) {
-  Patches patches(scene, wanted);
-  patches.split(scene, rays);
-  return patches;
-}
 
 constexpr std::size_t kTilePatches = kTilePixels / 2;  // of a tile of sides
 // Ends of the stages of a solve, as fractions of its time: estimates for progress, from the scenes cornell, room, gallery and furnished.
@@ -42,14 +35,22 @@ std::size_t tiles_for(std::size_t patches) { return (patches + kTilePatches - 1)
 
 class PatchSolver {
  public:
-  PatchSolver(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options)
-      : scene_(scene), rays_(rays), maps_(maps), options_(options), light_(patches_for(scene, rays, options.fineness.patches)) {}
+  // kept: links that serve the scene; null: none.
+  PatchSolver(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
+              const std::shared_ptr<const PatchLinks>& kept)
+      : scene_(scene),
+        rays_(rays),
+        maps_(maps),
+        options_(options),
+        links_(kept != nullptr ? std::make_shared<PatchLinks>(*kept) : std::make_shared<PatchLinks>(scene, rays, options.fineness.patches)),
+        light_(links_->patches()) {}
 
   PatchLight solve(const AddDirect& add_direct, const FindIncident& find_incident);
+  std::shared_ptr<const PatchLinks> links() const { return links_; }
+  bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
 
  private:
-  const Patches& patches() const { return light_.patches_; }
-  bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
+  const Patches& patches() const { return light_.patches(); }
   template <class Work>
   void each(std::size_t count, Work work) const {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -58,13 +59,17 @@ class PatchSolver {
       work(i);
     });
   }
-  Surface surface_of(std::uint32_t side) const;
-  Surface surface_at_site(std::uint32_t side, const Patches::Site& at) const;
+  Surface surface_at(const Patches::Site& at, std::uint32_t side) const {
+    return surface_at_site(scene_, maps_, at, Patches::is_front(side));
+  }
+  Surface surface_of(std::uint32_t side) const { return surface_at(patches().site(side), side); }
   WorkFraction part(double first, double last) const { return part_of(options_.progress, first, last); }
   void find_direct(const AddDirect& add_direct);
   void refine_direct(const AddDirect& add_direct);
   void find_glossy(const FindIncident& find_incident);
-  void find_links(std::size_t rays);
+  void find_links();
+  std::vector<Vec3f> tints_of(std::size_t side) const;
+  void find_from_glossy();
   void iterate();
   void turn_bounces();
   void find_coarse();
@@ -89,17 +94,11 @@ class PatchSolver {
   const MipMaps& maps_;
   const PatchOptions options_;
   const SolveShares shares_ = shares_of(options_.bounces);
+  const std::shared_ptr<PatchLinks> links_;
   PatchLight light_;
   std::vector<Vec3f> reflectance_, direct_;  // by side
   std::vector<Vec3f> even_glossy_;           // by side: mean radiance of its glossy lobe, where light_ keeps it by direction
   std::vector<Vec3f> from_glossy_;           // by side: mean radiance that glossy lobes of other sides send there
-  SideRays side_rays_;
-  std::vector<std::uint32_t> links_;  // sides that the rays of each side meet
-  struct Absorbed {
-    std::size_t ray;
-    Vec3f fraction;  // that the glass before it takes
-  };
-  std::vector<std::vector<Absorbed>> absorbed_;  // by side: its rays through glass
 };
 
 void put_white(SurfaceTile& tile, std::size_t slot, const Surface& s) {
@@ -124,8 +123,8 @@ PatchLight PatchSolver::solve(const AddDirect& add_direct, const FindIncident& f
   for (std::size_t side = 0; side < sides; ++side) light_.sides_[side].radiance = direct_[side];
   if (sides == 0) return std::move(light_);
   if (options_.bounces != 1) {
-    const std::size_t rays = std::clamp(kMostLinks / sides, std::size_t{16}, options_.fineness.rays);
-    find_links(rays / BounceRays::kLanes * BounceRays::kLanes);
+    find_links();
+    find_from_glossy();
     iterate();
     turn_bounces();
   }
@@ -136,26 +135,16 @@ PatchLight PatchSolver::solve(const AddDirect& add_direct, const FindIncident& f
 }
 
 PatchLight solve_patches(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
-                         const AddDirect& add_direct, const FindIncident& find_incident) {
-  return PatchSolver(scene, rays, maps, options).solve(add_direct, find_incident);
+                         const AddDirect& add_direct, const FindIncident& find_incident, std::shared_ptr<const PatchLinks>* kept) {
+  PatchSolver solver(scene, rays, maps, options, kept != nullptr ? *kept : nullptr);
+  PatchLight light = solver.solve(add_direct, find_incident);
+  if (kept != nullptr && !solver.stopped()) *kept = solver.links();
+  return light;
 }
 
 std::size_t solve_tiles(const Scene& scene, const PatchOptions& options) {
   const std::size_t tiles = tiles_for(Patches(scene, options.fineness.patches).side_count() / 2);
   return options.bounces == 0 ? 0 : static_cast<std::size_t>(static_cast<double>(tiles) / shares_of(options.bounces).direct) + 1;
-}
-
-Surface PatchSolver::surface_of(std::uint32_t side) const { return surface_at_site(side, patches().site(side)); }
-
-// The surface at a place of a side, as a ray sees it that comes along the normal.
-Surface PatchSolver::surface_at_site(std::uint32_t side, const Patches::Site& at) const {
-  const Mesh& mesh = scene_.meshes[at.mesh];
-  const auto corner = [&](std::size_t i) { return mesh.positions[mesh.indices[3 * std::size_t{at.triangle} + i]]; };
-  const Vec3f across = cross(corner(1) - corner(0), corner(2) - corner(0));
-  const float size = length(across);
-  const Vec3f normal = size > 0 ? across / size : Vec3f{0, 0, 1};
-  return surface_at(scene_, mesh, at.triangle, at.u, at.v, Patches::is_front(side) ? normal : -normal,
-                    {&maps_, {at.step, 0}, {0, at.step}});
 }
 
 // Finds the direct light of the sides, a tile of sides at a time: the fronts of its patches, and then their backs.
@@ -223,7 +212,7 @@ void PatchSolver::refine_direct(const AddDirect& add_direct) {
       put_nothing(*tile, i);
       const std::size_t k = number * kTileSides + i / kPatchParts;
       if (k >= refined.size()) continue;
-      put_white(*tile, i, surface_at_site(refined[k], patches().site({refined[k], static_cast<std::uint32_t>(i % kPatchParts)})));
+      put_white(*tile, i, surface_at(patches().site({refined[k], static_cast<std::uint32_t>(i % kPatchParts)}), refined[k]));
     }
     add_direct(*tile);
     for (std::size_t k = 0; k < kTileSides && number * kTileSides + k < refined.size(); ++k) {
@@ -290,33 +279,44 @@ void PatchSolver::find_glossy(const FindIncident& find_incident) {
   }
 }
 
-void PatchSolver::find_links(std::size_t rays) {
-  side_rays_ = SideRays(rays);
-  links_.resize(rays * patches().side_count());
+void PatchSolver::find_links() {
+  const std::size_t sides = patches().side_count();
+  WorkSteps steps(part(shares_.glossy, shares_.links), sides);
+  const auto each_side = [&](std::size_t count, const std::function<void(std::size_t)>& work) {
+    each(count, [&](std::size_t side) {
+      work(side);
+      steps.advance();
+    });
+  };
+  if (links_->rays() == 0 || !links_->follow(scene_, rays_, maps_, each_side)) {
+    const std::size_t rays = std::clamp(kMostLinks / sides, std::size_t{16}, options_.fineness.rays);
+    links_->find(scene_, rays_, maps_, rays / BounceRays::kLanes * BounceRays::kLanes, each_side);
+  }
+  light_.traced_ = links_->traced();
+}
+
+// Fraction of light that the glass before each ray of a side lets through.
+std::vector<Vec3f> PatchSolver::tints_of(std::size_t side) const {
+  std::vector<Vec3f> tints(links_->rays(), {1, 1, 1});
+  for (const PatchLinks::Absorbed& a : links_->absorbed(side)) tints[a.ray] = tints[a.ray] - a.fraction;
+  return tints;
+}
+
+// Finds the mean radiance that glossy lobes of other sides send to each side.
+void PatchSolver::find_from_glossy() {
   from_glossy_.resize(patches().side_count());
-  absorbed_.resize(patches().side_count());
-  WorkSteps steps(part(shares_.glossy, shares_.links), patches().side_count());
   each(patches().side_count(), [&](std::size_t side) {
-    steps.advance();
-    const Surface surface = surface_of(static_cast<std::uint32_t>(side));
-    const Frame frame = SideRays::frame(surface, side);
-    BounceRays bounce(rays_, patches());
-    for (std::size_t i = 0; i < BounceRays::kLanes; ++i) bounce.start(i, surface);
-    for (std::size_t k = 0; k < rays; k += BounceRays::kLanes) {
-      std::array<Vec3f, BounceRays::kLanes> to;
-      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
-        to[i] = static_cast<Vec3f>(frame.to_world(side_rays_.direction(k + i)));
-        bounce.set(i, to[i]);
+    const auto shines = [&](std::size_t k) { return links_->met(side, k) != kNoSide && light_.has_lobe(links_->met(side, k)); };
+    std::size_t first = 0;
+    while (first < links_->rays() && !shines(first)) ++first;
+    if (first == links_->rays()) return;
+    const Frame frame = SideRays::frame(surface_of(static_cast<std::uint32_t>(side)), side);
+    const std::vector<Vec3f> tints = tints_of(side);
+    for (std::size_t k = first; k < links_->rays(); ++k)
+      if (shines(k)) {
+        const auto to = static_cast<Vec3f>(frame.to_world(links_->side_rays().direction(k)));
+        from_glossy_[side] += light_.glossy_radiance(links_->met(side, k), -to) * tints[k] * (1 / static_cast<float>(links_->rays()));
       }
-      const auto met = bounce.trace();
-      for (std::size_t i = 0; i < BounceRays::kLanes; ++i) {
-        links_[side * rays + k + i] = met[i].side;
-        if (met[i].side == kNoSide) continue;
-        const Vec3f tint = bounce.tint(i), of_lobe = light_.glossy_radiance(met[i].side, -to[i]);
-        from_glossy_[side] += of_lobe * tint * (1 / static_cast<float>(rays));
-        if (bounce.any_tint() && tint != Vec3f{1, 1, 1}) absorbed_[side].push_back({k + i, Vec3f{1, 1, 1} - tint});
-      }
-    }
   });
 }
 
@@ -328,7 +328,7 @@ void PatchSolver::find_links(std::size_t rays) {
 void PatchSolver::iterate() {
   const int bounces = options_.bounces;
   const std::size_t sides = patches().side_count();
-  const float over_links = 1.0f / static_cast<float>(side_rays_.count());
+  const float over_links = 1.0f / static_cast<float>(links_->rays());
   std::vector<Vec3f> bounce = direct_, next(sides);  // radiance after exactly so many bounces
   const auto largest_of = [](Vec3f v) { return std::max({v.x, v.y, v.z}); };
   float largest_reflectance = 0;
@@ -337,11 +337,11 @@ void PatchSolver::iterate() {
   for (light_.iterations_ = 0; light_.iterations_ < most && !stopped();) {
     each(sides, [&](std::size_t side) {
       Vec3f sum{};
-      for (std::size_t k = 0; k < side_rays_.count(); ++k) {
-        const std::uint32_t met = links_[side * side_rays_.count() + k];
+      for (std::size_t k = 0; k < links_->rays(); ++k) {
+        const std::uint32_t met = links_->met(side, k);
         if (met != kNoSide) sum += bounce[met];
       }
-      for (const Absorbed& a : absorbed_[side]) sum = sum - bounce[links_[side * side_rays_.count() + a.ray]] * a.fraction;
+      for (const PatchLinks::Absorbed& a : links_->absorbed(side)) sum = sum - bounce[links_->met(side, a.ray)] * a.fraction;
       // Light from glossy lobes of other sides is direct light that has bounced once.
       next[side] = reflectance_[side] * (sum * over_links + (light_.iterations_ == 0 ? from_glossy_[side] : Vec3f{}));
     });
@@ -396,17 +396,16 @@ void PatchSolver::turn_bounces() {
       if (std::max({share.x, share.y, share.z}) < kMetal || luminance(static_cast<Vec3d>(bounced * share)) <= least) return;
       found[k] = {surface, bounced * share, {}, {}};
       const Frame frame = SideRays::frame(surface, side);
-      const float per_ray = std::numbers::pi_v<float> / static_cast<float>(side_rays_.count());
-      std::vector<Vec3f> tints(side_rays_.count(), {1, 1, 1});
-      for (const Absorbed& a : absorbed_[side]) tints[a.ray] = tints[a.ray] - a.fraction;
-      for (std::size_t i = 0; i < side_rays_.count(); ++i) {
-        const std::uint32_t met = links_[side * side_rays_.count() + i];
+      const float per_ray = std::numbers::pi_v<float> / static_cast<float>(links_->rays());
+      const std::vector<Vec3f> tints = tints_of(side);
+      for (std::size_t i = 0; i < links_->rays(); ++i) {
+        const std::uint32_t met = links_->met(side, i);
         if (met == kNoSide) continue;
-        const auto to = static_cast<Vec3f>(frame.to_world(side_rays_.direction(i)));
+        const auto to = static_cast<Vec3f>(frame.to_world(links_->side_rays().direction(i)));
         const Vec3f irradiance = (light_.sides_[met].radiance + light_.glossy_radiance(met, -to)) * tints[i] * per_ray;
         found[k].irradiance += irradiance;
         if (weighs(irradiance))
-          found[k].incident.push_back({to, irradiance, per_ray / static_cast<float>(side_rays_.direction(i).z), kFromSides});
+          found[k].incident.push_back({to, irradiance, per_ray / static_cast<float>(links_->side_rays().direction(i).z), kFromSides});
       }
     });
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -460,7 +459,7 @@ float PatchSolver::turn_of(std::uint32_t side) const {
 // Spreads places over the bright sides in proportion to their light.
 void PatchSolver::find_bright_sides() {
   constexpr double kBright = 6;  // times the mean radiance of the sides that send light
-  constexpr std::size_t kPlaces = 1024;
+  const std::size_t most = options_.fineness.bright;
   const auto sides = static_cast<std::uint32_t>(patches().side_count());
   const auto radiance = [&](std::uint32_t side) { return light_.sides_[side].radiance + even_glossy_[side]; };
   const auto brightness = [&](std::uint32_t side) { return luminance(static_cast<Vec3d>(radiance(side))); };
@@ -479,13 +478,15 @@ void PatchSolver::find_bright_sides() {
   for (std::uint32_t side = 0; side < sides; ++side) {
     if (bright[side] == 0) continue;
     before += brightness(side) * static_cast<double>(area_of(side));
-    while (light_.places_.size() < kPlaces && (static_cast<double>(light_.places_.size()) + 0.5) * bright_power < before * kPlaces) {
+    while (light_.places_.size() < most &&
+           (static_cast<double>(light_.places_.size()) + 0.5) * bright_power < before * static_cast<double>(most)) {
       const Surface s = surface_of(side);
-      light_.places_.push_back({s.position, s.geometric_normal, side, static_cast<float>(bright_power / kPlaces / brightness(side))});
+      light_.places_.push_back(
+          {s.position, s.geometric_normal, side, static_cast<float>(bright_power / static_cast<double>(most) / brightness(side))});
     }
   }
   for (std::uint32_t side = 0; side < sides; ++side) light_.sides_[side].bright = bright[side] & 1u;
-  light_.bright_area_ = static_cast<float>(bright_area / kPlaces);
+  light_.bright_area_ = static_cast<float>(bright_area / static_cast<double>(most));
 }
 
 }  // namespace steradian::radiosity

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/mip_maps.h"
@@ -10,6 +11,7 @@
 #include "render/radiosity/bounce_rays.h"
 #include "render/radiosity/fineness.h"
 #include "render/radiosity/patch_light.h"
+#include "render/radiosity/patch_links.h"
 #include "render/tile/tile.h"
 
 namespace steradian::radiosity {
@@ -30,9 +32,10 @@ using AddDirect = std::function<void(SurfaceTile& tile)>;
 // Appends the light that reaches a surface from directions. number: seed of the directions.
 using FindIncident = std::function<void(const Surface& surface, std::uint64_t number, std::vector<IncidentLight>& found)>;
 
-// Computes all radiances, on the threads of the caller's arena.
+// Computes all radiances, on the threads of the caller's arena. kept: if not null, PatchLinks that serve this scene and its options, or
+// none; they become those of this scene unless the work was stopped.
 PatchLight solve_patches(const Scene& scene, const RayScene& rays, const MipMaps& maps, const PatchOptions& options,
-                         const AddDirect& add_direct, const FindIncident& find_incident);
+                         const AddDirect& add_direct, const FindIncident& find_incident, std::shared_ptr<const PatchLinks>* kept = nullptr);
 
 // The time of solve_patches, in tiles of a picture that are lit directly: an estimate, for progress.
 std::size_t solve_tiles(const Scene& scene, const PatchOptions& options);

@@ -29,7 +29,7 @@ Patches::Patches(const Scene& scene, std::size_t wanted) : clear_(scene) {
   for (const Mesh& mesh : scene.meshes) lets_through_.push_back(light_passes(scene, mesh));
   std::vector<float> edges;
   for (const Mesh& mesh : scene.meshes)
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) edges.push_back(longest_edge(mesh, t));
+    for (std::size_t t = 0; t < mesh.triangle_count() && !mesh.is_light_shape; ++t) edges.push_back(longest_edge(mesh, t));
   const float longest = edges.empty() ? 0 : *std::max_element(edges.begin(), edges.end());
   // However many small triangles there are, half of the patches are for cutting the large ones.
   wanted = std::max(wanted, edges.size() + wanted / 2);
@@ -46,7 +46,7 @@ Patches::Patches(const Scene& scene, std::size_t wanted) : clear_(scene) {
     const Mesh& mesh = scene.meshes[m];
     first_grid_.push_back(grids_.size());
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-      const std::uint32_t n = cells_for(longest_edge(mesh, t), size);
+      const std::uint32_t n = mesh.is_light_shape ? 0 : cells_for(longest_edge(mesh, t), size);
       grids_.push_back({static_cast<std::uint32_t>(sites_.size()), n});
       const float step = 1.0f / static_cast<float>(n);
       for (std::uint32_t i = 0; i < n; ++i)
@@ -106,6 +106,7 @@ Patches::Site Patches::site(PatchPlace place) const {
 
 PatchPlace Patches::place_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const {
   const Grid& grid = grid_of(mesh, triangle);
+  if (grid.cells == 0) return {};
   const TriangleCell cell(u, v, grid.cells), part(cell.u, cell.v, kPartsAlong);
   PatchPlace at{2 * (grid.first + cell.number(grid.cells)) + (front ? 0 : 1), part.number(kPartsAlong)};
   if (const Split* split = split_of(at.side)) at.side = split->of_parts[at.part];

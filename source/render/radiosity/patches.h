@@ -1,5 +1,5 @@
 // Patches: the triangles of a scene cut into small ones. Each side of a patch carries one reflected radiance. A side that a wall crosses
-// becomes several, so that none lies on both sides of the wall.
+// becomes several, so that none lies on both sides of the wall. Shapes of lamps reflect nothing, and have none.
 #pragma once
 
 #include <array>
@@ -30,7 +30,8 @@ class Patches {
   void split(const Scene& scene, const RayScene& rays);
 
   std::size_t side_count() const { return 2 * sites_.size(); }
-  // The place that a ray meets at a triangle's barycentric coordinates. front: on the side of the triangle's winding.
+  // The place that a ray meets at a triangle's barycentric coordinates; no side if the triangle has no patches. front: on the side of the
+  // triangle's winding.
   PatchPlace place_at(std::size_t mesh, std::size_t triangle, float u, float v, bool front) const;
 
   // The same where the side is split: the first of its sides whose own place the place on the surface sees along the surface. A part may
@@ -76,7 +77,7 @@ class Patches {
 
   struct Grid {
     std::uint32_t first;  // patch
-    std::uint32_t cells;  // along a side: cells * cells patches
+    std::uint32_t cells;  // along a side: cells * cells patches; 0: none
   };
   const Grid& grid_of(std::size_t mesh, std::size_t triangle) const { return grids_[first_grid_[mesh] + triangle]; }
   std::vector<Grid> grids_;              // of the triangles of all meshes

@@ -66,6 +66,22 @@ TEST(Patches, MiddlesLieInTheirPatches) {
       EXPECT_LT(patches.place_at(0, 0, u, std::min(v, 1 - u), true).side, patches.side_count());
 }
 
+// A preview differs from the picture by no more than the estimates of both say.
+TEST(Radiosity, APreviewIsWithinItsEstimate) {
+  const Scene scene = load_scene(test::kSourceDir + "/scenes/cornell.glb").scene;
+  RenderOptions options = options_for(72, kAllBounces);
+  RenderStats stats, stats_of_preview;
+  const Picture whole = render(scene, options, &stats);
+  options.bounce_preview = true;
+  const Picture preview = render(scene, options, &stats_of_preview);
+  double squares = 0;
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+    squares += std::pow(luminance(static_cast<Vec3d>(preview.pixels[i]) - static_cast<Vec3d>(whole.pixels[i])), 2);
+  const double error = std::sqrt(squares / static_cast<double>(whole.pixels.size())) / mean_luminance(whole);
+  std::printf("error %.2f %%, estimates %.2f and %.2f %%\n", 100 * error, 100 * stats_of_preview.bounce_error, 100 * stats.bounce_error);
+  EXPECT_LT(error, stats_of_preview.bounce_error + stats.bounce_error);
+}
+
 // In a closed box whose sides shine with 1 and reflect r, the reflected radiance is r + r^2 + ... : every mean is one of equal values, so
 // only roundings and the end of the iterations are left.
 TEST(Radiosity, TheFurnaceIsTheGeometricSeries) {
