@@ -75,7 +75,7 @@ struct RenderOptions {
   // scenes of flat diffuse surfaces and polygon lights only; others are an Error (docs/bounds.md).
   bool bound = false;
   int reflections = 2;          // with bounces: number of mirrors in a row that show what they face
-  bool bounce_preview = false;  // with bounces: 2,000 patches and 16 directions a pixel, for pictures that are shown for a moment
+  bool bounce_preview = false;  // with bounces: few patches and directions, for pictures that are shown for a moment (docs/view.md)
   PicturePart part;          // the rest of the picture stays black; on the CPU, without `indirect`, mirrors of bounces and a limit of time
   IndirectOptions indirect;  // one bounce, at the first primary sample of each pixel; see indirect.h
   std::uint64_t seed = 1;

@@ -5,7 +5,8 @@
 
 namespace steradian::radiosity {
 
-BounceRays::BounceRays(const RayScene& rays, const Patches& patches) : rays_(rays), patches_(patches) {
+BounceRays::BounceRays(const RayScene& rays, const Patches& patches, RayScene::Order order)
+    : rays_(rays), patches_(patches), order_(order) {
   std::fill_n(packet_.ray.dir_z, kLanes, 1.0f);  // a direction for lanes without a ray, too
   std::fill_n(packet_.ray.mask, kLanes, 1u);     // what the camera sees
 }
@@ -35,7 +36,7 @@ std::array<PatchPlace, BounceRays::kLanes> BounceRays::trace() {
   any_tint_ = false;
   constexpr int kMostPassed = 8;
   for (int passed = 0; passed <= kMostPassed; ++passed) {
-    rays_.intersect(valid, packet_);
+    rays_.intersect(valid, packet_, order_);
     // Rays go straight through glass, and are traced again behind it.
     bool again = false;
     for (std::size_t i = 0; i < kLanes; ++i) {

@@ -14,8 +14,8 @@ class BounceRays {
  public:
   static constexpr std::size_t kLanes = 16;
 
-  // Both must outlive this object.
-  BounceRays(const RayScene& rays, const Patches& patches);
+  // Both must outlive this object. order: of the rays that are traced together.
+  BounceRays(const RayScene& rays, const Patches& patches, RayScene::Order order);
 
   // Lets the rays of a lane begin on a surface.
   void start(std::size_t lane, const Surface& from);
@@ -44,6 +44,7 @@ class BounceRays {
  private:
   const RayScene& rays_;
   const Patches& patches_;
+  const RayScene::Order order_;
   std::array<Vec3f, kLanes> origin_{}, normal_{}, tint_{};
   bool any_tint_ = false;
   RTCRayHit16 packet_{};

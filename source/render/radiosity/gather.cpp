@@ -222,7 +222,7 @@ std::array<FittedValue, Gather::kLanes> Gather::bright(const SixteenSurfaces& su
 Gather::Sums Gather::quarter_sums(const SixteenSurfaces& surfaces, std::uint32_t asked, const Grid& cells,
                                   const std::array<std::size_t, kLanes>& quarters) const {
   Sums sums;
-  BounceRays rays(rays_, light_.patches());
+  BounceRays rays(rays_, light_.patches(), RayScene::Order::neighbours);
   SixteenSurfaces::each(asked, [&](std::size_t i) { rays.start(i, surfaces.surface[i]); });
   const std::size_t count = cells.size() / 4;
   const auto columns = static_cast<std::size_t>(std::lround(std::sqrt(2.0 * static_cast<double>(count))));  // twice the rows
@@ -365,7 +365,7 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
   std::array<std::optional<Walker>, kLanes> walkers;
   std::uint32_t asked = 0;
   float narrowest = BlockFit::kFlat;
-  BounceRays rays(rays_, light_.patches());
+  BounceRays rays(rays_, light_.patches(), RayScene::Order::neighbours);
   for (std::size_t i = 0; i < kLanes; ++i) {
     if (of[i] == nullptr) continue;
     const Surface& s = surfaces.surface[i];

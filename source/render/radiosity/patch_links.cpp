@@ -113,7 +113,7 @@ void PatchLinks::trace(const Scene& scene, const RayScene& rays, const MipMaps& 
     const auto number = static_cast<std::uint32_t>(side);
     const Surface surface = surface_at_site(scene, maps, patches_->site(number), Patches::is_front(number));
     const Frame frame = SideRays::frame(surface, side);
-    BounceRays bounce(rays, *patches_);
+    BounceRays bounce(rays, *patches_, RayScene::Order::scattered);
     for (std::size_t i = 0; i < kLanes; ++i) bounce.start(i, surface);
     const Vec3d from = bounce.origin(0);
     std::array<std::size_t, kLanes> packet;  // numbers of rays

@@ -218,10 +218,10 @@ bool RayScene::follow(const Scene& scene) {
 
 RayScene::~RayScene() = default;
 
-void RayScene::intersect(const int valid[16], RTCRayHit16& rays) const {
+void RayScene::intersect(const int valid[16], RTCRayHit16& rays, Order order) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = order == Order::scattered ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRay16& r = rays.ray;
   const auto numbers = {r.org_x, r.org_y, r.org_z, r.tnear, r.tfar};
   multiply(numbers, unit_);
@@ -293,7 +293,7 @@ std::uint32_t RayScene::blocked_among(Sixteen& sixteen, std::uint32_t asked, Cas
   }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   const auto numbers = {rays.org_x, rays.org_y, rays.org_z, rays.dir_x, rays.dir_y, rays.dir_z};
   multiply(numbers, unit_);
   rtcOccluded16(valid, rtc_.get(), &context, &rays);

@@ -45,9 +45,10 @@ class RayScene {
   // Error it belongs to no scene.
   bool follow(const Scene& scene);
 
-  // Traces 16 neighbouring camera rays of unit direction; valid[i] is -1 to trace a ray, 0 to skip it. hit.geomID[i] is the mesh.
-  // Lanes without a ray hold finite numbers, too.
-  void intersect(const int valid[16], RTCRayHit16& rays) const;
+  // Traces 16 rays of unit direction; valid[i] is -1 to trace a ray, 0 to skip it. hit.geomID[i] is the mesh.
+  // Lanes without a ray hold finite numbers, too. Order: of the rays, for speed alone. scattered: they part soon.
+  enum class Order { neighbours, scattered };
+  void intersect(const int valid[16], RTCRayHit16& rays, Order order = Order::neighbours) const;
 
   // Traces one ray from anywhere, in a unit direction. Returns false if it hits nothing.
   bool intersect(Vec3f origin, Vec3f direction, RTCRayHit& hit) const;

@@ -24,7 +24,7 @@ Vec3f PatchesInLobes::radiance(const PatchPlace& met, Vec3f to, float width) con
 }
 
 void PatchesInLobes::along_rays(const Mirrors& mirrors, const StandsFor& stands_for, TileVector& result) const {
-  BounceRays rays(rays_, light_.patches());
+  BounceRays rays(rays_, light_.patches(), RayScene::Order::neighbours);
   const PassedRays::Ways& ways = mirrors.ways;
   for (std::size_t first = 0; first < kTilePixels; first += kLanes) {
     bool any = false;
@@ -50,7 +50,7 @@ void PatchesInLobes::along_rays(const Mirrors& mirrors, const StandsFor& stands_
 
 PatchesInLobes::Seen PatchesInLobes::seen_by(const MirrorLobe& at) const {
   constexpr std::size_t kQuarters = 4;
-  BounceRays rays(rays_, light_.patches());
+  BounceRays rays(rays_, light_.patches(), RayScene::Order::neighbours);
   Material material;
   material.brdf = Brdf::ggx;
   material.alpha_x = static_cast<double>(at.alpha_x);
