@@ -68,6 +68,44 @@ bool is_near(inout Walk e, int i) {
 shared vec4 boxes[SPACE / kAtOnce];
 shared int events_of_box[SPACE / kAtOnce];
 
+// Puts the segments in the order of their heights. Then those of a turn are at about the same height, and so are those of the lanes. The
+// arrays of pieces and crossings, which are still empty, hold them meanwhile.
+void sort_segments() {
+    // A key is the height, in 21 bits, and the segment's number.
+    for (int i = int(LANE); i < (segment_count + kAtOnce - 1) / kAtOnce * kAtOnce; i += LANES)
+        crossing_links[i] = (int(min(cells[i].y + cells[i].w, 2.0 * shadow_cells() - 1.0)) + 2 * int(shadow_cells()) >> 3 << 10) + i;
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        int key = crossing_links[i];
+        int place = 0;
+        for (int first = 0; first < segment_count; first += kAtOnce)
+            for (int k = 0; k < kAtOnce; k++) place += crossing_links[first + k] < key ? 1 : 0;  // compilers unroll it
+        crossing_at[i] = float(place);
+    }
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        int to = int(crossing_at[i]);
+        pieces[to] = cells[i].xy;
+        crossing_links[to] = int(cells[i].z);
+        piece_segments[to] = int(cells[i].w);
+    }
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) cells[i] = vec4(pieces[i], crossing_links[i], piece_segments[i]);
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        int to = int(crossing_at[i]);
+        crossing_links[to] = int(names[i].x);
+        piece_segments[to] = int(names[i].y);
+        pieces[to].x = float(marks[i]);
+    }
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        names[i] = uvec2(crossing_links[i], piece_segments[i]);
+        marks[i] = int(pieces[i].x);
+    }
+    subgroupBarrier();
+}
+
 void find_boxes() {
     for (int b = int(LANE); b * kAtOnce < segment_count; b += LANES) {
         vec4 box = vec4(1.0e30, 1.0e30, -1.0e30, -1.0e30);
@@ -328,6 +366,8 @@ void cut_segments(int base) {
         marks[FIRST + i] = 0;
     }
 #if !FEW
+    subgroupBarrier();
+    sort_segments();
     find_boxes();
 #endif
     subgroupBarrier();

@@ -13,6 +13,6 @@ int turns;  // remaining budget
 int turns_left(uint edges, uint triangles) {
     int gathered = int(6u * (edges / uint(LANES) + triangles / uint(LANES) + 2u)) + kMostIncidences;
     int own = SPACE / LANES + 1;
-    int cut = own * (SPACE / kAtOnce + 4 * (SPACE / kSetOfPairs + 1) + 6 + 2 + 14);
+    int cut = own * (SPACE / kAtOnce + 4 * (SPACE / kSetOfPairs + 1) + 6 + 2 + 14 + SPACE / kAtOnce + 16);
     return kMostTurns - gathered - cut;
 }
