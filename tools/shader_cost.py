@@ -9,8 +9,7 @@ usage: shader_cost.py PROGRAM                   prints the tables of docs/measur
 Mesa's driver RADV makes a device for an AMD GPU that is not there (RADV_FORCE_FAMILY): it compiles and runs nothing. `steradian info SCENE
 --pipelines` makes all pipelines of a picture on it and prints the driver's statistics. gfx1100 is RDNA 3, navi21 RDNA 2, vega10 GCN 5.
 Instructions are of the whole pipeline: each loop's body counts once, and so do both sides of a branch. Scratch is memory of a wave of 64
-threads, for private arrays and spilled registers. The model of time is units of work x instructions / (lanes x clock), for the first picture; the
-software device counts its pairs of a pixel and a light in each space of segments, and their looks at edges. Needs the package mesa-vulkan-drivers; exit 77 without it.
+threads, for private arrays and spilled registers. Needs the package mesa-vulkan-drivers; exit 77 without it.
 """
 import base64
 import json
@@ -35,12 +34,6 @@ PICTURES = [
     ("lamps.svg", ["scenes/plane/lamps.svg"]),
 ]
 SIZE = "640x360"
-GROUP = 64  # threads of a work group
-MODEL_SIZE = "1280x720"
-# Lanes and clock [Hz] of the model, from data sheets.
-PARTS = [("RX 7900 XTX", 6144, 2.5e9), ("RTX 4060", 3072, 2.46e9), ("Steam Deck", 512, 1.6e9)]
-# Bytes that a unit of the model reads and writes: vectors of 16 bytes of a pixel's surface and radiance (shaders/direct.glsl, resolve.comp).
-BYTES = {"diffuse.comp": 16 * 6, "closed_form.comp": 16 * 8, "ltc.comp": 16 * 9, "half_vector.comp": 16 * 8, "resolve.comp": 16 * 8}
 LIMITS = ROOT / "tools" / "shader_limits.json"
 # The limited numbers, by the driver's names.
 LIMITED = {"instructions": "Instructions", "spills": "Spilled VGPRs", "scratch": "Scratch size"}
@@ -155,49 +148,6 @@ def tables(reports):
             printed.add(row)
 
 
-def count_pairs(program, arguments):
-    """shadow_pairs and shadow_looks of RenderStats, of a picture on the software device, which runs what the others compile."""
-    with tempfile.TemporaryDirectory() as folder:
-        told = Path(folder) / "stats.json"
-        made = subprocess.run([program, "render", *arguments, "-o", str(Path(folder) / "picture.png"), "--size", MODEL_SIZE, "--backend", "vulkan",
-                               "--device", "llvmpipe", "--stats", str(told)], cwd=ROOT, capture_output=True, text=True)
-        if made.returncode != 0:
-            sys.exit(f"shader_cost: {' '.join(arguments)} on llvmpipe: exit {made.returncode}: {made.stderr.strip()}")
-        stats = json.loads(told.read_text())
-        return stats["shadow_pairs"], stats["shadow_looks"]
-
-
-def take_pairs(made, pairs, looks):
-    """Sets the units of the search for visible parts: a look of a pair at an edge, and a lane of each pair. The pipelines of the latter are one a
-    space, and more space is a later number."""
-    for p in made:
-        if p["shader"] == "shadow_edges.comp":
-            p["units"] = looks
-    of = sorted((p for p in made if p["shader"] == "shadow_parts.comp"), key=lambda p: p["constants"][0])
-    for p, count in zip(of, pairs[1:], strict=True):
-        p["units"] = count * p["constants"][1]
-
-
-def threads(pipeline):
-    """Threads that do a unit of work: as counted by the host, else those of the work groups."""
-    return pipeline["units"] or pipeline["groups"] * GROUP
-
-
-def model(made):
-    """Markdown: a row for each shader of a picture, and their sum."""
-    print("| shader | units | instructions a unit, mean | MB read and written | " + " | ".join(f"ms, {name}" for name, _, _ in PARTS) + " |")
-    print("|---|" + "--:|" * (3 + len(PARTS)))
-    total = 0
-    for shader in sorted({p["shader"] for p in made if threads(p)}):
-        of = [p for p in made if p["shader"] == shader]
-        units, work = sum(threads(p) for p in of), sum(threads(p) * number(p, "instructions") for p in of)
-        total += work
-        moved = f"{units * BYTES[shader] / 1e6:.1f}" if shader in BYTES else "-"
-        times = " | ".join(f"{1e3 * work / (lanes * clock):.3f}" for _, lanes, clock in PARTS)
-        print(f"| `{shader}` | {units:,} | {work / units:,.0f} | {moved} | {times} |")
-    print("| all | | | | " + " | ".join(f"{1e3 * total / (lanes * clock):.3f}" for _, lanes, clock in PARTS) + " |")
-
-
 def main():
     arguments = sys.argv[1:]
     if arguments == ["--test"]:
@@ -222,12 +172,6 @@ def main():
     if arguments[1:2] == ["--check"]:
         sys.exit(check(reports))
     tables(reports)
-    print()
-    made, (pairs, looks) = pipelines(program, FAMILIES[0], PICTURES[0][1], MODEL_SIZE), count_pairs(program, PICTURES[0][1])
-    take_pairs(made, pairs, looks)
-    print(f"pairs without segments: {pairs[0]:,}; in each space: {', '.join(f'{n:,}' for n in pairs[1:])}")
-    print()
-    model(made)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ layout(std430, binding = 2) buffer Answers {
     uint points_of[kShadowSpaces];
     uint looks;
     uint not_used[2];
+    uint work[kWork * kShadowSpaces];
     uvec4 spaces[kShadowSpaces];
     uvec4 answers[];
 };

@@ -11,6 +11,8 @@ bool too_many_pieces;
 shared float crossing_at[ALL_SPACE];
 shared int crossing_links[ALL_SPACE];  // the change of the count, times kLinks; place of the next crossing
 int crossing_count;
+int near_pairs;  // that the lane has met, and those that floats leave open
+int open_pairs;
 const int kLinkBits = 12;
 const int kLinks = 1 << kLinkBits;
 const int kNoLink = kLinks - 1;
@@ -30,6 +32,8 @@ struct Walk {
     bool mine;          // false: the lane only takes part in the loops of all lanes
     vec4 cells;
     uvec2 names;
+    vec4 box;           // low corner, high corner
+    vec2 middle;
     int count;          // to the left of the middle
     int before_middle;  // changes from the start to the middle
     int first;          // place of the first crossing
@@ -41,6 +45,106 @@ int left_ray(int weight, bool upwards, bool left) { return upwards == left ? 0 :
 // Change that the events of a segment at the box's left side add at a height above its start, above its end.
 int left_events(int mark, bool above_start, bool above_end) {
     return ((mark & kLeftStart) != 0 && above_start ? weight_of(mark) : 0) - ((mark & kLeftEnd) != 0 && above_end ? weight_of(mark) : 0);
+}
+
+// Adds to the count what segment f = i changes, if f and e are clearly apart. Returns true, and adds nothing, if their boxes meet or f ends
+// at the height of e's middle. Where the boxes are apart there is no crossing, and f is left of the middle or right of it as a whole.
+bool is_near(inout Walk e, int i) {
+    vec4 f = cells[FIRST + i];
+    int mark = marks[FIRST + i];
+    vec2 high = max(f.xy, f.zw);
+    vec2 gap = max(min(f.xy, f.zw) - e.box.zw, e.box.xy - high);
+    vec2 above = f.yw - e.middle.yy;
+    float sides = above.x * above.y;
+    bool near = max(gap.x, gap.y) <= 0.0 || sides == 0.0;
+    int change = sides < 0.0 && high.x < e.middle.x ? (above.x < 0.0 ? -weight_of(mark) : weight_of(mark)) : 0;
+    if ((mark & (kLeftStart | kLeftEnd)) != 0) change += left_events(mark, above.x < 0.0, above.y < 0.0);
+    e.count += near ? 0 : change;
+    return near;
+}
+
+#if !FEW
+// Boxes of as many segments as a turn looks at: low corner, high corner; and the sums of their events at the box's left side.
+shared vec4 boxes[SPACE / kAtOnce];
+shared int events_of_box[SPACE / kAtOnce];
+
+// Puts the segments in the order of their heights. Then those of a turn are at about the same height, and so are those of the lanes. The
+// arrays of pieces and crossings, which are still empty, hold them meanwhile.
+void sort_segments() {
+    // A key is the height, in 21 bits, and the segment's number.
+    for (int i = int(LANE); i < (segment_count + kAtOnce - 1) / kAtOnce * kAtOnce; i += LANES)
+        crossing_links[i] = (int(min(cells[i].y + cells[i].w, 2.0 * shadow_cells() - 1.0)) + 2 * int(shadow_cells()) >> 3 << 10) + i;
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        int key = crossing_links[i];
+        int place = 0;
+        for (int first = 0; first < segment_count; first += kAtOnce)
+            for (int k = 0; k < kAtOnce; k++) place += crossing_links[first + k] < key ? 1 : 0;  // compilers unroll it
+        crossing_at[i] = float(place);
+    }
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        int to = int(crossing_at[i]);
+        pieces[to] = cells[i].xy;
+        crossing_links[to] = int(cells[i].z);
+        piece_segments[to] = int(cells[i].w);
+    }
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) cells[i] = vec4(pieces[i], crossing_links[i], piece_segments[i]);
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        int to = int(crossing_at[i]);
+        crossing_links[to] = int(names[i].x);
+        piece_segments[to] = int(names[i].y);
+        pieces[to].x = float(marks[i]);
+    }
+    subgroupBarrier();
+    for (int i = int(LANE); i < segment_count; i += LANES) {
+        names[i] = uvec2(crossing_links[i], piece_segments[i]);
+        marks[i] = int(pieces[i].x);
+    }
+    subgroupBarrier();
+}
+
+void find_boxes() {
+    for (int b = int(LANE); b * kAtOnce < segment_count; b += LANES) {
+        vec4 box = vec4(1.0e30, 1.0e30, -1.0e30, -1.0e30);
+        int events = 0;
+        for (int i = b * kAtOnce; i < min(b * kAtOnce + kAtOnce, segment_count); i++) {
+            vec4 f = cells[i];
+            box = vec4(min(box.xy, min(f.xy, f.zw)), max(box.zw, max(f.xy, f.zw)));
+            events += left_events(marks[i], true, true);
+        }
+        boxes[b] = box;
+        events_of_box[b] = events;
+    }
+}
+
+// Adds to the count what the segments of a turn change, if they are above e's box, below it or right of it. Returns false, and adds nothing,
+// if they are elsewhere.
+bool is_passed_by(inout Walk e, int b) {
+    vec4 box = boxes[b];
+    bool below = box.w < e.box.y;
+    bool passed = below || box.y > e.box.w || box.x > e.box.z;
+    if (any_of_lanes(!passed && e.mine)) return false;
+    e.count += below ? events_of_box[b] : 0;
+    return true;
+}
+#endif
+
+// A lane's share of the turns in which 64 lanes, a segment each, would look at segments. Their boxes together decide, so the sum is an upper
+// bound. For reports.
+int looks_of_64() {
+    int looks = 0;
+#if !FEW
+    int all = (segment_count + kAtOnce - 1) / kAtOnce;
+    for (int first = 0; first < all; first += 64 / kAtOnce) {
+        vec4 box = boxes[first];
+        for (int b = first; b < min(first + 64 / kAtOnce, all); b++) box = vec4(min(box.xy, boxes[b].xy), max(box.zw, boxes[b].zw));
+        for (int b = int(LANE); b < all; b += LANES) looks += boxes[b].w < box.y || boxes[b].y > box.w || boxes[b].x > box.z ? 0 : 1;
+    }
+#endif
+    return looks;
 }
 
 bool share_an_end(uvec2 a, uvec2 b) { return a.x == b.x || a.x == b.y || a.y == b.x || a.y == b.y; }
@@ -168,15 +272,22 @@ void settle_segment(inout Walk e, int i, bool asked) {
 void look_at_all(inout Walk e) {
     for (int first = 0; first < segment_count && !too_much; first += kSetOfPairs) {
         int past = min(first + kSetOfPairs, segment_count);
-        uint open = 0u;
+        uint near = 0u;
         for (int i = first; i < past; i += kAtOnce) {
-            uint four = look_at_segment(e, i) ? 1u : 0u;
-            if (i + 1 < past && look_at_segment(e, i + 1)) four |= 2u;
-            if (i + 2 < past && look_at_segment(e, i + 2)) four |= 4u;
-            if (i + 3 < past && look_at_segment(e, i + 3)) four |= 8u;
-            open |= four << (i - first);
+#if !FEW
+            if (is_passed_by(e, i / kAtOnce)) continue;
+#endif
+            uint some = 0u;
+            for (int k = 0; k < kAtOnce; k++) some |= is_near(e, i + k) ? 1u << k : 0u;  // compilers unroll it
+            near |= some << (i - first);
         }
-        if (!e.mine) open = 0u;
+        if (!e.mine) near = 0u;
+        turns -= most_of_lanes(bitCount(near));
+        near_pairs += bitCount(near);
+        uint open = 0u;
+        for (; near != 0u; near &= near - 1u)
+            if (look_at_segment(e, first + findLSB(near))) open |= near & -near;
+        open_pairs += bitCount(open);
         while (any_of_lanes(open != 0u) && !too_much) {
             settle_segment(e, first + max(findLSB(open), 0), open != 0u);
             open &= open - 1u;
@@ -249,11 +360,24 @@ void cut_segments(int base) {
     piece_count = 0;
     level = kHidden / 2 - 1;
     too_many_pieces = false;
+    // Segments far away without a weight fill the last turn.
+    for (int i = segment_count + int(LANE); i < min(segment_count + kAtOnce, SPACE); i += LANES) {
+        cells[FIRST + i] = vec4(4.0 * shadow_cells());
+        marks[FIRST + i] = 0;
+    }
+#if !FEW
+    subgroupBarrier();
+    sort_segments();
+    find_boxes();
+#endif
+    subgroupBarrier();
     for (int first = 0; first < segment_count && !too_much; first += LANES) {
         int i = first + int(LANE);
         int number = min(i, segment_count - 1);
         vec4 ends = cells[FIRST + number];
-        Walk e = Walk(number, i < segment_count && ends.xy != ends.zw, ends, names[FIRST + number], base, 0, kNoLink);
+        vec4 box = vec4(min(ends.xy, ends.zw), max(ends.xy, ends.zw));
+        bool mine = i < segment_count && ends.xy != ends.zw;
+        Walk e = Walk(number, mine, ends, names[FIRST + number], box, 0.5 * (ends.xy + ends.zw), base, 0, kNoLink);
         crossing_count = 0;
         look_at_all(e);
         take_pieces(e);

@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;               // kGroupPoints
 layout(constant_id = 0) const int SPACE_0 = 16;
 layout(constant_id = 1) const int SPACE_1 = 48;
 layout(constant_id = 2) const int SPACE_2 = 96;
-layout(constant_id = 3) const int SPACE_3 = 208;
+layout(constant_id = 3) const int SPACE_3 = 192;
 layout(constant_id = 4) const int TOGETHER_0 = 1;
 layout(constant_id = 5) const int TOGETHER_1 = 1;
 

@@ -99,6 +99,7 @@ void add_info(CommandLine& line) {
   verb.add_word("--quality", r.quality, "accuracy of the method").more(pipelines);
   verb.add_word("--shadows", r.shadows, "direct shadows").more(pipelines);
   verb.add_word("--indirect", r.indirect.mode, "one bounce").more(pipelines);
+  verb.add("--vpls", r.indirect.virtual_lights, "number of its virtual lights").range(64, 1 << 22).more(pipelines);
   verb.add_limits(options->limits);
   verb.callback([options, verb] {
     const bool listed = options->pipelines, in_space = listed && !is_plane_scene(options->scene);
@@ -109,7 +110,8 @@ void add_info(CommandLine& line) {
                                 {"--method", in_space, third},
                                 {"--quality", in_space, third},
                                 {"--shadows", in_space, third},
-                                {"--indirect", in_space, third}});
+                                {"--indirect", in_space, third},
+                                {"--vpls", in_space && options->render.indirect.mode != IndirectMode::off, "--pipelines and --indirect"}});
     if (listed) {
       const PictureSize size = picture_size(options->size);
       options->render.width = size.width;

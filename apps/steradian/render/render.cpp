@@ -86,6 +86,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"shadow_on_host", stats.shadow_on_host},
           {"shadow_pairs", stats.shadow_pairs},
           {"shadow_looks", stats.shadow_looks},
+          {"shadow_work", stats.shadow_work},
           {"submissions", stats.submissions},
           {"exact_tiles", stats.exact_tiles},
           {"estimated_shadow_error", stats.estimated_shadow_error},

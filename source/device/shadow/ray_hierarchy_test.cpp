@@ -239,4 +239,14 @@ TEST_F(VulkanRays, SayWhereAWalkDoesNotEnd) {
   }
 }
 
+// The triangles of a scene that exceed a buffer have no rays, and then the picture no shadows.
+TEST_F(VulkanRays, MoreTrianglesThanABufferHoldsHaveNone) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.meshes.resize(1);
+  scene.meshes[0].positions.resize(3);
+  scene.meshes[0].indices.assign(std::size_t{3} * 2'800'000, 0);
+  EXPECT_EQ(SceneRays::of(std::make_shared<const Device>(DeviceOptions{}), scene), nullptr);
+}
+
 }  // namespace steradian::vulkan::ray_hierarchy_test

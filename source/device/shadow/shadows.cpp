@@ -22,7 +22,7 @@ constexpr std::size_t kEdgesOfGroup = 512, kEdgesAtFirst = std::size_t{1} << 20;
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
 // (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes of a segment and a piece in shared memory:
 // shaders/shadow/shadow_segments.glsl, shaders/shadow/shadow_count.glsl.
-constexpr std::array<std::size_t, kShadowSpaces> kSegments = {16, 48, 96, 208, 640};
+constexpr std::array<std::size_t, kShadowSpaces> kSegments = {16, 48, 96, 192, 608};
 constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 48;
 static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] && kMostListed == 4 * kListVectors);
 
@@ -30,7 +30,7 @@ static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] 
 struct AnswersHead {
   std::uint32_t parts_used, parts_room, left, found;
   std::uint32_t lists, seen_at_once, edges_used, edges_room;
-  std::uint32_t points_of[kShadowSpaces], looks, unused[2];
+  std::uint32_t points_of[kShadowSpaces], looks, unused[2], work[kShadowSpaces][kWork];
   struct Space {
     std::uint32_t groups_x, groups_y, one, first_name;
   } spaces[kShadowSpaces];
@@ -43,7 +43,8 @@ struct ShadowAnswer {
 };
 static_assert(sizeof(AnswersHead) == kAnswersHead * kVector && sizeof(ShadowAnswer) == kShadowAnswer * kVector);
 
-constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow/shadow_rays.comp
+constexpr std::size_t kWorkCounts = 6;  // RenderStats::shadow_work
+constexpr std::size_t kThreads = 64;    // work group size of shaders/shadow/shadow_rays.comp
 
 // Lanes of a subgroup that serve a point of a space.
 int lanes_of(const DeviceInfo& device, std::size_t space) {
@@ -67,7 +68,7 @@ ShadowAnswer* answers_in(const Buffer& buffer) {
 }  // namespace
 
 DeviceShadows::DeviceShadows(Kept& kept, const SceneRays& rays, std::shared_ptr<const ShadowEdges> edges)
-    : kept_(kept), rays_(rays), pairs_(1 + kSegments.size()) {
+    : kept_(kept), rays_(rays), pairs_(1 + kSegments.size()), work_(kSegments.size(), std::vector<std::uint64_t>(kWorkCounts)) {
   if (kept.edges == edges) return;
   const auto vectors = mesh_vectors(edges->mesh);
   kept.mesh.fit_with_room(vectors.size() * kVector, "edges of the scene").write(vectors.data(), vectors.size() * kVector);
@@ -200,7 +201,7 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
     const int subgroup = static_cast<int>(device.subgroup);
     std::array<int, kSegments.size()> spaces, together;
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
-      spaces[i] = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i]));
+      spaces[i] = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i])) / kAtOnce * kAtOnce;
       together[i] = subgroup / lanes_of(device, i);
     }
     dispatches.push_back({.pipeline = kept_.program.pipeline(0), .groups_x = number(begins_.back().group)});
@@ -208,10 +209,11 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
                           .groups_x = number(begins_.back().group)});
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
       const int next = i + 1 < kSegments.size() ? together[i + 1] : 1;
-      dispatches.push_back({.pipeline = kept_.program.pipeline(2, {spaces[i], lanes_of(device, i), subgroup, i < kFewSpaces, next}),
-                            .push = number(i),
-                            .groups = &kept_.answers.get(),
-                            .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i)});
+      dispatches.push_back(
+          {.pipeline = kept_.program.pipeline(2, {spaces[i], lanes_of(device, i), subgroup, i < kFewSpaces, next, device.software}),
+           .push = number(i),
+           .groups = &kept_.answers.get(),
+           .groups_at = kVector * (static_cast<std::size_t>(kAnswersHead - kShadowSpaces) + i)});
     }
     dispatches.push_back({kept_.program.pipeline(3), number((count + kThreads - 1) / kThreads), 1, number(count)});
   }
@@ -243,7 +245,10 @@ bool DeviceShadows::finish() {
   found_ += head.found;
   looks_ += head.looks;
   pairs_.front() += head.seen_at_once;
-  for (std::size_t i = 0; i < kSegments.size(); ++i) pairs_[i + 1] += head.points_of[i];
+  for (std::size_t i = 0; i < kSegments.size(); ++i) {
+    pairs_[i + 1] += head.points_of[i];
+    for (std::size_t k = 0; k < kWorkCounts; ++k) work_[i][k] += std::uint64_t{head.work[i][k]} * (k == 4 ? kPairUnit : 1);
+  }
   return true;
 }
 

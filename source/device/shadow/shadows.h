@@ -61,6 +61,7 @@ class DeviceShadows {
   std::uint64_t found() const { return found_; }
   // RenderStats::shadow_pairs.
   const std::vector<std::uint64_t>& pairs() const { return pairs_; }
+  const std::vector<std::vector<std::uint64_t>>& work() const { return work_; }
   std::uint64_t looks() const { return looks_; }
 
  private:
@@ -85,6 +86,7 @@ class DeviceShadows {
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0, looks_ = 0;
   std::vector<std::uint64_t> pairs_;
+  std::vector<std::vector<std::uint64_t>> work_;
 };
 
 }  // namespace steradian::vulkan
