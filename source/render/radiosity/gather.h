@@ -3,8 +3,8 @@
 // A diffuse lobe takes the mean over a grid of directions, weighted by the cosine. Each of 4 x 4 pixels shifts the grid by its own fraction
 // of a cell, and a linear fit over the pixels of one surface joins their means: together they see sixteen times as many directions. Where
 // the light of 8 x 8 pixels is a plane, a quarter of the directions serves each. In previews, one pixel of 2 x 2 gathers for all of a
-// plane. A glossy lobe takes directions of its own. Narrow lobes would show single patches: mirrored rays serve them (mirrored_fraction) but
-// in the last mirror of a row.
+// plane. A glossy lobe takes directions of its own. Narrow lobes would show single patches: mirrored rays serve them (mirrored_fraction)
+// but in the last mirror of a row.
 #pragma once
 
 #include <array>
