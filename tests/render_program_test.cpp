@@ -334,7 +334,7 @@ TEST_F(Program, InfoTellsWhatASceneHolds) {
   ASSERT_EQ(r.status, 0) << r.err;
   const json facts = json::parse(r.out);
   for (const char* key :
-       {"cameras", "lights", "materials", "extensions_used", "extensions_required", "not_supported", "method", "warnings"})
+       {"cameras", "lights", "materials", "extensions_used", "extensions_required", "not_supported", "not_computed", "method", "warnings"})
     EXPECT_TRUE(facts.contains(key)) << key;
   EXPECT_EQ(facts["lights"].size(), 4u);
   for (const json& light : facts["lights"]) {
@@ -385,6 +385,17 @@ TEST_F(Program, RenderSaysWhereRoughGlassIsSharp) {
   EXPECT_TRUE(said(0.5, "0"));
   EXPECT_FALSE(said(0.5, "all"));
   EXPECT_FALSE(said(0, "0"));
+}
+
+TEST_F(Program, SaysThatThereAreNoCaustics) {
+  for (const bool glass : {false, true}) {
+    const std::string scene = test::kSourceDir + (glass ? "/scenes/glass.glb" : "/scenes/gallery.glb");
+    const json facts = json::parse(run({"info", scene, "--json"}).out);
+    EXPECT_EQ(facts["not_computed"], glass ? json({"caustics of glass"}) : json::array());
+    const Outcome r = run({"render", scene, "-o", folder / "a.exr", "--size", "16x9"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(r.err.find("no caustics") != std::string::npos, glass) << r.err;
+  }
 }
 
 TEST_F(Program, ExposesPngToMiddleGreyUnlessTold) {

@@ -113,6 +113,8 @@ struct RenderStats {
   std::size_t patches = 0;              // that carry light from surface to surface (docs/bounces.md)
   int bounce_iterations = 0;            // over all patches
   std::uint64_t patch_rays = 0;         // traced from patch to patch; a RenderCache keeps most of them when only lights change
+  double bounce_glossy = 0;             // fraction of the light between surfaces that glossy lobes send on
+  double bounce_glossy_evenly = 0;      // fraction that they send evenly to all directions: right in its power, not in its places
   double bounce_left_out = 0;           // bound of the radiance that further bounces would add; negative: none is known
   double bounce_error = 0;              // estimated rms error of the light between surfaces over the picture's mean
   std::size_t bound_elements = 0;       // that carry the bounds of RenderOptions::bound; 0: there are none

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "lobes/lobe.h"
+#include "render/direct_only.h"
 #include "render/frame/methods.h"
 #include "steradian/load_scene.h"
 
@@ -127,6 +128,7 @@ Json scene_facts(const std::string& path, const Limits& limits) {
   facts["extensions_used"] = loaded.file.extensions_used;
   facts["extensions_required"] = loaded.file.extensions_required;
   facts["not_supported"] = loaded.file.not_supported;
+  facts["not_computed"] = may_focus_light(scene) ? Json{"caustics of glass"} : Json::array();
   facts["method"] = choose_method(scene, {}).name;
   facts["warnings"] = loaded.warnings;
   return facts;

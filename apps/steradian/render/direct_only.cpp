@@ -61,6 +61,13 @@ std::vector<SampledPatch> patches_of(const Scene& scene, double total) {
 
 }  // namespace
 
+bool may_focus_light(const Scene& scene) {
+  return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
+    const SurfaceMaterial& m = scene.materials[static_cast<std::size_t>(mesh.material)];
+    return !mesh.is_light_shape && m.solid && m.transmission > 0;
+  });
+}
+
 double light_between_surfaces(const Scene& scene) {
   double total = 0;
   for_each_facet(scene, [&](const SampledFacet& f) { total += f.area; });
@@ -80,6 +87,7 @@ double light_between_surfaces(const Scene& scene) {
 }
 
 void say_direct_only(const Scene& scene, const RenderOptions& options) {
+  if (may_focus_light(scene)) fmt::print(stderr, "steradian: no caustics: light comes straight through solids of glass\n");
   if (options.bounces != 0) return;
   const bool rough_glass = std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
     return RoughGlass::may_blur(scene.materials[static_cast<std::size_t>(mesh.material)]);

@@ -1,4 +1,4 @@
-// The part of the light that a picture of direct light lacks.
+// The light that a picture lacks.
 #pragma once
 
 #include "steradian/render.h"
@@ -10,8 +10,11 @@ namespace steradian::app {
 // shadows, from 256 points spread over all surfaces that do not shine.
 double light_between_surfaces(const Scene& scene);
 
-// Prints one line for each thing that a picture without light between surfaces lacks: the blur of rough glass, and that light, where it is
-// a twentieth of all or more.
+// True if a scene has solids that would focus light: no picture has these caustics.
+bool may_focus_light(const Scene& scene);
+
+// Prints one line for each thing that a picture lacks: caustics, and without light between surfaces the blur of rough glass, and that light
+// where it is a twentieth of all or more.
 void say_direct_only(const Scene& scene, const RenderOptions& options);
 
 }  // namespace steradian::app

@@ -75,6 +75,8 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"patches", stats.patches},
           {"bounce_iterations", stats.bounce_iterations},
           {"patch_rays", stats.patch_rays},
+          {"bounce_glossy", stats.bounce_glossy},
+          {"bounce_glossy_evenly", stats.bounce_glossy_evenly},
           {"bounce_left_out", stats.bounce_left_out},
           {"bounce_error", stats.bounce_error},
           {"bound_elements", stats.bound_elements},
@@ -323,6 +325,13 @@ void run(const Verb& verb, RenderArguments& options) {
   if (stats.patches > 0)
     fmt::print(stderr, "steradian: --bounces: {} patches, {} iterations; the light between surfaces is estimated to {:.2g} % rms\n",
                stats.patches, stats.bounce_iterations, 100 * stats.bounce_error);
+  constexpr double kNamed = 1e-3;
+  if (stats.bounce_glossy >= kNamed)
+    fmt::print(stderr,
+               "steradian: --bounces: glossy surfaces send {:.2g} % of it on; {:.2g} % goes evenly to all directions, and the estimate "
+               "leaves that "
+               "out\n",
+               100 * stats.bounce_glossy, 100 * stats.bounce_glossy_evenly);
   if (stats.patches > 0 && stats.bounce_left_out < 0)
     fmt::print(stderr, "warning: --bounces: surfaces that reflect all light keep it; no bound of the bounces left out is known\n");
 

@@ -34,6 +34,9 @@ Picture render_with_bounces(DeviceFrame& frame, const Scene& scene, const Render
     if (pass.name.starts_with("bounces")) stats->passes.push_back(pass);
   stats->patches = of_bounces.patches;
   stats->bounce_iterations = of_bounces.bounce_iterations;
+  stats->patch_rays = of_bounces.patch_rays;
+  stats->bounce_glossy = of_bounces.bounce_glossy;
+  stats->bounce_glossy_evenly = of_bounces.bounce_glossy_evenly;
   stats->bounce_left_out = of_bounces.bounce_left_out;
   stats->bounce_error = light > 0 ? of_bounces.bounce_error * light / light_of(picture) : 0;
   stats->total_ms = std::max(stats->total_ms, of_bounces.total_ms);

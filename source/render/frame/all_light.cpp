@@ -194,6 +194,8 @@ void AllLight::report(int threads, RenderStats& stats, const Picture& picture) c
   stats.patches = patches_->patches().side_count() / 2;
   stats.bounce_iterations = patches_->iterations();
   stats.patch_rays = patches_->traced();
+  stats.bounce_glossy = patches_->glossy_shares().all;
+  stats.bounce_glossy_evenly = patches_->glossy_shares().evenly;
   stats.bounce_left_out = static_cast<double>(patches_->left_out().value_or(-1));
   double squares = 0, light = 0;
   for (const Vec3f& e : picture.layers.at("bounce_error")) squares += std::pow(luminance(static_cast<Vec3d>(e)), 2);

@@ -42,6 +42,11 @@ class PatchLight {
   double mean_radiance() const { return mean_radiance_; }  // luminance, over the sides that send light
   int iterations() const { return iterations_; }
   std::uint64_t traced() const { return traced_; }  // rays from side to side that were traced for it
+  // Fractions of the light that all sides send on: by their glossy lobes, and by those of them that send it evenly to all directions.
+  struct GlossyShares {
+    double all = 0, evenly = 0;
+  };
+  GlossyShares glossy_shares() const { return glossy_shares_; }
   // Bound of the radiance that the bounces after the last iteration would add to any side. None if they do not become less.
   std::optional<float> left_out() const { return left_out_; }
 
@@ -68,6 +73,7 @@ class PatchLight {
   int iterations_ = 0;
   std::uint64_t traced_ = 0;
   std::optional<float> left_out_ = 0;
+  GlossyShares glossy_shares_;
 };
 
 }  // namespace steradian::radiosity

@@ -72,6 +72,7 @@ class PatchSolver {
   void find_from_glossy();
   void iterate();
   void turn_bounces();
+  void find_glossy_shares();
   void find_coarse();
   void find_bright_sides();
   float area_of(std::uint32_t side) const;
@@ -128,6 +129,7 @@ PatchLight PatchSolver::solve(const AddDirect& add_direct, const FindIncident& f
     iterate();
     turn_bounces();
   }
+  find_glossy_shares();
   find_coarse();
   find_bright_sides();
   if (options_.progress) options_.progress(1);
@@ -421,6 +423,30 @@ void PatchSolver::turn_bounces() {
     light_.sides_[t.side].glossy = t.lobe;
     even_glossy_[t.side] += t.radiance;
   }
+}
+
+// Finds the fractions of the light that glossy lobes send on. From side to side, bounced light of these lobes always went evenly.
+void PatchSolver::find_glossy_shares() {
+  struct Light {
+    double all = 0, glossy = 0, kept = 0;
+  };
+  std::vector<Light> of_sides(patches().side_count());
+  each(of_sides.size(), [&](std::size_t k) {
+    const auto side = static_cast<std::uint32_t>(k);
+    const Vec3f kept = even_glossy_[side], sent = light_.sides_[side].radiance + kept;
+    if (!weighs(sent)) return;
+    const auto light = [&](Vec3f v) { return luminance(static_cast<Vec3d>(v)) * static_cast<double>(area_of(side)); };
+    const Surface surface = surface_of(side);
+    of_sides[k] = {light(sent), 0, light(kept)};
+    if (GlossySides::has_lobe(surface)) of_sides[k].glossy = light(sent * even_reflectance(surface).glossy_share());
+  });
+  Light sum;
+  for (const Light& of : of_sides) {
+    sum.all += of.all;
+    sum.glossy += of.glossy;
+    sum.kept += std::min(of.kept, of.glossy);
+  }
+  if (sum.all > 0) light_.glossy_shares_ = {sum.glossy / sum.all, (sum.glossy - sum.kept) / sum.all};
 }
 
 // Joins the sides of each group, whose patches have equal areas.

@@ -183,6 +183,24 @@ TEST(Radiosity, MirrorsShowMirrorsToTheirDepth) {
   }
 }
 
+// A box whose sides shine, each of which sees a fifth of each other one. Five reflect half, and one all: its irradiance is 1 + 5/2 f E for
+// f = 1/5, and that of the others E = 1 + 4/2 f E + f (1 + E / 2) = 2.4, where the lamps give 1. So it sends 2.2 of 2.2 + 2.5 x 2.4.
+TEST(Radiosity, TellsTheLightOfGlossySurfaces) {
+  Scene scene = closed_box(0.5f, true);
+  RenderStats stats;
+  render(scene, options_for(8, kAllBounces), &stats);
+  EXPECT_EQ(stats.bounce_glossy, 0);
+  SurfaceMaterial metal = grey(1);
+  metal.metallic = 1;
+  scene.materials.push_back(metal);
+  scene.meshes[0].material = 1;
+  scene.multiple_scattering = true;
+  render(scene, options_for(8, kAllBounces), &stats);
+  EXPECT_NEAR(stats.bounce_glossy, 2.2 / 8.2, 0.003);
+  EXPECT_GT(stats.bounce_glossy_evenly, 0);
+  EXPECT_LT(stats.bounce_glossy_evenly, stats.bounce_glossy);
+}
+
 // The same bytes at any number of threads.
 TEST(Radiosity, ThreadsDoNotMatter) {
   const Scene scene = load_scene(test::kSourceDir + "/scenes/room.glb").scene;
