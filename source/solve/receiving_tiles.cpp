@@ -305,7 +305,7 @@ void add_gathered(const radiosity::Gather& gather, const SurfaceTile& tile, Tile
   for (std::size_t first = 0; first < kTilePixels; first += SixteenSurfaces::kLanes) {
     some.take(tile, first);
     if (some.lit == 0) continue;
-    const radiosity::Gather::Result result = gather.reflected(some, 0, radiosity::Gather::Mirrored::from_patches);
+    const radiosity::Gather::Result result = gather.reflected(some, 0, {false, true});
     for (std::size_t i = 0; i < SixteenSurfaces::kLanes; ++i) put(light, first + i, get(light, first + i) + result.radiance[i]);
   }
 }

@@ -43,11 +43,8 @@ void AllLight::begin(Picture& picture, const RenderOptions& options) {
   for (const char* layer : {"lower", "upper"}) picture.layers[layer].resize(picture.pixels.size());
 }
 
-// Adds the light that a tile's surfaces gather to `light`. reflections: number of mirrors in a row that follow; if none, mirrors show the
-// patches.
-void AllLight::gather(SurfaceTile& tile, int sample, int reflections, TileVector& light, TileVector& error) const {
-  using Mirrored = radiosity::Gather::Mirrored;
-  const Mirrored mirrored = reflections > 0 ? Mirrored::by_rays : Mirrored::from_patches;
+// Adds the light that a tile's surfaces gather to `light`.
+void AllLight::gather(SurfaceTile& tile, int sample, radiosity::Gather::Asked asked, TileVector& light, TileVector& error) const {
   constexpr std::size_t kLanes = SixteenSurfaces::kLanes;
   const auto blocks = std::make_unique<radiosity::FourBlocks>();
   for (int y = 0; y < kTileSide; y += 8)
@@ -57,7 +54,7 @@ void AllLight::gather(SurfaceTile& tile, int sample, int reflections, TileVector
         first[b] = tile_slot(x + static_cast<int>(b) % 2 * 4, y + static_cast<int>(b) / 2 * 4);
         (*blocks)[b].take(tile, first[b]);
       }
-      const std::array<radiosity::Gather::Result, 4> results = gather_.reflected(*blocks, sample, mirrored);
+      const std::array<radiosity::Gather::Result, 4> results = gather_.reflected(*blocks, sample, asked);
       for (std::size_t b = 0; b < 4; ++b)
         for (std::size_t i = 0; i < kLanes; ++i) {
           steradian::add(light, first[b] + i, results[b].radiance[i]);
@@ -85,7 +82,7 @@ TilePlane AllLight::follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t se
     TileVector error_of_shown{};
     // The mirror is a bounce of its own.
     const bool last = bounces_ == reflections_ - depth + 1;
-    if (!last) gather(*shown, sample, depth - 1, shown->radiance, error_of_shown);
+    if (!last) gather(*shown, sample, {depth > 1, false}, shown->radiance, error_of_shown);
     TilePlane onwards;
     for (std::size_t i = 0; i < kTilePixels; ++i) {
       const float way = length(get(shown->position, i) - get(ways.origin, i));
@@ -142,7 +139,7 @@ void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, 
 void AllLight::add(SurfaceTile& tile, const Seen& seen, Picture& picture) {
   TileVector light{}, error{};
   clock_.run([&] {
-    gather(tile, seen.sample, reflections_, light, error);
+    gather(tile, seen.sample, {reflections_ > 0, true}, light, error);
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
     if (reflections_ > 0) add_mirrored(tile, distance, seen, light, error);

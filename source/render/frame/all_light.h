@@ -40,7 +40,7 @@ class AllLight {
 
  private:
   void add_bounds(const SurfaceTile& tile, const TileVector& light, const Seen& seen, Picture& picture) const;
-  void gather(SurfaceTile& tile, int sample, int reflections, TileVector& light, TileVector& error) const;
+  void gather(SurfaceTile& tile, int sample, radiosity::Gather::Asked asked, TileVector& light, TileVector& error) const;
   void add_mirrored(const SurfaceTile& tile, const TilePlane& distance, const Seen& seen, TileVector& light, TileVector& error);
   TilePlane follow_mirrors(radiosity::Mirrors& mirrors, std::uint64_t seed, int sample, int depth, TileVector& light,
                            TileVector& error) const;

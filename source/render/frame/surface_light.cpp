@@ -85,7 +85,7 @@ void SurfaceLight::find(SurfaceTile& tile, Direct direct, Irradiance& result) {
   for (std::size_t first = 0; first < kTilePixels; first += SixteenSurfaces::kLanes) {
     some.take(tile, first);
     if (some.lit == 0) continue;
-    const radiosity::Gather::Result gathered = gather_->reflected(some, 0, radiosity::Gather::Mirrored::from_patches);
+    const radiosity::Gather::Result gathered = gather_->reflected(some, 0, {false, true});
     for (std::size_t i = 0; i < SixteenSurfaces::kLanes; ++i) {
       put(result.value, first + i, get(result.value, first + i) + gathered.radiance[i] * std::numbers::pi_v<float>);
       put(result.error, first + i, gathered.error[i] * std::numbers::pi_v<float>);

@@ -74,11 +74,9 @@ Vec3d ratio(Vec3d a, Vec3d b) {
 }
 
 // Fraction of a lobe's light that its own directions gather.
-float gathered_fraction(const SurfaceLobe& lobe, Gather::Mirrored mirrored) {
+float gathered_fraction(const SurfaceLobe& lobe, bool mirrored_rays) {
   const Material& m = lobe.material;
-  return m.brdf == Brdf::ggx && mirrored == Gather::Mirrored::by_rays
-             ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y))
-             : 1;
+  return m.brdf == Brdf::ggx && mirrored_rays ? 1 - mirrored_fraction(static_cast<float>(m.alpha_x), static_cast<float>(m.alpha_y)) : 1;
 }
 
 // True if one of sixteen lobes reflects so much that its noise would show more than that of diffuse light.
@@ -350,8 +348,8 @@ bool Gather::diffuse_of_square(const FourBlocks& blocks, int sample, std::array<
 }
 
 // One glossy lobe of each surface that has one.
-Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample, Mirrored mirrored,
-                           std::size_t level) const {
+Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& of, int sample,
+                           bool mirrored_rays, std::size_t level) const {
   const std::size_t count = lobe_rays_ << (2 * level);
   struct Walker {
     Frame frame;
@@ -381,7 +379,7 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
     narrowest = std::min(narrowest, static_cast<float>(0.5 * std::min(material.alpha_x, material.alpha_y)));
     walkers[i] = Walker{frame,
                         lobe,
-                        static_cast<double>(gathered_fraction(*of[i], mirrored)),
+                        static_cast<double>(gathered_fraction(*of[i], mirrored_rays)),
                         static_cast<float>(width * std::exp2(-1.0 - static_cast<double>(level))),
                         lobes::known_albedo(of[i]->material, static_cast<double>(dot(of[i]->normal, surfaces.view[i]))),
                         Vec3d{},
@@ -458,12 +456,12 @@ void Gather::add_diffuse(const SixteenSurfaces& surfaces, int sample, std::size_
   add(lit.result, sum);
 }
 
-void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored, Result& sum) const {
+void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Asked asked, Result& sum) const {
   std::array<std::vector<SurfaceLobe>, kLanes> lobes;
   std::size_t most = 0;
   SixteenSurfaces::each(surfaces.lit, [&](std::size_t i) {
     for (SurfaceLobe& lobe : lobes_of(surfaces.surface[i]))
-      if (lobe.material.brdf != Brdf::lambert && gathered_fraction(lobe, mirrored) > 0) lobes[i].push_back(std::move(lobe));
+      if (lobe.material.brdf != Brdf::lambert && gathered_fraction(lobe, asked.mirrored_rays) > 0) lobes[i].push_back(std::move(lobe));
     most = std::max(most, lobes[i].size());
   });
   for (std::size_t k = 0; k < most; ++k) {
@@ -471,22 +469,22 @@ void Gather::add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mi
     for (std::size_t i = 0; i < kLanes; ++i)
       if (k < lobes[i].size()) of[i] = &lobes[i][k];
     std::size_t level = strict_ ? kFinest : 0;
-    Lit lit = glossy(surfaces, of, sample, mirrored, level);
-    const bool must_be_smooth = reflects_much(surfaces, of);
+    Lit lit = glossy(surfaces, of, sample, asked.mirrored_rays, level);
+    const bool must_be_smooth = asked.smooth && reflects_much(surfaces, of);
     while (level < kFinest && (!is_within(lit) || (level == 0 && must_be_smooth && !lit.is_smooth())))
-      lit = glossy(surfaces, of, sample, mirrored, ++level);
+      lit = glossy(surfaces, of, sample, asked.mirrored_rays, ++level);
     add(lit.result, sum);
   }
 }
 
-Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored) const {
+Gather::Result Gather::reflected(const SixteenSurfaces& surfaces, int sample, Asked asked) const {
   Result result;
   add_diffuse(surfaces, sample, 0, nullptr, result);
-  add_glossy(surfaces, sample, mirrored, result);
+  add_glossy(surfaces, sample, asked, result);
   return result;
 }
 
-std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sample, Mirrored mirrored) const {
+std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sample, Asked asked) const {
   std::array<Result, 4> results;
   std::array<Sums, 4> first;
   std::array<Lit, 4> lit;
@@ -499,7 +497,7 @@ std::array<Gather::Result, 4> Gather::reflected(const FourBlocks& blocks, int sa
       add(lit[b].result, results[b]);
     else
       add_diffuse(blocks[b], sample, b, may_join ? &first[b] : nullptr, results[b]);
-    add_glossy(blocks[b], sample, mirrored, results[b]);
+    add_glossy(blocks[b], sample, asked, results[b]);
   }
   return results;
 }

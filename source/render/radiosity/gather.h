@@ -31,15 +31,17 @@ class Gather {
   // All must outlive this object, but for the options.
   Gather(const PatchLight& light, const RayScene& rays, const Fineness& fineness, const Options& options);
 
-  // The light of narrow lobes: mirrored rays show it, or there are no such rays.
-  enum class Mirrored { by_rays, from_patches };
+  struct Asked {
+    bool mirrored_rays;  // they show the light of narrow lobes; else the patches do
+    bool smooth;         // lobes that reflect much take more directions where their noise would show
+  };
   // Radiance that each surface reflects to its view, and an estimate of its error.
   struct Result {
     std::array<Vec3f, kLanes> radiance{}, error{};
   };
-  Result reflected(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored) const;
+  Result reflected(const SixteenSurfaces& surfaces, int sample, Asked asked) const;
   // The same for 8 x 8 pixels.
-  std::array<Result, 4> reflected(const FourBlocks& blocks, int sample, Mirrored mirrored) const;
+  std::array<Result, 4> reflected(const FourBlocks& blocks, int sample, Asked asked) const;
 
  private:
   // Sums by quarter of the rays. The differences between the quarters estimate the error of all.
@@ -70,10 +72,10 @@ class Gather {
               const Sums* first) const;
   void diffuse_of_every_other(const FourBlocks& blocks, int sample, std::array<Lit, 4>& lit) const;
   bool diffuse_of_square(const FourBlocks& blocks, int sample, std::array<Sums, 4>& first, std::array<Lit, 4>& lit) const;
-  Lit glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, Mirrored mirrored,
+  Lit glossy(const SixteenSurfaces& surfaces, const std::array<const SurfaceLobe*, kLanes>& lobes, int sample, bool mirrored_rays,
              std::size_t level) const;
   void add_diffuse(const SixteenSurfaces& surfaces, int sample, std::size_t block, const Sums* first, Result& sum) const;
-  void add_glossy(const SixteenSurfaces& surfaces, int sample, Mirrored mirrored, Result& sum) const;
+  void add_glossy(const SixteenSurfaces& surfaces, int sample, Asked asked, Result& sum) const;
   static void add(const Result& result, Result& sum);
   void add_grids(int rows);
 
