@@ -27,6 +27,7 @@ AllLight::AllLight(std::shared_ptr<const radiosity::PatchLight> patches, std::un
     : width_(options.width),
       bounces_(options.bounces),
       reflections_(options.reflections),
+      preview_(options.bounce_preview),
       eye_(surfaces.camera().origin()),
       patches_(std::move(patches)),
       bounds_(std::move(bounds)),
@@ -139,7 +140,7 @@ void AllLight::add_mirrored(const SurfaceTile& tile, const TilePlane& distance, 
 void AllLight::add(SurfaceTile& tile, const Seen& seen, Picture& picture) {
   TileVector light{}, error{};
   clock_.run([&] {
-    gather(tile, seen.sample, {reflections_ > 0, true}, light, error);
+    gather(tile, seen.sample, {reflections_ > 0, !preview_}, light, error);
     TilePlane distance;
     for (std::size_t i = 0; i < kTilePixels; ++i) distance[i] = length(get(tile.position, i) - eye_);
     if (reflections_ > 0) add_mirrored(tile, distance, seen, light, error);

@@ -46,6 +46,7 @@ class AllLight {
                            TileVector& error) const;
 
   const int width_, bounces_, reflections_;
+  const bool preview_;
   const Vec3f eye_;
   PassClock clock_{"bounces"};
   const std::shared_ptr<const radiosity::PatchLight> patches_;
