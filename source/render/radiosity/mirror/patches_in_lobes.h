@@ -1,8 +1,8 @@
 // PatchesInLobes: the patches that narrow lobes see, by directions of each lobe.
 //
-// Where few mirrored rays fall into a lobe, their light alone is a poor mean. The patches are less detailed than what the rays show, but
-// many more directions see them. So the mean of the rays' light plus the difference between two means of the patches, over the lobe's own
-// directions and over the rays, has the detail of one and the even cover of the other.
+// A mean over the few mirrored rays that may fall into a lobe is poor. The patches are less detailed than what the rays show, but many more
+// directions see them. So the mean of the rays' light plus the difference between two means of the patches, over the lobe's own directions
+// and over the rays, has the detail of one and the even cover of the other.
 #pragma once
 
 #include "render/radiosity/bounce_rays.h"
