@@ -260,5 +260,16 @@ TEST_F(Program, BenchFlushesEachLine) {
   EXPECT_TRUE(came);
 }
 
+TEST_F(Program, SaysThatThereAreNoCaustics) {
+  for (const bool glass : {false, true}) {
+    const std::string scene = test::kSourceDir + (glass ? "/scenes/glass.glb" : "/scenes/gallery.glb");
+    const json facts = json::parse(run({"info", scene, "--json"}).out);
+    EXPECT_EQ(facts["not_computed"], glass ? json({"caustics of glass"}) : json::array());
+    const Outcome r = run({"render", scene, "-o", folder / "a.exr", "--size", "16x9"});
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(r.err.find("no caustics") != std::string::npos, glass) << r.err;
+  }
+}
+
 }  // namespace
 }  // namespace steradian::program_test

@@ -387,17 +387,6 @@ TEST_F(Program, RenderSaysWhereRoughGlassIsSharp) {
   EXPECT_FALSE(said(0, "0"));
 }
 
-TEST_F(Program, SaysThatThereAreNoCaustics) {
-  for (const bool glass : {false, true}) {
-    const std::string scene = test::kSourceDir + (glass ? "/scenes/glass.glb" : "/scenes/gallery.glb");
-    const json facts = json::parse(run({"info", scene, "--json"}).out);
-    EXPECT_EQ(facts["not_computed"], glass ? json({"caustics of glass"}) : json::array());
-    const Outcome r = run({"render", scene, "-o", folder / "a.exr", "--size", "16x9"});
-    EXPECT_EQ(r.status, 0) << r.err;
-    EXPECT_EQ(r.err.find("no caustics") != std::string::npos, glass) << r.err;
-  }
-}
-
 TEST_F(Program, ExposesPngToMiddleGreyUnlessTold) {
   const std::string exr = folder / "a.exr", automatic = folder / "a.png", told = folder / "b.png";
   ASSERT_EQ(run({"render", floor_scene(), "-o", exr, "--size", "64x36"}).status, 0);

@@ -36,7 +36,7 @@ def write_scene(path, metal):
 
 
 def rendered(program, scene, path, *options):
-    """The picture of a scene, and a layer of it if `path` is an EXR file."""
+    """Renders a scene to a file, and returns the file."""
     run(program, "render", scene, "-o", path, *VIEW, *options)
     return path
 

@@ -28,6 +28,25 @@ bool share_plane(const Surface& a, const Surface& b, float same_direction) {
 
 }  // namespace
 
+Gathered mean_of_quarters(const std::array<Vec3f, 4>& light, const std::array<float, 4>& weight) {
+  const float whole = weight[0] + weight[1] + weight[2] + weight[3];
+  const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
+  Gathered result{};
+  for (const Vec3f& quarter : light) result.value += over(quarter, whole);
+  Vec3f squares{};
+  for (std::size_t q = 0; q < 4; ++q) {
+    const Vec3f off = over(light[q], weight[q]) - result.value;
+    squares += off * off;
+  }
+  result.error = root(squares * (1.0f / 12));
+  return result;
+}
+
+Vec3f spread(Vec3f squares, Vec3f light, Vec3f weight) {
+  const Vec3f of_all = squares * weight - light * light;
+  return root({std::max(of_all.x, 0.0f), std::max(of_all.y, 0.0f), std::max(of_all.z, 0.0f)});
+}
+
 // Coordinates about the mean: the two slopes and the mean are nearly independent.
 LinearFit::LinearFit(std::span<const Point> points) : count_(static_cast<float>(points.size())) {
   const float over = 1 / count_;

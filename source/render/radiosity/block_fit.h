@@ -14,6 +14,11 @@ struct Gathered {
   Vec3f value, error;
 };
 
+// The mean of sums over four quarters of the directions. Its standard error is that of the quarters' means. weight: of each quarter.
+Gathered mean_of_quarters(const std::array<Vec3f, 4>& light, const std::array<float, 4>& weight);
+// Standard deviation of radiances about their mean, times the weight of all. squares, light: sums of the radiances by weight.
+Vec3f spread(Vec3f squares, Vec3f light, Vec3f weight);
+
 // The least squares of a plane through the values of pixels.
 class LinearFit {
  public:

@@ -8,7 +8,7 @@
 namespace steradian::radiosity {
 
 // Difference of a rough solid's true lobe from the one that stands for it, over that, rms over the lobe: the spread of the light in the
-// lobe times this is an error of its light.
+// lobe times this is an error of its light. Rough balls and slabs against paths are within it up to the roughness 0.5 (docs/glass.md).
 inline constexpr float kShapeOfSolids = 0.5f;
 
 struct Fineness {

@@ -35,24 +35,7 @@ std::array<std::size_t, SixteenSurfaces::kLanes> first_quarters(std::size_t bloc
 
 Vec3f absolute(Vec3f v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
-// Standard error of a mean from the values of four quarters.
-Vec3f error_of_quarters(const std::array<Vec3f, 4>& values, Vec3f mean) {
-  Vec3f squares{};
-  for (const Vec3f& v : values) squares += (v - mean) * (v - mean);
-  return {std::sqrt(squares.x / 12), std::sqrt(squares.y / 12), std::sqrt(squares.z / 12)};
-}
-
-// A sum of the light of four quarters of the directions, with its standard error.
-Gathered mean_of_quarters(const std::array<Vec3f, 4>& light) {
-  Gathered result{};
-  std::array<Vec3f, 4> alone;  // each quarter as if it were all
-  for (std::size_t q = 0; q < 4; ++q) {
-    result.value += light[q];
-    alone[q] = light[q] * 4;
-  }
-  result.error = error_of_quarters(alone, result.value);
-  return result;
-}
+constexpr std::array<float, 4> kEvenQuarters = {0.25f, 0.25f, 0.25f, 0.25f};  // weights of quarters that share the light of all
 
 // Place in a lobe of direction `k` of `count`, for a pixel of 4 x 4. Each pixel has a lattice of its own: together they see as many
 // directions as all.
@@ -60,12 +43,6 @@ std::array<double, 2> place_in_lobe(std::size_t k, std::size_t count, std::size_
   const auto [shift, turned] = r2_place(kPlaces[pixel]);
   const auto [u, v] = fibonacci_place(k, count, turn + turned);
   return {u + (shift - 0.5) / static_cast<double>(count), v};
-}
-
-// Standard deviation of radiances about their mean, times the weight of all. squares, light: their weighted sums.
-Vec3f spread(Vec3f squares, Vec3f light, Vec3f whole) {
-  const auto one = [](float s, float l, float w) { return std::sqrt(std::max(s * w - l * l, 0.0f)); };
-  return {one(squares.x, light.x, whole.x), one(squares.y, light.y, whole.y), one(squares.z, light.z, whole.z)};
 }
 
 Vec3d ratio(Vec3d a, Vec3d b) {
@@ -209,7 +186,7 @@ std::array<FittedValue, Gather::kLanes> Gather::bright(const SixteenSurfaces& su
   Quarters<Vec3f> light{};
   add_bright(surfaces, asked, sample, level, light);
   std::array<Gathered, kLanes> means{};
-  SixteenSurfaces::each(asked, [&](std::size_t i) { means[i] = mean_of_quarters(light[i]); });
+  SixteenSurfaces::each(asked, [&](std::size_t i) { means[i] = mean_of_quarters(light[i], kEvenQuarters); });
   // The places of a pixel lie between those of its neighbours: its quarters are nearer to each other than to the truth.
   const BlockFit fit(surfaces, asked, strict_);
   SixteenSurfaces::each(asked, [&](std::size_t i) { fitted[i] = fit.at(i, means, BlockFit::Keeps::nothing); });
@@ -247,21 +224,6 @@ Gather::Sums Gather::quarter_sums(const SixteenSurfaces& surfaces, std::uint32_t
   return sums;
 }
 
-// The mean of a surface's sums, and its standard error from their quarters.
-Gathered Gather::mean_of(const Sums& sums, std::size_t lane) {
-  const std::array<float, 4>& weight = sums.weight[lane];
-  const float whole = weight[0] + weight[1] + weight[2] + weight[3];
-  const auto over = [](Vec3f sum, float by) { return by > 0 ? sum * (1 / by) : Vec3f{}; };
-  Gathered result{};
-  std::array<Vec3f, 4> means;
-  for (std::size_t q = 0; q < 4; ++q) {
-    result.value += over(sums.light[lane][q], whole);
-    means[q] = over(sums.light[lane][q], weight[q]);
-  }
-  result.error = error_of_quarters(means, result.value);
-  return result;
-}
-
 // The mean radiance about each surface, weighted by the cosine. first: sums over the first quarters, or null; block: of those.
 std::array<FittedValue, Gather::kLanes> Gather::arriving(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample,
                                                          std::size_t level, std::size_t block, const Sums* first) const {
@@ -281,7 +243,7 @@ std::array<FittedValue, Gather::kLanes> Gather::arriving(const SixteenSurfaces& 
     });
   }
   std::array<Gathered, kLanes> means{};
-  SixteenSurfaces::each(asked, [&](std::size_t i) { means[i] = mean_of(all, i); });
+  SixteenSurfaces::each(asked, [&](std::size_t i) { means[i] = mean_of_quarters(all.light[i], all.weight[i]); });
   const BlockFit fit(surfaces, asked, strict_);
   const std::array<FittedValue, kLanes> of_bright = bright(surfaces, asked, sample, level);
   std::array<FittedValue, kLanes> sum{};
@@ -328,7 +290,7 @@ bool Gather::diffuse_of_square(const FourBlocks& blocks, int sample, std::array<
     first[b] = quarter_sums(blocks[b], kAllLanes, grid(0, sample), first_quarters(b));
     float weight = 0;
     for (std::size_t i = 0; i < kLanes; ++i) {
-      means[b][i] = mean_of(first[b], i);
+      means[b][i] = mean_of_quarters(first[b].light[i], first[b].weight[i]);
       basis[b] += first[b].basis[i];
       for (const float w : first[b].weight[i]) weight += w;
     }
@@ -422,7 +384,7 @@ Gather::Lit Gather::glossy(const SixteenSurfaces& surfaces, const std::array<con
   SixteenSurfaces::each(asked, [&](std::size_t i) {
     if (walkers[i]->albedo)
       for (Vec3f& quarter : light[i]) quarter = quarter * static_cast<Vec3f>(ratio(*walkers[i]->albedo, walkers[i]->weights));
-    gathered[i] = mean_of_quarters(light[i]);
+    gathered[i] = mean_of_quarters(light[i], kEvenQuarters);
   });
   const BlockFit fit(surfaces, asked, strict_, narrowest);
   Lit lit;

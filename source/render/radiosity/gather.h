@@ -65,7 +65,6 @@ class Gather {
   std::array<FittedValue, kLanes> bright(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level) const;
   Sums quarter_sums(const SixteenSurfaces& surfaces, std::uint32_t asked, const Grid& cells,
                     const std::array<std::size_t, kLanes>& quarters) const;
-  static Gathered mean_of(const Sums& sums, std::size_t lane);
   std::array<FittedValue, kLanes> arriving(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level,
                                            std::size_t block, const Sums* first) const;
   Lit diffuse(const SixteenSurfaces& surfaces, std::uint32_t asked, int sample, std::size_t level, std::size_t block,

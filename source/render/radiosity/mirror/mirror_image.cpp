@@ -269,9 +269,9 @@ void MirrorImage::blur(Picture& picture, const PatchesInLobes* in_lobes) const {
     const float asked = in_lobes != nullptr ? asks_patches(seen.rays, seen.filled) : 0;
     if (asked > 0 || (in_lobes != nullptr && is_solids)) {
       const PatchesInLobes::Seen of_lobe = in_lobes->seen_by(lobe_of(pixel, at));
-      mean = not_below_zero(mean + (of_lobe.mean - seen.patches) * asked);
+      mean = not_below_zero(mean + (of_lobe.mean.value - seen.patches) * asked);
       constexpr float kStandardErrors = 2;
-      off = off * (1 - asked) + of_lobe.error * (kStandardErrors * asked);
+      off = off * (1 - asked) + of_lobe.mean.error * (kStandardErrors * asked);
       if (is_solids) off += of_lobe.spread * kShapeOfSolids;
     }
     const Vec3f light = mean * pixel.share, change = light - pixel.light;

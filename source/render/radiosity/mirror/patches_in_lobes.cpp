@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t kDirections = 128;
 constexpr std::size_t kLanes = BounceRays::kLanes;
 
-Vec3f root_of(Vec3f v) { return {std::sqrt(std::max(v.x, 0.0f)), std::sqrt(std::max(v.y, 0.0f)), std::sqrt(std::max(v.z, 0.0f))}; }
-
 }  // namespace
 
 // The highlights that a lobe sees are widened by about the distance between its directions. Rays and directions see the same.
@@ -97,16 +95,8 @@ PatchesInLobes::Seen PatchesInLobes::seen_by(const MirrorLobe& at) const {
   }
   const float all = weights[0] + weights[1] + weights[2] + weights[3];
   if (!(all > 0)) return {};
-  Seen seen{};
-  for (const Vec3f& quarter : light) seen.mean += quarter * (1 / all);
-  Vec3f squares{};
-  for (std::size_t q = 0; q < kQuarters; ++q) {
-    const Vec3f off = (weights[q] > 0 ? light[q] * (1 / weights[q]) : Vec3f{}) - seen.mean;
-    squares += off * off;
-  }
-  constexpr float kOver = 1.0f / (kQuarters * (kQuarters - 1));
-  seen.error = root_of(squares * kOver);
-  seen.spread = root_of(of_squares * (1 / all) - seen.mean * seen.mean);
+  const Vec3f sum = light[0] + light[1] + light[2] + light[3];
+  const Seen seen = {mean_of_quarters(light, weights), spread(of_squares, sum, {all, all, all}) * (1 / all)};
   return seen;
 }
 

@@ -5,6 +5,7 @@
 // and over the rays, has the detail of one and the even cover of the other.
 #pragma once
 
+#include "render/radiosity/block_fit.h"
 #include "render/radiosity/bounce_rays.h"
 #include "render/radiosity/mirror/mirrors.h"
 #include "render/radiosity/patch_light.h"
@@ -31,8 +32,8 @@ class PatchesInLobes {
   void along_rays(const Mirrors& mirrors, const StandsFor& stands_for, TileVector& radiance) const;
 
   struct Seen {
-    Vec3f mean, error;  // error: standard error
-    Vec3f spread;       // standard deviation over the lobe
+    Gathered mean;
+    Vec3f spread;  // standard deviation over the lobe
   };
   // The mean radiance of the patches that a lobe sees.
   Seen seen_by(const MirrorLobe& lobe) const;
