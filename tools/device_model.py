@@ -55,6 +55,7 @@ class Loop:
     def __init__(self, begin, end):
         self.begin, self.end, self.inner = begin, end, []
         self.head = end - begin  # instructions up to the first jump over most of a turn
+        self.branches = []  # instructions of its largest branches that are no loops, in their order
 
     def own(self):
         return self.end - self.begin - sum(i.end - i.begin for i in self.inner)
@@ -88,6 +89,9 @@ def loops_of(listing):
         around.append(loop)
         over = [a for a, to in jumps if begin < a < end and begin + (end - begin) // 2 < at[to] - (a - begin) <= end]
         loop.head = min(over) - begin if over else end - begin
+        for a, to in jumps:
+            if begin < a < at[to] < end and at[to] - a < (end - begin) * 0.95 and not any(b < a < e for b, e in loop.branches):
+                loop.branches.append((a, at[to]))
     return whole
 
 
@@ -103,26 +107,30 @@ def full_lanes(items, points, lanes):
 
 def parts_work(whole, constants, counts):
     """Instructions of shadow_parts.comp for all points of a space, by what they do. A lane takes a segment, and looks at eight others a turn."""
-    points, edges, segments, near, opened, pairs, turns = counts
+    points, edges, triangles, segments, pairs, near, opened, looks, pushes, sorting, crossings = counts
     lanes, few = constants[1], constants[3] == 1
     first, walk = whole.inner[0], max(whole.inner, key=Loop.once)
-    sets = walk.inner[0]
-    look, close, settle = sets.inner[0], sets.inner[-2], sets.inner[-1]
+    sets, pieces = walk.inner[0], walk.inner[2]
+    look, queue = sets.inner
+    push = queue.inner[0]
+    look_near, settle = sorted(sorted((end - begin for begin, end in queue.branches), reverse=True)[:2])
     chunks = full_lanes(segments, points, lanes)
     every = (pairs + segments * (lanes - 1) / 2) / 8 + chunks / 2  # turns of lanes, if they leave none out
-    looks = every if few else 64 * turns
-    # The last loops with loops in them before the walk sort the segments, and find the boxes of eight.
-    sort = 0 if few else every * [loop for loop in whole.inner if loop.inner and loop.begin < walk.begin][-2].inner[0].once()
+    looked = every if few else lanes * looks
     # Edges that do not face both ways wait until all lanes project one of the others.
     of_edge = first.once() if few else first.own() + first.inner[0].once()
+    sections = Loop(0, 0) if few else whole.inner[1]
+    others = [loop.once() for loop in whole.inner if loop not in (first, sections, walk)]
+    sort = 0 if few else [loop for loop in whole.inner if loop.inner and loop.begin < walk.begin][-2].inner[0].once()
     return {
         "edges": full_lanes(edges, points, lanes) * of_edge + (0 if few else chunks * first.inner[1].once()),
-        "sort": sort,
-        "looks": looks * look.once() + (every - looks) * look.head + every / 4 * (sets.own()),
-        "near pairs": near * close.once(),
-        "open pairs": opened * settle.once(),
-        "pieces": chunks * (walk.once() - sets.once()),
-        "all else": points * lanes * (whole.once() - first.once() - walk.once()),
+        "triangles": full_lanes(triangles, min(points, triangles), lanes) * sections.once(),
+        "sort": lanes * sorting * sort,
+        "looks": looked * look.once() + (every - looked) * look.head + (every / 4 + chunks) * sets.own(),
+        "near pairs": lanes * pushes * push.once() + (every / 4 + chunks) * (queue.once() - push.once() - look_near - settle) + (near + chunks / 2) * look_near,
+        "open pairs": (opened + min(lanes * opened, chunks)) * settle,
+        "pieces": lanes * crossings * pieces.once() + chunks * (walk.once() - sets.once() - pieces.once()),
+        "all else": points * lanes * whole.own() + max(points * lanes, chunks) * sum(others),
     }
 
 
@@ -187,7 +195,7 @@ def work_of(program, arguments, size):
         instructions = threads * p["whole"].once()
         if p in spaces:
             space = spaces.index(p)
-            of = [counts["shadow_pairs"][space + 1], *counts["shadow_work"][space]]
+            of = [counts["shadow_pairs"][space + 1], *counts["shadow_work"][space][:10]]
             threads, instructions = of[0] * p["constants"][1], sum(parts_work(p["whole"], p["constants"], of).values())
         elif p["shader"] in TURNS:
             instructions = TURNS[p["shader"]](p["whole"], threads, counts) if threads else 0
@@ -231,9 +239,10 @@ def main():
         print(f"| `{shader}` | {threads:,} | {instructions / threads:,.0f} | {times(instructions)} |")
     if "shadow_work" not in counts:
         return
-    print("\n| space | pairs | edges | segments | near pairs of segments | open pairs | pairs of segments | turns of 64 lanes |\n|---|" + "--:|" * 7)
+    print("\n| space | pairs | edges | triangles | segments | pairs of segments | near pairs | open pairs | looks | turns for near pairs | for sorting | for crossings |\n|---|"
+          + "--:|" * 11)
     for space, (pairs, sums) in enumerate(zip(counts["shadow_pairs"][1:], counts["shadow_work"])):
-        print(f"| {space} | {pairs:,} | " + " | ".join(f"{n / max(pairs, 1):,.1f}" for n in sums) + " |")
+        print(f"| {space} | {pairs:,} | " + " | ".join(f"{n / max(pairs, 1):,.1f}" for n in sums[:10]) + " |")
 
 
 def self_test():

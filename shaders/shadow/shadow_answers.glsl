@@ -32,3 +32,10 @@ struct Edge {
 Edge edge_of(uint number, uvec4 vector) {
     return Edge(number, uvec2(vector.x & (1u << kFlagsFrom) - 1u, vector.y), vector.zw, int(vector.x >> kFlagsFrom));
 }
+
+// Only an edge between two triangles may surely be no contour: facing is 1 or -1 for each of them, or 0 if it is open.
+bool has_two_triangles(Edge edge) { return (edge.flags & kManyWalks) == 0 && (edge.flags & kWalks1) != 0; }
+bool may_be_contour(Edge edge, ivec2 facing) {
+    bool opposite = ((edge.flags & kAgainst0) != 0) != ((edge.flags & kAgainst1) != 0);
+    return facing.x == 0 || facing.y == 0 || (opposite ? facing.x != facing.y : facing.x == facing.y);
+}

@@ -37,11 +37,8 @@ int clear_facing(Eye eye, uint plane) {
 }
 
 bool may_be_silhouette(Eye eye, uvec4 begins, Edge edge) {
-    if ((edge.flags & kManyWalks) != 0 || (edge.flags & kWalks1) == 0) return true;
-    int f0 = clear_facing(eye, begins.y + edge.planes.x);
-    int f1 = clear_facing(eye, begins.y + edge.planes.y);
-    bool opposite = ((edge.flags & kAgainst0) != 0) != ((edge.flags & kAgainst1) != 0);
-    return f0 == 0 || f1 == 0 || (opposite ? f0 != f1 : f0 == f1);
+    if (!has_two_triangles(edge)) return true;
+    return may_be_contour(edge, ivec2(clear_facing(eye, begins.y + edge.planes.x), clear_facing(eye, begins.y + edge.planes.y)));
 }
 
 // The sides of the box that a place is surely beyond, and kAboveOut.

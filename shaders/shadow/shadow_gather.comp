@@ -58,18 +58,14 @@ int facing_of_all(uint shaft, uint plane) {
     return abs(height) > reach ? (height > 0.0 ? 1 : -1) : 0;
 }
 
-bool may_be_contour(uint shaft, Edge edge) {
-    if ((edge.flags & kManyWalks) != 0) return true;
-    int f0 = facing_of_all(shaft, edge.planes.x);
-    int f1 = facing_of_all(shaft, edge.planes.y);
-    bool opposite = ((edge.flags & kAgainst0) != 0) != ((edge.flags & kAgainst1) != 0);
-    return (edge.flags & kWalks1) == 0 || f0 == 0 || f1 == 0 || (opposite ? f0 != f1 : f0 == f1);
+bool may_be_contour_of_any(uint shaft, Edge edge) {
+    return !has_two_triangles(edge) || may_be_contour(edge, ivec2(facing_of_all(shaft, edge.planes.x), facing_of_all(shaft, edge.planes.y)));
 }
 
 bool is_needed(uint shaft, Edge edge) {
     vec3 a = uintBitsToFloat(mesh[mesh[1].x + edge.ends.x].xyz);
     vec3 b = uintBitsToFloat(mesh[mesh[1].x + edge.ends.y].xyz);
-    return meets_edge(shaft, a, b) && may_be_contour(shaft, edge);
+    return meets_edge(shaft, a, b) && may_be_contour_of_any(shaft, edge);
 }
 
 void find_leaves(uint shaft) {

@@ -65,14 +65,14 @@ const int kBase = 512;        // times how often the lower left corner is occlud
 //   0  number of vectors of the parts, capacity; number of points that are left to the host, and of those that see a part
 //   1  place of the lists of edges; number of points without any; number of edges of all groups, capacity
 //   2  number of points of each space; how often points look at an edge of their group; in two vectors
-//   for each space two vectors of its work, kWork: edges, segments, near pairs of segments, pairs that floats leave open; pairs of segments
-//   in units of kPairUnit; looks_of_64(). Only a search that counts sums them up.
+//   for each space three vectors of its work, kWork: edges, triangles, segments, pairs of segments in units of kPairUnit; near pairs, open
+//   pairs, turns of looks, of near pairs; turns of sorting, of crossings. Only a search that counts sums them up (shadow_work.glsl).
 //   and for each space: numbers of its work groups in a row and of rows, 1: a dispatch; place of the points' names after the answers, four a vector
 const int kShadowSpaces = 5;
 const int kAtOnce = 8;  // segments that a turn looks at; capacities are multiples of it
 const int kMostInRow = 65535;
-const int kAnswersHead = 4 + 3 * kShadowSpaces;
-const int kWork = 8;  // numbers of two vectors
+const int kAnswersHead = 4 + 4 * kShadowSpaces;
+const int kWork = 12;  // numbers of three vectors
 const int kPairUnit = 64;
 // In the first spaces a subgroup serves several points. The edges that such a point may see as segments are listed, four a vector. Their
 // number is x of vector 1 of its answer.

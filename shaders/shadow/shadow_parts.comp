@@ -24,7 +24,10 @@ layout(push_constant) uniform Push { uint space; };
 #include "shadow_exact.glsl"
 #include "shadow_turns.glsl"
 #include "shadow_segments.glsl"
+#include "shadow_work.glsl"
+#include "shadow_order.glsl"
 #include "shadow_count.glsl"
+#include "shadow_pieces.glsl"
 #include "shadow_region.glsl"
 
 // A place in cells, relative to the point. It is on or above the point's horizon, so that no rounding puts an edge below.
@@ -109,20 +112,6 @@ Record write_polygon(View view, Corners corners, uint at) {
     return Record(moments_of_lanes(m), vec2(0.0), at, corners.count + 1u, 0u);
 }
 
-// Adds a point's work to the sums of the space.
-void count_work(uint edges) {
-    vec2 pairs = sum_of_lanes(vec2(near_pairs, open_pairs));
-    int looks = sum_of_lanes(looks_of_64());
-    if (LANE > 0u) return;
-    uint at = uint(kWork) * space;
-    atomicAdd(work[at], edges);
-    atomicAdd(work[at + 1u], uint(segment_count));
-    atomicAdd(work[at + 2u], uint(pairs.x));
-    atomicAdd(work[at + 3u], uint(pairs.y));
-    atomicAdd(work[at + 4u], uint(segment_count * segment_count + kPairUnit / 2) / uint(kPairUnit));
-    atomicAdd(work[at + 5u], uint(looks));
-}
-
 void main() {
     // The first spaces have few segments a point, so that a subgroup serves several points.
     uint place_of_point = (gl_WorkGroupID.y * uint(kMostInRow) + gl_WorkGroupID.x) * POINTS + uint(MINE);
@@ -134,8 +123,7 @@ void main() {
     found = false;
     segment_count = 0;
     piece_count = 0;
-    near_pairs = 0;
-    open_pairs = 0;
+    begin_counting();
     too_much = false;
     turns = turns_left(point.begins.w, point.triangles);
     see_edges(point);
@@ -174,7 +162,7 @@ void main() {
             }
         }
     }
-    if (COUNTS == 1) count_work(FEW == 1 ? answers[uint(kShadowAnswer) * point.answer + 1u].x : point.begins.w);
+    if (COUNTS == 1) count_work(FEW == 1 ? answers[uint(kShadowAnswer) * point.answer + 1u].x : point.begins.w, FEW == 1 ? 0u : point.triangles);
     if (LANE > 0u) return;
     if (too_much && space + 1u < uint(kShadowSpaces))
         go_to_space(space + 1u, name, uint(TOGETHER));

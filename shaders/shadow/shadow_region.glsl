@@ -41,21 +41,17 @@ float room_at(vec2 q, int base) {
     bool certain = true;
     for (int i = int(LANE); i < segment_count; i += LANES) {
         vec4 s = cells[FIRST + i];
-        int weight = weight_of(marks[FIRST + i]);
         vec2 f = s.zw - s.xy;
         vec2 p = q - s.xy;
         vec2 r = p - clamp(dot(p, f) / max(dot(f, f), 1.0), 0.0, 1.0) * f;
         least2 = min(least2, dot(r, r));
         // The place is not in whole numbers, so differences round as well.
-        bool start_above = s.y > q.y;
-        bool end_above = s.w > q.y;
         float a = f.x * p.y;
         float b = f.y * p.x;
-        if (start_above != end_above) {
+        if (is_across(s, q.y)) {
             certain = certain && abs(a - b) > 1.0e-6 * (abs(a) + abs(b));
-            count += left_ray(weight, end_above, a > b);
+            count -= a < b ? weights[FIRST + i] : 0;
         }
-        count += left_events(marks[FIRST + i], s.y < q.y, s.w < q.y);
     }
     certain = !any_of_lanes(!certain);
     count = base + sum_of_lanes(count);

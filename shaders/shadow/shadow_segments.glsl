@@ -7,33 +7,35 @@
 
 shared vec4 cells[ALL_SPACE];  // start, end: whole numbers
 shared uvec2 names[ALL_SPACE];
-shared int marks[ALL_SPACE];  // the weight times kMarks, kLeftStart, kLeftEnd
+shared int weights[ALL_SPACE];  // change of the count from the right to the left
 int segment_count;
 bool too_much;  // the capacity is exceeded
 
-shared int piece_segments[ALL_SPACE];  // of the pieces; before there are any: weights and numbers of edges that wait
+// Crossings of the segments that the lanes have in work. Each segment has a chain of them.
+shared float crossing_at[ALL_SPACE];
+shared int crossing_links[ALL_SPACE];  // the change of the count, times kLinks; place of the next crossing
+// Pieces of segments at the lowest count so far: fractions of the way at which each begins and ends; its segment. Before there are any,
+// piece_segments holds weights and numbers of edges that wait.
+shared vec2 pieces[ALL_SPACE];
+shared int piece_segments[ALL_SPACE];
 const int kWaitingBits = 16;
 const int kWaiting = 1 << kWaitingBits;
 
-const int kMarks = 4;
-const int kLeftStart = 1;  // the box's left side cuts the segment at its start
-const int kLeftEnd = 2;
 // Weight of the outline: larger than the number of a group's triangles. The CPU has another one.
 const int kHidden = 65536;
 
-int weight_of(int mark) { return mark >> 2; }
 ivec4 displacements(uvec2 named) { return ivec4(displacement(named.x), displacement(named.y)); }
 
 // The segment that this lane has found.
 vec4 found_cells;
 uvec2 found_names;
-int found_mark;
+int found_weight;
 bool found;
 
 void add_segment(vec4 ends, uvec2 named, int weight) {
     found_cells = ends;
-    found_names = named & ~kLeftName;
-    found_mark = kMarks * weight + int(named.x / kLeftName) * kLeftStart + int(named.y / kLeftName) * kLeftEnd;
+    found_names = named;
+    found_weight = weight;
     found = true;
 }
 
@@ -47,7 +49,7 @@ int gather_segments(int before) {
     if (to >= 0) {
         cells[FIRST + to] = found_cells;
         names[FIRST + to] = found_names;
-        marks[FIRST + to] = found_mark;
+        weights[FIRST + to] = found_weight;
     }
     segment_count = before + (too_much ? 0 : all);
     return to;
@@ -57,7 +59,7 @@ int gather_segments(int before) {
 void keep_gathered(int before, int own, bool keep) {
     subgroupBarrier();
     found = own >= 0 && keep;
-    if (found) found_mark = marks[FIRST + own];
+    if (found) found_weight = weights[FIRST + own];
     gather_segments(before);
 }
 
@@ -217,8 +219,8 @@ void see_sections(Eye eye, uint vertices, uint planes, uint triangles, uint coun
             ++looks;
             bool same = names[FIRST + i] == names[FIRST + own];
             coincides = same || names[FIRST + i] == names[FIRST + own].yx;
-            int weight = weight_of(marks[FIRST + own]);
-            if (coincides) atomicAdd(marks[FIRST + i], kMarks * (same ? weight : -weight));
+            int weight = weights[FIRST + own];
+            if (coincides) atomicAdd(weights[FIRST + i], same ? weight : -weight);
         }
         keep_gathered(before, own, !coincides);
         turns -= most_of_lanes(looks);

@@ -43,8 +43,7 @@ struct ShadowAnswer {
 };
 static_assert(sizeof(AnswersHead) == kAnswersHead * kVector && sizeof(ShadowAnswer) == kShadowAnswer * kVector);
 
-constexpr std::size_t kWorkCounts = 6;  // RenderStats::shadow_work
-constexpr std::size_t kThreads = 64;    // work group size of shaders/shadow/shadow_rays.comp
+constexpr std::size_t kThreads = 64;  // work group size of shaders/shadow/shadow_rays.comp
 
 // Lanes of a subgroup that serve a point of a space.
 int lanes_of(const DeviceInfo& device, std::size_t space) {
@@ -68,7 +67,7 @@ ShadowAnswer* answers_in(const Buffer& buffer) {
 }  // namespace
 
 DeviceShadows::DeviceShadows(Kept& kept, const SceneRays& rays, std::shared_ptr<const ShadowEdges> edges)
-    : kept_(kept), rays_(rays), pairs_(1 + kSegments.size()), work_(kSegments.size(), std::vector<std::uint64_t>(kWorkCounts)) {
+    : kept_(kept), rays_(rays), pairs_(1 + kSegments.size()), work_(kSegments.size(), std::vector<std::uint64_t>(kWork)) {
   if (kept.edges == edges) return;
   const auto vectors = mesh_vectors(edges->mesh);
   kept.mesh.fit_with_room(vectors.size() * kVector, "edges of the scene").write(vectors.data(), vectors.size() * kVector);
@@ -247,7 +246,7 @@ bool DeviceShadows::finish() {
   pairs_.front() += head.seen_at_once;
   for (std::size_t i = 0; i < kSegments.size(); ++i) {
     pairs_[i + 1] += head.points_of[i];
-    for (std::size_t k = 0; k < kWorkCounts; ++k) work_[i][k] += std::uint64_t{head.work[i][k]} * (k == 4 ? kPairUnit : 1);
+    for (std::size_t k = 0; k < kWork; ++k) work_[i][k] += std::uint64_t{head.work[i][k]} * (k == 3 ? kPairUnit : 1);
   }
   return true;
 }
