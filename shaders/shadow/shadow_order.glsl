@@ -12,7 +12,7 @@ void stand_up(int i) {
     weights[FIRST + i] = -weights[FIRST + i];
 }
 
-// Where the box's left side cuts a segment, the count changes for all rays above. A wall does the same: a segment far left, which goes up
+// If the box's left side cuts a segment, the count changes for all rays above. A wall does the same: a segment far left, which goes up
 // from there.
 const float kFar = 16777216.0;  // beyond all cells
 bool is_wall(vec4 e) { return e.x == -kFar; }
@@ -61,7 +61,7 @@ void sort_segments() {
         if (first + int(LANE) < kHeights) crossing_links[h] = begin;
     }
     subgroupBarrier();
-    // Those of a height come in any order. Then each counts those of its height that have smaller numbers.
+    // Segments of one height come in any order. Then each counts those of its height that have smaller numbers.
     for (int i = int(LANE); i < segment_count; i += LANES) piece_segments[atomicAdd(crossing_links[height_of(i)], 1)] = i;
     subgroupBarrier();
     int most = 0;
