@@ -110,7 +110,8 @@ def parts_work(whole, constants, counts):
     points, edges, triangles, segments, pairs, near, opened, looks, pushes, sorting, crossings = counts
     lanes, few = constants[1], constants[3] == 1
     first, walk = whole.inner[0], max(whole.inner, key=Loop.once)
-    sets, pieces = walk.inner[0], walk.inner[2]
+    sets = max(walk.inner, key=Loop.once)
+    pieces = walk.inner[walk.inner.index(sets) + 2]
     look, queue = sets.inner
     push = queue.inner[0]
     look_near, settle = sorted(sorted((end - begin for begin, end in queue.branches), reverse=True)[:2])

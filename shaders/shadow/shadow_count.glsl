@@ -36,10 +36,18 @@ bool is_near(inout Walk e, int i, float height) {
 }
 
 #if !FEW
-// The segments of a turn change nothing if they are above all lanes' segments, below them or right of them.
-bool is_passed_by(Walk e, int b) {
-    vec4 box = boxes[b];
-    return !any_of_lanes(e.mine && box.w >= e.cells.y && box.y <= e.cells.w && box.x <= e.sides.y);
+// Bits of the boxes whose segments may change something: they are not above all lanes' segments, below them or right of them.
+shared uint reached_boxes[SPACE / kAtOnce / 32 + 1];
+
+void find_reached_boxes(Walk e) {
+    for (int word = int(LANE); word <= SPACE / kAtOnce / 32; word += LANES) reached_boxes[word] = 0u;
+    vec2 heights = least_of_lanes(e.mine ? vec2(e.cells.y, -e.cells.w) : vec2(kFar));
+    float right = -least_of_lanes(vec2(e.mine ? -e.sides.y : kFar)).x;
+    subgroupBarrier();
+    for (int b = int(LANE); b * kAtOnce < segment_count; b += LANES) {
+        vec4 box = boxes[b];
+        if (box.w >= heights.x && box.y <= -heights.y && box.x <= right) atomicOr(reached_boxes[b / 32], 1u << b % 32);
+    }
 }
 
 // For reports: turns in which kTogether lanes look at boxes. The box of all their segments decides, so this is an upper bound.
@@ -186,6 +194,9 @@ void look_at_all(inout Walk e, int first) {
     if (LANE == 0u) crossing_counts[MINE] = 0u;
     from_start[OF_LANE(int(LANE))] = 0;
     first_crossing[OF_LANE(int(LANE))] = kNoLink;
+#if !FEW
+    find_reached_boxes(e);
+#endif
     subgroupBarrier();
     int all;
     int near_waiting = 0;
@@ -196,9 +207,12 @@ void look_at_all(inout Walk e, int first) {
         bool last = set >= segment_count;
         uint near = 0u;
         float height = middle_height(e.cells);
+#if !FEW
+        uint reached = reached_boxes[set / kAtOnce / 32] >> set / kAtOnce % 32;
+#endif
         for (int i = set; i < min(set + kSetOfPairs, segment_count); i += kAtOnce) {
 #if !FEW
-            if (is_passed_by(e, i / kAtOnce)) continue;
+            if ((reached & 1u << (i - set) / kAtOnce) == 0u) continue;
 #endif
             uint some = 0u;
             for (int k = 0; k < kAtOnce; k++) some |= is_near(e, i + k, height) ? 1u << k : 0u;  // compilers unroll it

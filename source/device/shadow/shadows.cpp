@@ -20,10 +20,10 @@ constexpr std::size_t kMostGroups = 65535, kMostLights = 16384, kMostValues = kL
 constexpr std::size_t kVectorsOfPart = 32;                                        // initial number for each point
 constexpr std::size_t kEdgesOfGroup = 512, kEdgesAtFirst = std::size_t{1} << 20;  // the same of the edges of groups
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
-// (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes of a segment and a piece in shared memory:
-// shaders/shadow/shadow_segments.glsl, shaders/shadow/shadow_count.glsl.
+// (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes in shared memory, of a segment with its piece and crossing,
+// of a lane, and of all else: shaders/shadow/shadow_segments.glsl, shadow_order.glsl and shadow_count.glsl.
 constexpr std::array<std::size_t, kShadowSpaces> kSegments = {16, 48, 96, 192, 608};
-constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 48;
+constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 50, kLaneBytes = 20, kOtherBytes = 128;
 static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] && kMostListed == 4 * kListVectors);
 
 // Layout of Answers in shaders/shadow/shadow_parts.comp.
@@ -50,6 +50,12 @@ int lanes_of(const DeviceInfo& device, std::size_t space) {
   constexpr std::uint32_t kTogether[] = {8, 4}, kLeastLanes = 4;
   const std::uint32_t lanes = space < kFewSpaces ? std::max(device.subgroup / kTogether[space], kLeastLanes) : device.subgroup;
   return static_cast<int>(std::min(device.subgroup, lanes));
+}
+
+// Segments for which a device has shared memory.
+std::size_t most_segments(const DeviceInfo& device) {
+  const std::size_t others = kLaneBytes * device.subgroup + kOtherBytes;
+  return device.shared_memory > others ? (device.shared_memory - others) / kSegmentBytes : 0;
 }
 
 std::uint32_t number(std::size_t n) { return static_cast<std::uint32_t>(n); }
@@ -87,7 +93,7 @@ DeviceShadows::Kept::Kept(const Device& d)
 
 bool DeviceShadows::has(const DeviceInfo& device) {
   return device.adds && device.int64 && device.subgroup > 1 && device.subgroup <= kSegments[kFewSpaces] &&
-         device.shared_memory >= kLeastSegments * kSegmentBytes;
+         most_segments(device) >= kLeastSegments;
 }
 
 bool DeviceShadows::fits(const DeviceInfo& device, const ShadowEdges& edges, const std::vector<PackLight>& lights) {
@@ -200,7 +206,7 @@ ComputeProgram& DeviceShadows::record(const Buffer& gates) {
     const int subgroup = static_cast<int>(device.subgroup);
     std::array<int, kSegments.size()> spaces, together;
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
-      spaces[i] = static_cast<int>(std::min(device.shared_memory / kSegmentBytes, kSegments[i])) / kAtOnce * kAtOnce;
+      spaces[i] = static_cast<int>(std::min(most_segments(device), kSegments[i])) / kAtOnce * kAtOnce;
       together[i] = subgroup / lanes_of(device, i);
     }
     dispatches.push_back({.pipeline = kept_.program.pipeline(0), .groups_x = number(begins_.back().group)});
