@@ -147,6 +147,9 @@ def chain(whole, *turns):
 
 # Instructions of a shader for all its threads. counts: --stats of the software device, or of the CPU for the plane.
 TURNS = {
+    # The walk, two passes over the edges of leaves, and a sum over 64 threads between them.
+    "shadow_gather.comp": lambda whole, threads, counts: threads * (whole.own() + GROUP * whole.inner[2].once()) +
+    GROUP * (counts["shadow_gathered"][0] * whole.inner[0].once() + counts["shadow_gathered"][1] * (whole.inner[1].once() + whole.inner[3].once())),
     "shadow_edges.comp": lambda whole, threads, counts: threads * (whole.once() - whole.inner[0].once()) + counts["shadow_looks"] * whole.inner[0].once(),
     "bounce_cull.comp": lambda whole, threads, counts: threads * (whole.own() + 2 * (whole.inner[0].own() + 32 * whole.inner[0].inner[0].once() +
                                                                                      16 * whole.inner[0].inner[1].once())),

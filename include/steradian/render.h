@@ -1,6 +1,7 @@
 // render: a scene to a picture, on the CPU or on a Vulkan device.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -132,7 +133,8 @@ struct RenderStats {
   double shadow_on_host = 0;            // fraction of a device's pairs that see a part of the light for which the host found that part
   // A device's pairs of a surface and a light whose edges it has searched: pairs without a segment, then pairs in each space of segments.
   std::vector<std::uint64_t> shadow_pairs;
-  std::uint64_t shadow_looks = 0;  // number of edges that these pairs have looked at
+  std::uint64_t shadow_looks = 0;                  // number of edges that these pairs have looked at
+  std::array<std::uint64_t, 2> shadow_gathered{};  // nodes and leaves of edges that groups of pixels met
   // Sums of each space on a software device: edges, segments, pairs of segments whose boxes meet, those of them that floats leave open, all
   // pairs of segments (a segment with itself as well), and turns of 64 lanes that look at eight segments each.
   std::vector<std::vector<std::uint64_t>> shadow_work;

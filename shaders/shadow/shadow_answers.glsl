@@ -13,7 +13,8 @@ layout(std430, binding = 2) buffer Answers {
     uint edges_room;
     uint points_of[kShadowSpaces];
     uint looks;
-    uint not_used[2];
+    uint nodes_met;   // by the walks of all groups
+    uint leaves_met;
     uint work[kWork * kShadowSpaces];
     uvec4 spaces[kShadowSpaces];
     uvec4 answers[];

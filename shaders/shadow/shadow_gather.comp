@@ -84,7 +84,10 @@ void find_leaves(uint shaft) {
         node = meets ? node + 1u : high.w;
         ++turns;
     }
-    if (gl_LocalInvocationID.x == 0u) leaf_count = turns < kMostNodes ? count : uint(kMostLeaves) + 1u;
+    if (gl_LocalInvocationID.x > 0u) return;
+    leaf_count = turns < kMostNodes ? count : uint(kMostLeaves) + 1u;
+    atomicAdd(nodes_met, turns);
+    atomicAdd(leaves_met, count);
 }
 
 // Goes through a thread's share of the edges of the leaves, neighbours as many as there are leaves, so that edges ascend from thread to thread. Writes those

@@ -64,7 +64,8 @@ const int kBase = 512;        // times how often the lower left corner is occlud
 // Answers, after a head of vectors and one for each space. Points whose segments exceed a space go on to the next one.
 //   0  number of vectors of the parts, capacity; number of points that are left to the host, and of those that see a part
 //   1  place of the lists of edges; number of points without any; number of edges of all groups, capacity
-//   2  number of points of each space; how often points look at an edge of their group; in two vectors
+//   2  number of points of each space; how often points look at an edge of their group; nodes and leaves that
+//   groups meet; in two vectors
 //   for each space three vectors of its work, kWork: edges, triangles, segments, pairs of segments in units of kPairUnit; near pairs, open
 //   pairs, turns of looks, of near pairs; turns of sorting, of crossings. Only a search that counts sums them up (shadow_work.glsl).
 //   and for each space: numbers of its work groups in a row and of rows, 1: a dispatch; place of the points' names after the answers, four a vector

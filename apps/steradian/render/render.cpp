@@ -88,6 +88,7 @@ nlohmann::ordered_json stats_json(const RenderArguments& options, const RenderSt
           {"shadow_on_host", stats.shadow_on_host},
           {"shadow_pairs", stats.shadow_pairs},
           {"shadow_looks", stats.shadow_looks},
+          {"shadow_gathered", stats.shadow_gathered},
           {"shadow_work", stats.shadow_work},
           {"submissions", stats.submissions},
           {"exact_tiles", stats.exact_tiles},

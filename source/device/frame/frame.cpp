@@ -330,9 +330,12 @@ struct DeviceFrame::Parts {
       };
       stats.shadow_fallback = share(counts.fallback, points);
       stats.shadow_on_host = share(counts.parts + counts.fallback, counts.parts + counts.fallback + found);
-      if (shadows) stats.shadow_pairs = shadows->pairs();
-      if (shadows) stats.shadow_looks = shadows->looks();
-      if (shadows) stats.shadow_work = shadows->work();
+      if (shadows) {
+        stats.shadow_pairs = shadows->pairs();
+        stats.shadow_looks = shadows->looks();
+        stats.shadow_gathered = shadows->gathered();
+        stats.shadow_work = shadows->work();
+      }
       if (shadows && shadows->time() > 0) stats.passes.push_back({"device: shadows", shadows->time()});
       if (shadows && shadows->rays_time() > 0) stats.passes.push_back({"device: shadow rays", shadows->rays_time()});
     }

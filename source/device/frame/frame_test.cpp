@@ -238,6 +238,8 @@ TEST_F(VulkanFrame, SeesAtOnceWhatNoEdgeOccludes) {
   EXPECT_GT(stats.shadow_pairs[2], 0u);
   EXPECT_LT(10 * stats.shadow_pairs[5], stats.shadow_pairs[1] + stats.shadow_pairs[2]);
   EXPECT_GT(stats.shadow_looks, 0u);
+  EXPECT_GT(stats.shadow_gathered[0], stats.shadow_gathered[1]);
+  EXPECT_GT(stats.shadow_gathered[1], 0u);
   ASSERT_EQ(stats.shadow_work.size(), 5u);
   EXPECT_GT(stats.shadow_work[1][0], 0u);
   EXPECT_EQ(stats.submissions, 1u);

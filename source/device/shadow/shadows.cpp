@@ -20,8 +20,8 @@ constexpr std::size_t kMostGroups = 65535, kMostLights = 16384, kMostValues = kL
 constexpr std::size_t kVectorsOfPart = 32;                                        // initial number for each point
 constexpr std::size_t kEdgesOfGroup = 512, kEdgesAtFirst = std::size_t{1} << 20;  // the same of the edges of groups
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
-// (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes in shared memory, of a segment with its piece and crossing,
-// of a lane, and of all else: shaders/shadow/shadow_segments.glsl, shadow_order.glsl and shadow_count.glsl.
+// (docs/theory/device.md). In the first ones a subgroup serves several points. Bytes in shared memory, of a segment with its piece and
+// crossing, of a lane, and of all else: shaders/shadow/shadow_segments.glsl, shadow_order.glsl and shadow_count.glsl.
 constexpr std::array<std::size_t, kShadowSpaces> kSegments = {16, 48, 96, 192, 608};
 constexpr std::size_t kLeastSegments = 256, kSegmentBytes = 50, kLaneBytes = 20, kOtherBytes = 128;
 static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] && kMostListed == 4 * kListVectors);
@@ -30,7 +30,7 @@ static_assert(static_cast<std::size_t>(kMostListed) < kSegments[kFewSpaces - 1] 
 struct AnswersHead {
   std::uint32_t parts_used, parts_room, left, found;
   std::uint32_t lists, seen_at_once, edges_used, edges_room;
-  std::uint32_t points_of[kShadowSpaces], looks, unused[2], work[kShadowSpaces][kWork];
+  std::uint32_t points_of[kShadowSpaces], looks, nodes_met, leaves_met, work[kShadowSpaces][kWork];
   struct Space {
     std::uint32_t groups_x, groups_y, one, first_name;
   } spaces[kShadowSpaces];
@@ -249,6 +249,8 @@ bool DeviceShadows::finish() {
   points_ += begins_.back().point - head.left;
   found_ += head.found;
   looks_ += head.looks;
+  gathered_[0] += head.nodes_met;
+  gathered_[1] += head.leaves_met;
   pairs_.front() += head.seen_at_once;
   for (std::size_t i = 0; i < kSegments.size(); ++i) {
     pairs_[i + 1] += head.points_of[i];

@@ -63,6 +63,7 @@ class DeviceShadows {
   const std::vector<std::uint64_t>& pairs() const { return pairs_; }
   const std::vector<std::vector<std::uint64_t>>& work() const { return work_; }
   std::uint64_t looks() const { return looks_; }
+  const std::array<std::uint64_t, 2>& gathered() const { return gathered_; }  // nodes and leaves of edges that groups met
 
  private:
   // First places of a tile's data among those of all.
@@ -85,6 +86,7 @@ class DeviceShadows {
   std::size_t most_tiles_ = SIZE_MAX;
   double time_ = 0, rays_time_ = 0;
   std::uint64_t points_ = 0, found_ = 0, looks_ = 0;
+  std::array<std::uint64_t, 2> gathered_{};
   std::vector<std::uint64_t> pairs_;
   std::vector<std::vector<std::uint64_t>> work_;
 };
