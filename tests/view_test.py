@@ -200,7 +200,7 @@ def lost():
     size = ("--size", "320x180", "--method", "ltc-compact", "--shadows", "off")
     render(SCENES / "glossy_floor.glb", "lost-cpu.exr", *size)
     render(SCENES / "glossy_floor.glb", "lost-cpu.png", *size, "--exposure", "0")
-    for fault, renders in (("vkWaitForFences:1", "cpu"), ("vkCreateSwapchainKHR:1", "vulkan"), ("vkQueuePresentKHR:2", "vulkan")):
+    for fault, renders in (("vkWaitForFences:1", "cpu"), ("render:1", "cpu"), ("vkCreateSwapchainKHR:1", "vulkan"), ("vkQueuePresentKHR:2", "vulkan")):
         faulty = {"VK_LAYER_PATH": str(OUT.parent / "faulty_device"), "VK_INSTANCE_LAYERS": "VK_LAYER_STERADIAN_faulty_device",
                   "STERADIAN_FAULT": fault}
         said = play(SCENES / "glossy_floor.glb", [

@@ -1,6 +1,7 @@
 // A Vulkan layer whose device fails on demand: STERADIAN_FAULT=CALL:N, from the N-th call on. vkQueueSubmit, vkWaitForFences and
-// vkQueuePresentKHR lose the device, vkCreateSwapchainKHR and vkAllocateMemory find no memory left, and "timeout" in place of a call is
-// work that does not end. So the program's reaction runs as on a broken machine, without any line of code for tests in it.
+// vkQueuePresentKHR lose the device, vkCreateSwapchainKHR and vkAllocateMemory find no memory left, "render" in
+// place of a call loses the device where it renders but not where it draws a window, and "timeout" is work that does not end. So the
+// program's reaction runs as on a broken machine, without any line of code for tests in it.
 #define VK_NO_PROTOTYPES
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -33,7 +34,8 @@ bool fails(const char* call) {
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
-  return fails("vkQueueSubmit") ? VK_ERROR_DEVICE_LOST : next.submit(queue, count, infos, fence);
+  const bool renders = count > 0 && infos->signalSemaphoreCount == 0;  // a frame of a window signals that it can be presented
+  return fails("vkQueueSubmit") || (renders && fails("render")) ? VK_ERROR_DEVICE_LOST : next.submit(queue, count, infos, fence);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all, std::uint64_t timeout) {

@@ -60,6 +60,7 @@ Swapchain::Swapchain(const vulkan::Device& device, vk::raii::SurfaceKHR surface)
   pass_ = make_pass(d_.device, format_.format);
   available_ = d_.device.createSemaphore({});
   done_ = d_.device.createFence({vk::FenceCreateFlagBits::eSignaled});
+  read_ = d_.device.createFence({});
   commands_ = std::move(d_.device.allocateCommandBuffers({*d_.commands, vk::CommandBufferLevel::ePrimary, 1}).front());
 }
 
@@ -148,7 +149,7 @@ Display Swapchain::pixels() const {
   if (!acquired_ || !readable_) throw Error("view", "the window system does not let the window be read");
   wait();
   const std::size_t bytes = std::size_t{4} * size_.width * size_.height;
-  const vulkan::Buffer read(device_, bytes);
+  const vulkan::Buffer copy(device_, bytes);
   const vk::Image image = targets_[*acquired_].image;
   commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   const auto change = [&](Access from_access, Access to_access, Layout from, Layout to) {
@@ -158,14 +159,14 @@ Display Swapchain::pixels() const {
   };
   change(Access::eColorAttachmentWrite, Access::eTransferRead, Layout::ePresentSrcKHR, Layout::eTransferSrcOptimal);
   const vk::BufferImageCopy all(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {0, 0, 0}, {size_.width, size_.height, 1});
-  commands_.copyImageToBuffer(image, Layout::eTransferSrcOptimal, *read.handles().buffer, all);
+  commands_.copyImageToBuffer(image, Layout::eTransferSrcOptimal, *copy.handles().buffer, all);
   change(Access::eTransferRead, {}, Layout::eTransferSrcOptimal, Layout::ePresentSrcKHR);
   commands_.pipelineBarrier(Stage::eTransfer, Stage::eHost, {}, vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead), nullptr,
                             nullptr);
   commands_.end();
-  vulkan::submit_and_wait(device_, {*commands_}, done_, "reading the window");
+  vulkan::submit_and_wait(device_, {*commands_}, read_, "reading the window");
   Display shot{static_cast<int>(size_.width), static_cast<int>(size_.height), std::vector<std::uint8_t>(bytes)};
-  read.read(shot.rgba.data(), bytes);
+  copy.read(shot.rgba.data(), bytes);
   if (format_.format == vk::Format::eB8G8R8A8Unorm)
     for (std::size_t i = 0; i < bytes; i += 4) std::swap(shot.rgba[i], shot.rgba[i + 2]);
   return shot;

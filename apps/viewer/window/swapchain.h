@@ -54,6 +54,7 @@ class Swapchain {
   std::optional<std::uint32_t> acquired_;
   vk::raii::Semaphore available_ = nullptr;
   vk::raii::Fence done_ = nullptr;  // signalled unless a frame is being drawn
+  vk::raii::Fence read_ = nullptr;  // of pixels()
   vk::raii::CommandBuffer commands_ = nullptr;
 };
 
