@@ -179,6 +179,9 @@ void Window::open_screen() {
     glfwGetWindowSize(window(), &request.width, &request.height);
     place.emplace();
     glfwGetWindowPos(window(), &place->first, &place->second);
+    state_.quit = state_.quit || glfwWindowShouldClose(window()) != 0;
+    // The new window hears of no button that is let go.
+    if (state_.stage->dragging()) attempt(state_, [&] { state_.stage->release(scripted_pointer_.value_or(pointer())); });
     screen_.reset();
   }
   shown_by_vulkan_ = by_vulkan();
