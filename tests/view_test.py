@@ -28,7 +28,14 @@ def play(scene, events, *options, **variables):
     done = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 800x600x24", PROGRAM, "view", scene, "--script", script, *options],
                           cwd=OUT, capture_output=True, text=True, timeout=240, env={**os.environ, **variables})
     assert done.returncode == 0, done.stderr
-    return done.stdout
+    return done.stdout + done.stderr
+
+
+def worst(a, b):
+    """The largest difference of two PNGs of one size, in steps of 8 bits."""
+    (width, height, rows), (*size, others) = pixels(OUT / a), pixels(OUT / b)
+    assert [width, height] == size, (a, b)
+    return max(abs(x - y) for p, q in zip(rows, others) for x, y in zip(p, q))
 
 
 def render(scene, to, *options):
@@ -66,10 +73,9 @@ def plane():
     assert pixels(OUT / "plane-rest.png") == pixels(OUT / "plane.png")
     assert pixels(OUT / "plane-rest.png") != pixels(OUT / "plane-first.png")
     render("plane.svg", "plane-again.png", "--size", "400x250")
-    a, b = pixels(OUT / "plane-again.png")[2], pixels(OUT / "plane.png")[2]
-    worst = max(abs(x - y) for p, q in zip(a, b) for x, y in zip(p, q))
-    print("saved drawing, rendered: off by", worst, "of 255 at most")
-    assert worst <= 1
+    off = worst("plane-again.png", "plane.png")
+    print("saved drawing, rendered: off by", off, "of 255 at most")
+    assert off <= 1
 
 
 def polygon():
@@ -166,18 +172,46 @@ def life():
     assert {"key": "F1"} in recorded
 
 
+def swapchain():
+    """With a device the window is shown by Vulkan, pixel for pixel as by OpenGL, resized and minimised; the validation layer is silent."""
+    for backend, screen, *options in (("cpu", "OpenGL", "--bounces", "0"), ("vulkan", "Vulkan, ")):
+        said = play(SCENES / "glossy_floor.glb", [
+            {"wait": "settled"}, {"time": "start"}, {"select": "panel"}, {"wait": 0.2}, {"shot": f"{backend}-start.png"},
+            {"drag": "left", "from": [200, 40], "to": [230, 60]}, {"key": "F1"}, {"wait": "settled"}, {"shot": f"{backend}-help.png"},
+            {"key": "F1"}, {"resize": [500, 300]}, {"wait": 0.3}, {"wait": "settled"}, {"shot": f"{backend}-larger.png"},
+            {"minimise": True}, {"wait": 0.2}, {"restore": True}, {"wait": 0.2}, {"resize": [300, 200]}, {"wait": 0.3}, {"key": "Escape"},
+            {"wait": "settled"}, {"shot": f"{backend}-rest.png"}, {"picture": f"{backend}-rest-picture.png"}, {"time": "end"},
+        ], "--size", "400x225", "--method", "ltc-compact", "--shadows", "off", "--exposure", "0", "--panel", "off", "--backend", backend,
+            *options, VK_INSTANCE_LAYERS="VK_LAYER_KHRONOS_validation",
+            VK_LAYER_ENABLES="VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT")
+        print(said.strip())
+        assert said.count(f"window by {screen}") == 2, "the back end's own screen shows the window from start to end"
+        assert len(said.splitlines()) == 2, "the validation layer is silent"
+        assert pixels(OUT / f"{backend}-rest.png") == pixels(OUT / f"{backend}-rest-picture.png"), "the window shows the picture"
+    for shot in ("start", "help", "larger", "rest"):
+        off = worst(f"vulkan-{shot}.png", f"cpu-{shot}.png")
+        print(f"{shot}: Vulkan and OpenGL differ by", off, "of 255 at most")
+        assert off <= 1
+    assert pixels(OUT / "vulkan-larger.png")[:2] == (500, 300)
+
+
 def lost():
-    """A device that is lost at its first batch: the window says so, and the CPU goes on to the same picture."""
-    faulty = {"VK_LAYER_PATH": str(OUT.parent / "faulty_device"), "VK_INSTANCE_LAYERS": "VK_LAYER_STERADIAN_faulty_device",
-              "STERADIAN_FAULT": "vkWaitForFences:1"}
+    """A device that is lost where it renders or shows: the window says so, and goes on by OpenGL; the CPU renders the same picture."""
     size = ("--size", "320x180", "--method", "ltc-compact", "--shadows", "off")
-    play(SCENES / "glossy_floor.glb", [{"wait": "settled"}, {"wait": 0.2}, {"shot": "lost.png"}, {"picture": "lost.exr"}],
-         *size, "--exposure", "0", "--panel", "off", "--backend", "vulkan", **faulty)
     render(SCENES / "glossy_floor.glb", "lost-cpu.exr", *size)
-    said = subprocess.run([PROGRAM, "diff", "lost.exr", "lost-cpu.exr"], cwd=OUT, capture_output=True, text=True).stdout
-    assert "max          0 " in said, said
     render(SCENES / "glossy_floor.glb", "lost-cpu.png", *size, "--exposure", "0")
-    assert pixels(OUT / "lost.png") != pixels(OUT / "lost-cpu.png"), "the window says that the device was lost"
+    for fault, renders in (("vkWaitForFences:1", "cpu"), ("render:1", "cpu"), ("vkCreateSwapchainKHR:1", "vulkan"), ("vkQueuePresentKHR:2", "vulkan")):
+        faulty = {"VK_LAYER_PATH": str(OUT.parent / "faulty_device"), "VK_INSTANCE_LAYERS": "VK_LAYER_STERADIAN_faulty_device",
+                  "STERADIAN_FAULT": fault}
+        said = play(SCENES / "glossy_floor.glb", [
+            {"wait": "settled"}, {"wait": 0.2}, {"shot": "lost.png"}, {"picture": "lost.exr"}, {"time": fault},
+        ], *size, "--exposure", "0", "--panel", "off", "--backend", "vulkan", **faulty)
+        print(said.strip())
+        assert "window by OpenGL" in said, "the window goes on"
+        assert renders == "cpu" or "warning: the window is shown by OpenGL: Vulkan device" in said, "the terminal says why"
+        differs = subprocess.run([PROGRAM, "diff", "lost.exr", "lost-cpu.exr"], cwd=OUT, capture_output=True, text=True).stdout
+        assert ("max          0 " in differs) == (renders == "cpu"), differs
+        assert renders == "vulkan" or worst("lost.png", "lost-cpu.png") > 1, "the window says that the device was lost"
 
 
 def main():
@@ -195,6 +229,7 @@ def main():
     paint()
     moving()
     life()
+    swapchain()
     lost()
     closed()
 

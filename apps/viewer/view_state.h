@@ -28,6 +28,7 @@ struct ViewState {
   std::string other_method = "reference";
   std::string scene_name, picture_name;       // to save as
   std::deque<std::vector<PassTime>> history;  // passes of the latest pictures
+  std::string screen;                         // that shows the window: "OpenGL", or "Vulkan" and its device
   bool quit = false;
 
   // The displayed picture; recomputed if the picture or one of these values changed.

@@ -1,6 +1,7 @@
-// A Vulkan layer whose device fails on demand: STERADIAN_FAULT=CALL:N, from the N-th call on. vkQueueSubmit and vkWaitForFences lose the
-// device, vkAllocateMemory finds no memory left, and "timeout" in place of a call is work that does not end. So the program's reaction runs
-// as on a broken machine, without any line of code for tests in it.
+// A Vulkan layer whose device fails on demand: STERADIAN_FAULT=CALL:N, from the N-th call on. vkQueueSubmit, vkWaitForFences and
+// vkQueuePresentKHR lose the device, vkCreateSwapchainKHR and vkAllocateMemory find no memory left, "render" in
+// place of a call loses the device where it renders but not where it draws a window, and "timeout" is work that does not end. So the
+// program's reaction runs as on a broken machine, without any line of code for tests in it.
 #define VK_NO_PROTOTYPES
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -18,8 +19,10 @@ struct Next {
   PFN_vkQueueSubmit submit = nullptr;
   PFN_vkWaitForFences wait = nullptr;
   PFN_vkAllocateMemory allocate = nullptr;
+  PFN_vkCreateSwapchainKHR create_swapchain = nullptr;  // null, as the next one, on a device that does not present
+  PFN_vkQueuePresentKHR present = nullptr;
 };
-Next next;  // one instance and one device at a time, as in the program
+Next next;  // for all devices: those of a program are of one driver, and have the same functions
 
 // True if this call of that name fails.
 bool fails(const char* call) {
@@ -31,7 +34,8 @@ bool fails(const char* call) {
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
-  return fails("vkQueueSubmit") ? VK_ERROR_DEVICE_LOST : next.submit(queue, count, infos, fence);
+  const bool renders = count > 0 && infos->signalSemaphoreCount == 0;  // a frame of a window signals that it can be presented
+  return fails("vkQueueSubmit") || (renders && fails("render")) ? VK_ERROR_DEVICE_LOST : next.submit(queue, count, infos, fence);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all, std::uint64_t timeout) {
@@ -46,6 +50,15 @@ VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, std::uint32_t count, const 
 VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks,
                                         VkDeviceMemory* memory) {
   return fails("vkAllocateMemory") ? VK_ERROR_OUT_OF_DEVICE_MEMORY : next.allocate(device, info, callbacks, memory);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_swapchain(VkDevice device, const VkSwapchainCreateInfoKHR* info,
+                                                const VkAllocationCallbacks* callbacks, VkSwapchainKHR* swapchain) {
+  return fails("vkCreateSwapchainKHR") ? VK_ERROR_OUT_OF_DEVICE_MEMORY : next.create_swapchain(device, info, callbacks, swapchain);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
+  return fails("vkQueuePresentKHR") ? VK_ERROR_DEVICE_LOST : next.present(queue, info);
 }
 
 // The information that the loader passes to the layers of a chain.
@@ -80,6 +93,9 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
   next.submit = reinterpret_cast<PFN_vkQueueSubmit>(next.device_proc(*device, "vkQueueSubmit"));
   next.wait = reinterpret_cast<PFN_vkWaitForFences>(next.device_proc(*device, "vkWaitForFences"));
   next.allocate = reinterpret_cast<PFN_vkAllocateMemory>(next.device_proc(*device, "vkAllocateMemory"));
+  if (const auto f = next.device_proc(*device, "vkCreateSwapchainKHR"))
+    next.create_swapchain = reinterpret_cast<PFN_vkCreateSwapchainKHR>(f);
+  if (const auto f = next.device_proc(*device, "vkQueuePresentKHR")) next.present = reinterpret_cast<PFN_vkQueuePresentKHR>(f);
   return VK_SUCCESS;
 }
 
@@ -88,6 +104,8 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_proc(VkDevice device, const char
   if (std::strcmp(name, "vkQueueSubmit") == 0) return reinterpret_cast<PFN_vkVoidFunction>(submit);
   if (std::strcmp(name, "vkWaitForFences") == 0) return reinterpret_cast<PFN_vkVoidFunction>(wait);
   if (std::strcmp(name, "vkAllocateMemory") == 0) return reinterpret_cast<PFN_vkVoidFunction>(allocate);
+  if (std::strcmp(name, "vkCreateSwapchainKHR") == 0) return reinterpret_cast<PFN_vkVoidFunction>(create_swapchain);
+  if (std::strcmp(name, "vkQueuePresentKHR") == 0) return reinterpret_cast<PFN_vkVoidFunction>(present);
   return next.device_proc(device, name);
 }
 

@@ -467,8 +467,10 @@ void draw_panel(ViewState& state) {
     ImGui::SameLine();
     if (ImGui::Button("save picture")) attempt(state, [&] { state.stage->save_picture(state.picture_name, state.exposure, state.tone); });
   }
-  if (state.session != nullptr && ImGui::CollapsingHeader("Times")) times(state, *state.session);
-  if (state.drawing != nullptr && ImGui::CollapsingHeader("Times")) drawing_times(state, *state.drawing);
+  if (ImGui::CollapsingHeader("Times")) {
+    state.session != nullptr ? times(state, *state.session) : drawing_times(state, *state.drawing);
+    ImGui::TextWrapped("window by %s", state.screen.c_str());
+  }
   ImGui::TextDisabled("F1: keys");
   ImGui::PopItemWidth();
   ImGui::End();

@@ -1,10 +1,5 @@
 #include "window/window.h"
 
-#include <backends/imgui_impl_opengl3_loader.h>  // OpenGL's functions; before GLFW, which would include others
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -17,6 +12,8 @@
 #include "image/codecs.h"
 #include "player.h"
 #include "steradian/error.h"
+#include "window/glfw_window.h"
+#include "window/screen.h"
 
 namespace steradian::view {
 namespace {
@@ -50,19 +47,22 @@ PointerButton button_of(int glfw_button) {
                                                    : PointerButton::left;
 }
 
-std::string last_glfw_error;
-
-// Initialises GLFW for its lifetime.
-struct Library {
-  Library() {
-    glfwSetErrorCallback([](int, const char* text) { last_glfw_error = text; });
+// Initialises GLFW and Dear ImGui for its lifetime.
+struct Libraries {
+  Libraries() {
     if (glfwInit() == GLFW_FALSE)
-      throw Error("view", "no window can be opened: " + last_glfw_error,
+      throw Error("view", "no window can be opened: " + glfw_error(),
                   "it needs a display (DISPLAY or WAYLAND_DISPLAY); xvfb-run makes one, and `steradian render` needs none");
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::StyleColorsDark();
   }
-  ~Library() { glfwTerminate(); }
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
+  ~Libraries() {
+    ImGui::DestroyContext();
+    glfwTerminate();
+  }
+  Libraries(const Libraries&) = delete;
+  Libraries& operator=(const Libraries&) = delete;
 };
 
 class Window {
@@ -81,19 +81,13 @@ class Window {
       script_ = read_script({text.begin(), text.end()}, options.script);
     }
     state_.stage->update();  // the worker starts while the window is created
-    open_window();
-  }
-  ~Window() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
-    glfwDestroyWindow(window_);
+    open_screen();
   }
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   void run() {
-    while (glfwWindowShouldClose(window_) == 0 && !state_.quit) {
+    while (glfwWindowShouldClose(window()) == 0 && !state_.quit) {
       const bool busy = !state_.stage->settled() || playing() || flying_ || state_.playing;
       busy ? glfwWaitEventsTimeout(1.0 / 120) : glfwWaitEventsTimeout(0.25);
       play();
@@ -107,15 +101,24 @@ class Window {
       if (!busy || fresh || std::exchange(touched_, false) || !shot_.empty() || flying_ || state_.playing ||
           Clock::now() - last_draw_ >= kStill)
         draw();
+      if (by_vulkan() != shown_by_vulkan_) open_screen();
     }
     if (!options_.record.empty()) write_file(options_.record, recorded_);
   }
 
  private:
-  void open_window();
+  void open_screen();
+  void leave_vulkan(const std::exception& why);
+  void listen(GLFWwindow* window);
+  GLFWwindow* window() const { return screen_->window(); }
+  // The window is shown by the device that renders, until that is lost or cannot show it.
+  bool by_vulkan() const {
+    return vulkan_shows_ && (state_.session != nullptr ? state_.session->options() : options_.render).backend == Backend::vulkan;
+  }
   void take_picture();
   void make_display();
   void draw();
+  void draw_widgets();
   void shoot(const std::string& path);
   void play();
   void play(const ScriptEvent& event);
@@ -134,23 +137,24 @@ class Window {
   void on_wheel(double steps, Vec2d at);
 
   double pixels_per_point() const {
-    int framebuffer = 1, width = 1;
-    glfwGetFramebufferSize(window_, &framebuffer, nullptr);
-    glfwGetWindowSize(window_, &width, nullptr);
+    const int framebuffer = pixel_size(window()).width;
+    int width = 1;
+    glfwGetWindowSize(window(), &width, nullptr);
     return width > 0 && framebuffer > 0 ? static_cast<double>(framebuffer) / width : 1.0;
   }
   Vec2d pointer() const {
     Vec2d p;
-    glfwGetCursorPos(window_, &p.x, &p.y);
+    glfwGetCursorPos(window(), &p.x, &p.y);
     return p * pixels_per_point();
   }
   static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
   const Clock::time_point start_ = Clock::now();
   const WindowOptions& options_;
-  Library library_;
-  GLFWwindow* window_ = nullptr;
-  GLuint texture_ = 0;
+  Libraries libraries_;
+  std::unique_ptr<Screen> screen_;
+  bool shown_by_vulkan_ = false;
+  bool vulkan_shows_ = true;                      // until it fails
   int pictures_ = 0, pictures_of_all_light_ = 0;  // taken so far
   ViewState state_;
   std::map<char, bool> held_;  // the held keys that fly
@@ -166,49 +170,60 @@ class Window {
   std::string shot_, recorded_;
 };
 
-void Window::open_window() {
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
-  const std::string title = "steradian: " + options_.scene;
-  window_ = glfwCreateWindow(options_.render.width, options_.render.height, title.c_str(), nullptr, nullptr);
-  if (window_ == nullptr)
-    throw Error("view", "no window can be opened: " + last_glfw_error,
-                "it needs OpenGL 3.0, which Mesa's software driver has, too (libgl1-mesa-dri)");
-  glfwSetWindowUserPointer(window_, this);
-  glfwMakeContextCurrent(window_);
-  glfwSwapInterval(1);
+// Opens the window, or the same window in place of another, by Vulkan if the picture is by Vulkan.
+void Window::open_screen() {
+  ScreenRequest request{options_.render.width, options_.render.height, "steradian: " + options_.scene, options_.render.device,
+                        [this](GLFWwindow* w) { listen(w); }};
+  std::optional<std::pair<int, int>> place;
+  if (screen_ != nullptr) {
+    glfwGetWindowSize(window(), &request.width, &request.height);
+    place.emplace();
+    glfwGetWindowPos(window(), &place->first, &place->second);
+    state_.quit = state_.quit || glfwWindowShouldClose(window()) != 0;
+    // The new window hears of no button that is let go.
+    if (state_.stage->dragging()) attempt(state_, [&] { state_.stage->release(scripted_pointer_.value_or(pointer())); });
+    screen_.reset();
+  }
+  shown_by_vulkan_ = by_vulkan();
+  if (shown_by_vulkan_) try {
+      screen_ = open_vulkan_screen(request);
+    } catch (const std::exception& e) {
+      leave_vulkan(e);
+    }
+  if (screen_ == nullptr) screen_ = open_opengl_screen(request);
+  if (place) glfwSetWindowPos(window(), place->first, place->second);
+  state_.screen = screen_->name();
+  if (state_.display.width > 0) screen_->show(state_.display);
+  held_.clear();
+  touched_ = true;
+  const PixelSize size = pixel_size(window());
+  state_.stage->resize(size.width, size.height);
+}
 
-  // Dear ImGui's callbacks call these first.
-  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+// OpenGL shows the window from now on.
+void Window::leave_vulkan(const std::exception& why) {
+  vulkan_shows_ = shown_by_vulkan_ = false;
+  std::fprintf(stderr, "warning: the window is shown by OpenGL: %s\n", why.what());
+  state_.stage->say(std::string(why.what()) + "; OpenGL shows the window");
+}
+
+void Window::listen(GLFWwindow* window) {
+  glfwSetWindowUserPointer(window, this);
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
     of(w).on_pointer(button_of(button), action == GLFW_PRESS, (mods & GLFW_MOD_SHIFT) != 0, of(w).pointer());
   });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { of(w).on_move(Vec2d{x, y} * of(w).pixels_per_point()); });
-  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) { of(w).on_wheel(steps, of(w).pointer()); });
-  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).on_move(Vec2d{x, y} * of(w).pixels_per_point()); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double steps) { of(w).on_wheel(steps, of(w).pointer()); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     of(w).touched_ = true;
     if (const std::string name = name_of_key(key, mods); !name.empty() && action != GLFW_REPEAT) of(w).on_key(name, action == GLFW_PRESS);
   });
-  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int width, int height) { of(w).state_.stage->resize(width, height); });
-  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int width, int height) { of(w).state_.stage->resize(width, height); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     Window& self = of(w);
     if (count > 0) attempt(self.state_, [&] { open_stage(self.state_, paths[0], self.options_.render); });
   });
-
-  ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;
-  ImGui::StyleColorsDark();
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);
-  ImGui_ImplOpenGL3_Init("#version 130");
-
-  glGenTextures(1, &texture_);
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  state_.stage->resize(width, height);
 }
 
 // ---- pictures
@@ -247,19 +262,26 @@ void Window::make_display() {
                            static_cast<int>(std::lround(static_cast<double>(state_.split_at) * picture.width)));
   else
     state_.display = shown(picture, state_.exposure, state_.tone);
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, state_.display.width, state_.display.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-               state_.display.rgba.data());
+  screen_->show(state_.display);
 }
 
-void Window::draw() {
+void Window::draw() try {
   last_draw_ = Clock::now();
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  if (width == 0 || height == 0) return;  // minimised
+  if (const PixelSize size = pixel_size(window()); size.width == 0 || size.height == 0) return;  // minimised
   make_display();
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
+  screen_->begin();
+  draw_widgets();
+  screen_->draw();
+  if (!shot_.empty()) attempt(state_, [&] { shoot(std::exchange(shot_, {})); });
+  screen_->present();
+} catch (const Error& e) {
+  if (!shown_by_vulkan_) throw;
+  leave_vulkan(e);
+  open_screen();
+}
+
+// Renders the picture and what stands over it, for the screen.
+void Window::draw_widgets() {
   ImGuiIO& io = ImGui::GetIO();
   if (scripted_pointer_) {
     const double scale = pixels_per_point();
@@ -267,8 +289,7 @@ void Window::draw() {
     for (int i = 0; i < 3; ++i) io.MouseDown[i] = scripted_down_[i];
   }
   ImGui::NewFrame();
-  if (state_.display.width > 0)
-    ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)), {0, 0}, io.DisplaySize);
+  if (state_.display.width > 0) ImGui::GetBackgroundDrawList()->AddImage(screen_->picture(), {0, 0}, io.DisplaySize);
   draw_overlay(state_, pixels_per_point());
   if (state_.panel) draw_panel(state_);
   if (state_.help) draw_help(state_);
@@ -276,24 +297,15 @@ void Window::draw() {
   // Changes by a held widget are one step of undo, and are rendered fast.
   if (!flying_ && !state_.stage->dragging()) state_.stage->set_moving(ImGui::IsAnyItemActive() || state_.playing);
   ImGui::Render();
-  glViewport(0, 0, width, height);
-  glClearColor(0, 0, 0, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (!shot_.empty()) attempt(state_, [&] { shoot(std::exchange(shot_, {})); });
-  glfwSwapBuffers(window_);
 }
 
 // Writes the window as it is drawn into a file.
 void Window::shoot(const std::string& path) {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  const auto w = static_cast<std::size_t>(width);
-  std::vector<std::uint8_t> rgba(4 * w * static_cast<std::size_t>(height));
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  write_file(path, image::encode_png_bytes(width, height, [&](int y, std::uint8_t* row) {
-               const std::uint8_t* from = rgba.data() + 4 * w * static_cast<std::size_t>(height - 1 - y);
-               for (std::size_t x = 0; x < w; ++x) std::copy_n(from + 4 * x, 3, row + 3 * x);
+  const Display shot = screen_->pixels();
+  const auto width = static_cast<std::size_t>(shot.width);
+  write_file(path, image::encode_png_bytes(shot.width, shot.height, [&](int y, std::uint8_t* row) {
+               const std::uint8_t* from = shot.rgba.data() + 4 * width * static_cast<std::size_t>(y);
+               for (std::size_t x = 0; x < width; ++x) std::copy_n(from + 4 * x, 3, row + 3 * x);
              }));
 }
 
@@ -404,17 +416,17 @@ void Window::play(const ScriptEvent& event) {
         wait_until_ = Clock::now() + std::chrono::microseconds(static_cast<std::int64_t>(std::min(event.number, 3600.0) * 1e6));
       break;
     case ScriptWord::time:
-      std::printf("%s %.3f s, pictures %d, with all light %d\n", event.text.c_str(),
-                  std::chrono::duration<double>(Clock::now() - start_).count(), pictures_, pictures_of_all_light_);
+      std::printf("%s %.3f s, pictures %d, with all light %d, window by %s\n", event.text.c_str(),
+                  std::chrono::duration<double>(Clock::now() - start_).count(), pictures_, pictures_of_all_light_, state_.screen.c_str());
       break;
     case ScriptWord::shot: shot_ = event.text; break;
     case ScriptWord::picture: state_.stage->save_picture(event.text, state_.exposure, state_.tone); break;
     case ScriptWord::save: state_.stage->save_scene(event.text); break;
-    case ScriptWord::resize: glfwSetWindowSize(window_, static_cast<int>(event.at.x), static_cast<int>(event.at.y)); break;
-    case ScriptWord::minimise: glfwIconifyWindow(window_); break;
-    case ScriptWord::restore: glfwRestoreWindow(window_); break;
+    case ScriptWord::resize: glfwSetWindowSize(window(), static_cast<int>(event.at.x), static_cast<int>(event.at.y)); break;
+    case ScriptWord::minimise: glfwIconifyWindow(window()); break;
+    case ScriptWord::restore: glfwRestoreWindow(window()); break;
     case ScriptWord::open: open_stage(state_, event.text, options_.render); break;
-    case ScriptWord::quit: glfwSetWindowShouldClose(window_, GLFW_TRUE); break;
+    case ScriptWord::quit: glfwSetWindowShouldClose(window(), GLFW_TRUE); break;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/vulkan/buffer_handles.h"
+#include "device/vulkan/picture2d.h"
 #include "device/vulkan/shaders.h"
 
 namespace steradian::vulkan {
@@ -27,33 +28,6 @@ Push push_of(const CameraView& v, PixelPlace place) {
           row(v.right, v.width, place.x),
           row(v.down, v.height, place.y),
           {v.forward.x, v.forward.y, v.forward.z, kNearest}};
-}
-
-struct Picture2d {
-  vk::raii::Image image = nullptr;
-  vk::raii::DeviceMemory memory = nullptr;
-  vk::raii::ImageView view = nullptr;
-};
-
-vk::Extent2D extent_of(int width, int height) { return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}; }
-
-Picture2d make_picture(const Device::Handles& d, vk::Extent2D size, vk::Format format, vk::ImageUsageFlags usage,
-                       vk::ImageAspectFlags aspect) {
-  Picture2d p;
-  const vk::Extent3D extent(size, 1);
-  p.image =
-      d.device.createImage({{}, vk::ImageType::e2D, format, extent, 1, 1, vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage});
-  const auto needed = p.image.getMemoryRequirements();
-  const auto types = d.physical.getMemoryProperties();
-  std::uint32_t type = 0;
-  while (type < types.memoryTypeCount &&
-         ((needed.memoryTypeBits >> type & 1u) == 0 || !(types.memoryTypes[type].propertyFlags & vk::MemoryPropertyFlagBits::eDeviceLocal)))
-    ++type;
-  if (type == types.memoryTypeCount) throw Error("Vulkan", "the device has no memory for pictures");
-  p.memory = d.allocate({needed.size, type});
-  p.image.bindMemory(*p.memory, 0);
-  p.view = d.device.createImageView({{}, *p.image, vk::ImageViewType::e2D, format, {}, {aspect, 0, 1, 0, 1}});
-  return p;
 }
 
 vk::raii::RenderPass make_render_pass(const vk::raii::Device& d) {

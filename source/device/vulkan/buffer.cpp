@@ -46,7 +46,8 @@ Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferFor
       return;
     }
     using Usage = vk::BufferUsageFlagBits;
-    vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferDst | Usage::eIndirectBuffer;
+    vk::BufferUsageFlags usage =
+        Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst | Usage::eIndirectBuffer | Usage::eVertexBuffer;
     if (form != BufferForm::storage) usage |= Usage::eUniformTexelBuffer;
     h.buffer = d.device.createBuffer({{}, bytes, usage});
     const auto needed = h.buffer.getMemoryRequirements();

@@ -1,4 +1,4 @@
-// The Vulkan objects behind Buffer, for this folder only.
+// The Vulkan objects behind Buffer, for the back end and the window only.
 #pragma once
 
 #include "device/vulkan/buffer.h"

@@ -27,10 +27,11 @@ bool has_validation_layer(const vk::raii::Context& context) {
   return false;
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation) {
+vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceOptions& options) {
   const vk::ApplicationInfo application("steradian", 0, "steradian", 0, VK_API_VERSION_1_2);
   std::vector<const char*> layers, extensions;
-  if (validation) {
+  for (const std::string& name : options.window_extensions) extensions.push_back(name.c_str());
+  if (options.validation) {
     if (!has_validation_layer(context))
       throw Error("Vulkan", std::string("the layer ") + kValidationLayer + " is not installed", "install vulkan-validationlayers");
     layers.push_back(kValidationLayer);
@@ -143,7 +144,7 @@ std::vector<DeviceInfo> list_devices() {
   std::vector<DeviceInfo> infos;
   try {
     const vk::raii::Context context;
-    for (const DeviceCandidate& c : candidates(make_instance(context, false))) infos.push_back(c.info);
+    for (const DeviceCandidate& c : candidates(make_instance(context, {}))) infos.push_back(c.info);
   } catch (const std::exception&) {
     // No loader or no driver: an expected absence, not an error.
     infos.clear();
@@ -159,7 +160,7 @@ Device::Device(const DeviceOptions& options) {
   }
   Handles& h = *handles_;
   checked("Vulkan", "open a device", [&] {
-    h.instance = make_instance(h.context, options.validation);
+    h.instance = make_instance(h.context, options);
     if (options.validation) {
       using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
       using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
@@ -185,14 +186,16 @@ Device::Device(const DeviceOptions& options) {
       vk::PhysicalDeviceFeatures features;
       features.shaderInt64 = info_.int64;
       h.has_statistics = only_compiles_ && has_extension(h.physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
-      const std::vector<const char*> extensions(h.has_statistics ? 1 : 0, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+      std::vector<const char*> extensions;
+      if (h.has_statistics) extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+      if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
       const vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics(VK_TRUE);
       vk::DeviceCreateInfo device({}, queue, {}, extensions, &features);
       if (h.has_statistics) device.pNext = &statistics;
       h.device = h.physical.createDevice(device);
       h.queue = h.device.getQueue(h.queue_family, 0);
       h.cache_key = key_of(h.physical);
-      h.cache_file = cache_file("STERADIAN_PIPELINE_CACHE", "pipelines-" + h.cache_key);
+      if (options.window_extensions.empty()) h.cache_file = cache_file("STERADIAN_PIPELINE_CACHE", "pipelines-" + h.cache_key);
       if (!h.cache_file.empty()) h.cached = read_cache_file(h.cache_file, h.cache_key);
       h.pipeline_cache = h.device.createPipelineCache({{}, h.cached.size(), h.cached.data()});
       h.commands = h.device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, h.queue_family});

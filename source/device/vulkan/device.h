@@ -38,6 +38,8 @@ struct DeviceOptions {
   bool validation = false;  // require the validation layer, and record its messages
   // Pipelines are made with the compiler's statistics, and nothing runs: buffers keep what the host writes. For reports.
   bool only_compiles = false;
+  // Extensions of the instance that a window system needs. With them the device can present, and its pipelines do not stay.
+  std::vector<std::string> window_extensions = {};
 };
 
 // A Vulkan device. Compiled pipelines stay from run to run in the user's cache folder, or in the folder that the
@@ -58,7 +60,7 @@ class Device {
   std::size_t allocations() const;
   std::size_t submissions() const;
 
-  struct Handles;  // handles.h, for this folder only
+  struct Handles;  // handles.h, for the back end and the window only
   const Handles& handles() const { return *handles_; }
 
  private:

@@ -1,4 +1,4 @@
-// The Vulkan objects behind Device. Only files of this folder include it: vulkan.hpp takes seconds to compile.
+// The Vulkan objects behind Device. Only files of the back end and the window include it: vulkan.hpp takes seconds to compile.
 #pragma once
 
 #define VK_NO_PROTOTYPES  // every function comes from the loader at run time
