@@ -16,8 +16,7 @@ namespace {
 
 // Values of SHADOWED_LIGHTS of shaders/direct.glsl.
 constexpr int kUnoccluded = 0, kByPieces = 1, kWholeLights = 2;
-constexpr std::size_t kTexels = 2, kBuffers = 8;                // as bound in run
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
+constexpr std::size_t kTexels = 2, kBuffers = 8;  // as bound in run
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr std::size_t kSlotsOfSquare = static_cast<std::size_t>(kGroupsOfSquare * kGroup);
 constexpr float kPushed =
@@ -68,13 +67,6 @@ Distances distances(Vec3f p, const Box3f& box) {
 }
 
 }  // namespace
-
-void check_device(const DeviceInfo& device) {
-  const std::string who = "Vulkan device '" + device.name + "'";
-  if (device.storage_buffer < kLargestBuffer)
-    throw Error(who, "has no storage buffers of 128 MiB", "choose another --device, or --backend cpu");
-  if (!device.broadcasts) throw Error(who, "has no subgroup ballots in compute shaders", "choose another --device, or --backend cpu");
-}
 
 struct DirectPass::Pass {
   Procedure procedure = Procedure::diffuse;
@@ -134,7 +126,8 @@ struct DirectPass::Work {
 
 DirectPass::Kept::Kept(const Device& d)
     : device(d),
-      tiles((check_device(d.info()), std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
+      tiles((check_device(d.info(), kBuffers, "direct light"),
+             std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program(d, shaders(), kBuffers, kTexels),
       surfaces(d, BufferUse::host_writes, BufferForm::texels),
       radiance(d, BufferUse::host_reads),
@@ -387,7 +380,7 @@ void DirectPass::run(const std::vector<Tile>& tiles, std::size_t first_tile, std
     }
   }
   if (work.groups.empty() && !visibility.record) return;
-  if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
+  if (work.means > kGuaranteedBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
     const std::size_t middle = (first_tile + end) / 2;
     run(tiles, first_tile, middle, visibility);
     run(tiles, middle, end, visibility);

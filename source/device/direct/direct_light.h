@@ -17,9 +17,6 @@
 
 namespace steradian::vulkan {
 
-// Throws Error, with the device's name, if the device lacks something.
-void check_device(const DeviceInfo& device);
-
 class DirectPass {
  public:
   // Objects on the device, for any number of pictures in turn. The device must outlive them. Throws Error if the device lacks something.
