@@ -1736,13 +1736,17 @@ SteradianQuarticPoles steradian_conic_polish_poles(SteradianConicArc arc, Sterad
     float tolerance = 1.0e-6;
     bool moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        float2 z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
-        float2 z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
-        float2 step1 = z1 - poles.z1;
-        float2 step2 = z2 - poles.z2;
-        poles.z1 = steradian_select(moving, z1, poles.z1);
-        poles.z2 = steradian_select(moving, z2, poles.z2);
-        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        bool moves = steradian_mask_none();
+        // One pole, then the other: each turn swaps them.
+        for (int k = 0; k < 2; k++) {
+            float2 z = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+            float2 step = z - poles.z1;
+            moves = moves || dot(step, step) > tolerance * z.y * z.y;
+            z = steradian_select(moving, z, poles.z1);
+            poles.z1 = poles.z2;
+            poles.z2 = z;
+        }
+        moving = moving && moves;
         // At the end: devices that mask lanes instead of jumping would go through a sweep for nobody.
         if (!moving) {
             break;
@@ -1977,19 +1981,33 @@ float3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     bool cut = bottom > 0.0 && shows;
     float limit = sqrt(max(top, 0.0) / max(bottom, steradian_smallest_divisor()));
     limit = steradian_select(cut, limit, steradian_select(shows, 1.0e15, 0.0));
-    float upper = min(limit, 1.0);
-    float3 sum = steradian_conic_vector(steradian_ellipse_arc(level, -upper, upper));
     bool more = limit > 1.0;
-    if (more) {
-        SteradianEllipse back;
-        back.center = level.center;
-        back.axis_a = -level.axis_a;
-        back.axis_b = -level.axis_b;
-        float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
-        lower = steradian_select(limit > 1.0e14, 0.0, lower);
-        float3 far_side = steradian_conic_vector(steradian_ellipse_arc(back, -1.0, -lower)) + steradian_conic_vector(steradian_ellipse_arc(back, lower, 1.0));
-        sum = steradian_select(more, sum + far_side, sum);
+    float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
+    lower = steradian_select(limit > 1.0e14, 0.0, lower);
+    SteradianEllipse from = level;
+    float begin = -min(limit, 1.0);
+    float end = min(limit, 1.0);
+    float3 sum = float3(0.0, 0.0, 0.0);
+    float3 far_side = sum;
+    // The arc about the highest place, and two that meet at the lowest.
+    for (int i = 0; i < 3; i++) {
+        float3 arc = steradian_conic_vector(steradian_ellipse_arc(from, begin, end));
+        if (i == 0) {
+            sum = arc;
+            from.axis_a = -level.axis_a;
+            from.axis_b = -level.axis_b;
+            begin = -1.0;
+            end = -lower;
+        } else {
+            far_side = far_side + arc;
+            begin = lower;
+            end = 1.0;
+        }
+        if (!more) {
+            break;
+        }
     }
+    sum = steradian_select(more, sum + far_side, sum);
     if (cut) {
         // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
         float inverse = 1.0 / (1.0 + limit * limit);
@@ -2530,7 +2548,7 @@ float3 steradian_line_irradiance_vector(float3 end_a, float3 end_b) {
 
 // Corners about the arc of one end.
 //   center, middle, side  the rim is center + middle cos t + side sin t, vectors from the shading point
-//   half_angle            the arc runs from -half_angle to half_angle [rad]
+//   last                  (cos, sin) of half the arc's angle, where it ends; it begins at (last.x, -last.y)
 //   corners               how many, 1 or more
 //   turn                  (cos, sin) of the place nearest to the lobe
 //   beta                  1: equal steps; below, corners gather there
@@ -2539,7 +2557,7 @@ struct SteradianCapsuleEnd {
     float3 center;
     float3 middle;
     float3 side;
-    float half_angle;
+    float2 last;
     float corners;
     float2 turn;
     float beta;
@@ -2570,7 +2588,7 @@ SteradianCapsuleEnd steradian_capsule_end(float3 center, float radius, float3 mi
     end.center = center * cosine2;
     end.middle = middle * (radius * cosine);
     end.side = side * (radius * cosine);
-    end.half_angle = half_angle;
+    end.last = steradian_complex_unit(half_angle);
 
     // The place at which the lobe's axis meets the rim's plane, in units of the rim's radius.
     float along = dot(r, axis);
@@ -2598,13 +2616,12 @@ float2 steradian_capsule_corner(SteradianCapsuleEnd end, float j) {
     float2 u = steradian_complex_unit(clamp(end.first + end.step * (j + 0.5), -steradian_pi(), steradian_pi()));
     float2 w = steradian_complex_sign(float2(u.x, end.beta * u.y));
     float2 corner = steradian_complex_product(steradian_complex_product(w, w), end.turn);
-    float2 last = steradian_complex_unit(end.half_angle);
     float2 limit = float2(0.939372712847378920, 0.342897807455451364);  // (cos, sin) of 0.35
     bool outer_low = j < 0.5;
     bool outer_high = j > end.corners - 1.5;
-    float2 low = float2(last.x, -last.y);
+    float2 low = float2(end.last.x, -end.last.y);
     corner = steradian_select(outer_low && dot(corner, low) < limit.x, steradian_complex_product(low, limit), corner);
-    corner = steradian_select(outer_high && dot(corner, last) < limit.x, steradian_complex_product(last, float2(limit.x, -limit.y)), corner);
+    corner = steradian_select(outer_high && dot(corner, end.last) < limit.x, steradian_complex_product(end.last, float2(limit.x, -limit.y)), corner);
     return steradian_select(outer_low && outer_high, float2(1.0, 0.0), corner);
 }
 
@@ -2628,15 +2645,19 @@ float steradian_capsule_gap(float2 corner, float2 neighbour, float2 joint, bool 
 // Corner j of an end, as a vector from the shading point.
 float3 steradian_capsule_end_corner(SteradianCapsuleEnd end, float j) {
     float2 here = steradian_capsule_corner(end, j);
-    float2 last = steradian_complex_unit(end.half_angle);
-    float2 low = float2(last.x, -last.y);
+    float2 joint = float2(end.last.x, -end.last.y);
+    bool joins = j < 1.5;
     bool outer_low = j < 0.5;
     bool outer_high = j > end.corners - 1.5;
-    float before = steradian_capsule_gap(here, steradian_capsule_corner(end, j - 1.0), low, j < 1.5);
-    float after = steradian_capsule_gap(here, steradian_capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
-    float even = sqrt(0.5 * (before + after));
-    float outer = 1.0 / max(dot(here, steradian_select(outer_low, low, last)), 0.5);
-    float radius = steradian_select(outer_low || outer_high, outer, even);
+    float outer = 1.0 / max(dot(here, steradian_select(outer_low, joint, end.last)), 0.5);
+    float gaps = 0.0;
+    // The corner before, and the one after.
+    for (int i = 0; i < 2; i++) {
+        gaps = gaps + steradian_capsule_gap(here, steradian_capsule_corner(end, j + float(2 * i - 1)), joint, joins);
+        joint = end.last;
+        joins = j > end.corners - 2.5;
+    }
+    float radius = steradian_select(outer_low || outer_high, outer, sqrt(0.5 * gaps));
     return end.center + (end.middle * here.x + end.side * here.y) * radius;
 }
 
@@ -2674,7 +2695,7 @@ float3 steradian_capsule_fan_corner(SteradianCapsuleFan fan, int k) {
     end.center = steradian_select(first, fan.a.center, fan.b.center);
     end.middle = steradian_select(first, fan.a.middle, fan.b.middle);
     end.side = steradian_select(first, fan.a.side, fan.b.side);
-    end.half_angle = steradian_select(first, fan.a.half_angle, fan.b.half_angle);
+    end.last = steradian_select(first, fan.a.last, fan.b.last);
     end.corners = steradian_select(first, fan.a.corners, fan.b.corners);
     end.turn = steradian_select(first, fan.a.turn, fan.b.turn);
     end.beta = steradian_select(first, fan.a.beta, fan.b.beta);

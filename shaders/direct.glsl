@@ -17,7 +17,7 @@ layout(constant_id = 1) const int WITH_DIFFUSE = 0;        // transformed cosine
 layout(constant_id = 2) const int COMPACT_TABLE = 0;       // transformed cosines only
 layout(constant_id = 3) const int QUALITY = 1;             // 0 draft, 1 normal, 2 high
 layout(constant_id = 4) const int WHICH_LOBE = 0;          // 1: coat's, not the base's, 2: own_lobe.glsl's; texture_means.comp: see there
-layout(constant_id = 5) const int CAREFUL_LIGHTS = 1;      // some points may see a light as small, or be near its rim
+layout(constant_id = 5) const int CAREFUL_LIGHTS = 1;      // some points may see a light as small
 layout(constant_id = 6) const int FRESNEL_LOBE = 0;        // 1: the table has a separate lobe for (1 - v.h)^5
 layout(constant_id = 7) const int ONLY_BALLS = 0;          // 1: only ellipsoids of three equal axes
 layout(constant_id = 8) const int CORNERS = 12;            // number of corners that replace a round light
@@ -33,6 +33,7 @@ layout(constant_id = 16) const int LOBE_FORM = 0;          // GGX 1: without sha
 layout(constant_id = 17) const int METHOD = 0;             // Phong's lobe only: phong_methods.glsl
 #endif
 layout(constant_id = 18) const int LOW_EXPONENT = 0;       // form of a series: own_lobes.cpp
+layout(constant_id = 19) const int NEAR_RIM = 1;           // some points may be near the rim of a disk or an ellipsoid
 const float SMITH = LOBE_FORM == 0 ? 1.0 : 0.0;
 const bool COAT = WHICH_LOBE == 1;
 const bool OWN = WHICH_LOBE == 2;
@@ -50,15 +51,15 @@ const bool UNEVEN = UNEVEN_LIGHTS != 0;
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform samplerBuffer surfaces;
 layout(binding = 1) uniform samplerBuffer tables;
-layout(binding = 2) uniform samplerBuffer lights;
-layout(binding = 3) uniform samplerBuffer vertices;
-layout(binding = 4) uniform samplerBuffer radiance_before;  // the same buffer as `radiance`: every thread reads what it alone writes
-layout(binding = 5) uniform usamplerBuffer lists;
-layout(std430, binding = 6) writeonly buffer Radiance { vec4 radiance[]; };
-layout(std430, binding = 7) readonly buffer States { uint states[]; };
-layout(std430, binding = 8) buffer Parts { vec4 parts[]; };
-layout(std430, binding = 9) buffer Means { vec4 means[]; };
-layout(std430, binding = 10) readonly buffer Details { vec4 details[]; };
+// Storage buffers, not texels: what a group has in common goes to registers that its threads share.
+layout(std430, binding = 2) readonly buffer Lights { vec4 lights[]; };
+layout(std430, binding = 3) readonly buffer Vertices { vec4 vertices[]; };
+layout(std430, binding = 4) readonly buffer Lists { uint lists[]; };
+layout(std430, binding = 5) buffer Radiance { vec4 radiance[]; };  // each thread reads and writes its pixel alone
+layout(std430, binding = 6) readonly buffer States { uint states[]; };
+layout(std430, binding = 7) buffer Parts { vec4 parts[]; };
+layout(std430, binding = 8) buffer Means { vec4 means[]; };
+layout(std430, binding = 9) readonly buffer Details { vec4 details[]; };
 layout(push_constant) uniform Push { uint first_entry; };
 
 #include "entry.glsl"
@@ -201,7 +202,7 @@ const uint kNumbers = 1u + (SHADOWED ? 1u : 0u) + (UNEVEN ? 1u : 0u);
 void main() {
     Entry entry = entry_here();
     if (!has_lobe(entry)) return;
-    vec3 sum = vec3(0.0);
+    uint to = entry.tile * uint(kRadiance) + entry.slot;
     uint i = 0u;
     do {
         uint at = entry.first + kNumbers * i;
@@ -216,12 +217,9 @@ void main() {
             if (SHADOWED && part.whole > 0)
                 parts[part.whole - kPartSums + (BY_PIECES ? turn : kPartSums - 1)].xyz += sent;
             else
-                sum += sent;
+                radiance[to].xyz += sent;  // at once: a sum of all lights takes registers from their integrals
         }
         ++i;
     } while (i < entry.count);
-
-    uint to = entry.tile * uint(kRadiance) + entry.slot;
-    radiance[to] = vec4(texelFetch(radiance_before, int(to)).xyz + sum, 0.0);
 }
 #endif

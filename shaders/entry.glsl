@@ -21,7 +21,7 @@ uint group_of_square(uint square, uint row) { return (square / 2u * uint(kGroups
 // reaches after its own number of turns.
 uint in_common(uint value) { return subgroupBroadcastFirst(value); }
 
-uint listed(uint at) { return texelFetch(lists, int(in_common(at))).x; }
+uint listed(uint at) { return lists[in_common(at)]; }
 
 Entry entry_here() {
     uint at = (first_entry + gl_WorkGroupID.y) * uint(kEntry);

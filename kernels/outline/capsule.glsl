@@ -274,7 +274,7 @@ vec3 line_irradiance_vector(vec3 end_a, vec3 end_b) {
 
 // Corners about the arc of one end.
 //   center, middle, side  the rim is center + middle cos t + side sin t, vectors from the shading point
-//   half_angle            the arc runs from -half_angle to half_angle [rad]
+//   last                  (cos, sin) of half the arc's angle, where it ends; it begins at (last.x, -last.y)
 //   corners               how many, 1 or more
 //   turn                  (cos, sin) of the place nearest to the lobe
 //   beta                  1: equal steps; below, corners gather there
@@ -283,7 +283,7 @@ struct CapsuleEnd {
     vec3 center;
     vec3 middle;
     vec3 side;
-    real half_angle;
+    vec2 last;
     real corners;
     vec2 turn;
     real beta;
@@ -314,7 +314,7 @@ CapsuleEnd capsule_end(vec3 center, real radius, vec3 middle, real half_angle, v
     end.center = center * cosine2;
     end.middle = middle * (radius * cosine);
     end.side = side * (radius * cosine);
-    end.half_angle = half_angle;
+    end.last = complex_unit(half_angle);
 
     // The place at which the lobe's axis meets the rim's plane, in units of the rim's radius.
     real along = dot(r, axis);
@@ -342,13 +342,12 @@ vec2 capsule_corner(CapsuleEnd end, real j) {
     vec2 u = complex_unit(clamp(end.first + end.step * (j + 0.5), -pi(), pi()));
     vec2 w = complex_sign(vec2(u.x, end.beta * u.y));
     vec2 corner = complex_product(complex_product(w, w), end.turn);
-    vec2 last = complex_unit(end.half_angle);
     vec2 limit = vec2(0.939372712847378920, 0.342897807455451364);  // (cos, sin) of 0.35
     mask outer_low = j < 0.5;
     mask outer_high = j > end.corners - 1.5;
-    vec2 low = vec2(last.x, -last.y);
+    vec2 low = vec2(end.last.x, -end.last.y);
     corner = select(outer_low && dot(corner, low) < limit.x, complex_product(low, limit), corner);
-    corner = select(outer_high && dot(corner, last) < limit.x, complex_product(last, vec2(limit.x, -limit.y)), corner);
+    corner = select(outer_high && dot(corner, end.last) < limit.x, complex_product(end.last, vec2(limit.x, -limit.y)), corner);
     return select(outer_low && outer_high, vec2(1.0, 0.0), corner);
 }
 
@@ -372,15 +371,19 @@ real capsule_gap(vec2 corner, vec2 neighbour, vec2 joint, mask outer) {
 // Corner j of an end, as a vector from the shading point.
 vec3 capsule_end_corner(CapsuleEnd end, real j) {
     vec2 here = capsule_corner(end, j);
-    vec2 last = complex_unit(end.half_angle);
-    vec2 low = vec2(last.x, -last.y);
+    vec2 joint = vec2(end.last.x, -end.last.y);
+    mask joins = j < 1.5;
     mask outer_low = j < 0.5;
     mask outer_high = j > end.corners - 1.5;
-    real before = capsule_gap(here, capsule_corner(end, j - 1.0), low, j < 1.5);
-    real after = capsule_gap(here, capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
-    real even = sqrt(0.5 * (before + after));
-    real outer = 1.0 / max(dot(here, select(outer_low, low, last)), 0.5);
-    real radius = select(outer_low || outer_high, outer, even);
+    real outer = 1.0 / max(dot(here, select(outer_low, joint, end.last)), 0.5);
+    real gaps = 0.0;
+    // The corner before, and the one after.
+    for (int i = 0; i < 2; i++) {
+        gaps = gaps + capsule_gap(here, capsule_corner(end, j + real(2 * i - 1)), joint, joins);
+        joint = end.last;
+        joins = j > end.corners - 2.5;
+    }
+    real radius = select(outer_low || outer_high, outer, sqrt(0.5 * gaps));
     return end.center + (end.middle * here.x + end.side * here.y) * radius;
 }
 
@@ -418,7 +421,7 @@ vec3 capsule_fan_corner(CapsuleFan fan, int k) {
     end.center = select(first, fan.a.center, fan.b.center);
     end.middle = select(first, fan.a.middle, fan.b.middle);
     end.side = select(first, fan.a.side, fan.b.side);
-    end.half_angle = select(first, fan.a.half_angle, fan.b.half_angle);
+    end.last = select(first, fan.a.last, fan.b.last);
     end.corners = select(first, fan.a.corners, fan.b.corners);
     end.turn = select(first, fan.a.turn, fan.b.turn);
     end.beta = select(first, fan.a.beta, fan.b.beta);

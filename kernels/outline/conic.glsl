@@ -73,13 +73,17 @@ QuarticPoles conic_polish_poles(ConicArc arc, QuarticPoles start) {
     }
     mask moving = arc.end > arc.begin;
     for (int i = 0; i < sweeps; i++) {
-        vec2 z1 = conic_pole_step(arc, poles.z1, poles.z2, d4);
-        vec2 z2 = conic_pole_step(arc, poles.z2, z1, d4);
-        vec2 step1 = z1 - poles.z1;
-        vec2 step2 = z2 - poles.z2;
-        poles.z1 = select(moving, z1, poles.z1);
-        poles.z2 = select(moving, z2, poles.z2);
-        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        mask moves = mask_none();
+        // One pole, then the other: each turn swaps them.
+        for (int k = 0; k < 2; k++) {
+            vec2 z = conic_pole_step(arc, poles.z1, poles.z2, d4);
+            vec2 step = z - poles.z1;
+            moves = moves || dot(step, step) > tolerance * z.y * z.y;
+            z = select(moving, z, poles.z1);
+            poles.z1 = poles.z2;
+            poles.z2 = z;
+        }
+        moving = moving && moves;
         // At the end: devices that mask lanes instead of jumping would go through a sweep for nobody.
         if (!any_lane(moving)) {
             break;

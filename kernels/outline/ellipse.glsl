@@ -74,19 +74,33 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     mask cut = bottom > 0.0 && shows;
     real limit = sqrt(max(top, 0.0) / max(bottom, smallest_divisor()));
     limit = select(cut, limit, select(shows, 1.0e15, 0.0));
-    real upper = min(limit, 1.0);
-    vec3 sum = conic_vector(ellipse_arc(level, -upper, upper));
     mask more = limit > 1.0;
-    if (any_lane(more)) {
-        Ellipse back;
-        back.center = level.center;
-        back.axis_a = -level.axis_a;
-        back.axis_b = -level.axis_b;
-        real lower = select(more, 1.0 / max(limit, 1.0), 1.0);
-        lower = select(limit > 1.0e14, 0.0, lower);
-        vec3 far_side = conic_vector(ellipse_arc(back, -1.0, -lower)) + conic_vector(ellipse_arc(back, lower, 1.0));
-        sum = select(more, sum + far_side, sum);
+    real lower = select(more, 1.0 / max(limit, 1.0), 1.0);
+    lower = select(limit > 1.0e14, 0.0, lower);
+    Ellipse from = level;
+    real begin = -min(limit, 1.0);
+    real end = min(limit, 1.0);
+    vec3 sum = vec3(0.0, 0.0, 0.0);
+    vec3 far_side = sum;
+    // The arc about the highest place, and two that meet at the lowest.
+    for (int i = 0; i < 3; i++) {
+        vec3 arc = conic_vector(ellipse_arc(from, begin, end));
+        if (i == 0) {
+            sum = arc;
+            from.axis_a = -level.axis_a;
+            from.axis_b = -level.axis_b;
+            begin = -1.0;
+            end = -lower;
+        } else {
+            far_side = far_side + arc;
+            begin = lower;
+            end = 1.0;
+        }
+        if (!any_lane(more)) {
+            break;
+        }
     }
+    sum = select(more, sum + far_side, sum);
     if (any_lane(cut)) {
         // Along the horizon, from where the walk goes down, at +limit, to where it comes up.
         real inverse = 1.0 / (1.0 + limit * limit);

@@ -20,7 +20,7 @@ struct Light {
 Light light_at(uint number) {
     Light light;
     int first = int(in_common(number)) * kRecord;
-    for (int i = 0; i < kRecord; i++) light.r[i] = texelFetch(lights, first + i);
+    for (int i = 0; i < kRecord; i++) light.r[i] = lights[first + i];
     return light;
 }
 

@@ -5,22 +5,20 @@
 // The polygon that replaces a round light, gathered about a lobe.
 EllipseFan ellipse_fan_about;
 CapsuleFan capsule_fan_about;
-int corner_count;
 vec2 corner_here;         // an ellipse's corner, and its gap to the one before
 float corner_gap_before;
 const int kCornersNearRim = 32;
 bool has_corners() { return KIND != kPolygon && !by_pieces(); }
 bool has_ellipse() { return KIND != kCapsule && has_corners(); }
+int corner_count() { return has_ellipse() && ellipse_fan_about.near ? kCornersNearRim : CORNERS; }
 
 //   axis, width  of the lobe, in the shading frame
 void prepare_corners(Light light, mat3 frame, vec3 p, vec3 axis, float width) {
-    corner_count = CORNERS;
     if (KIND == kCapsule) {
         capsule_fan_about = capsule_fan(capsule_in(light, frame, p), axis, width, CORNERS);
     } else {
         ellipse_fan_about = ellipse_fan_concentrated(ellipse_in(frame), axis, width);
-        if (!CAREFUL) ellipse_fan_about.near = false;  // the host knows that no point of the tile is near the rim
-        if (ellipse_fan_about.near) corner_count = kCornersNearRim;
+        if (NEAR_RIM == 0) ellipse_fan_about.near = false;  // the host knows that no point of the tile is near the rim
     }
 }
 
@@ -29,7 +27,7 @@ int outline_first() { return has_ellipse() ? -2 : 0; }
 int outline_length(Light light) {
     if (by_pieces()) return part.places;
     if (KIND == kPolygon) return int(light.r[2].w);
-    return corner_count + 1;
+    return corner_count() + 1;
 }
 
 struct Place {
@@ -48,14 +46,15 @@ Place outline_place(Light light, mat3 frame, vec3 p, int i) {
         place.direction = polygon_direction(into_frame(frame, v.xyz));
         place.joined = v.w > 0.5;
     } else if (KIND == kPolygon) {
-        vec4 v = texelFetch(vertices, int(in_common(uint(light.r[0].w) + uint(i))));
+        vec4 v = vertices[in_common(uint(light.r[0].w) + uint(i))];
         place.direction = polygon_direction(into_frame(frame, v.xyz - p));
         place.joined = v.w > 0.5;
     } else if (KIND == kCapsule) {
-        place.direction = polygon_direction(capsule_fan_corner(capsule_fan_about, i > 0 ? i - 1 : corner_count - 1));
+        place.direction = polygon_direction(capsule_fan_corner(capsule_fan_about, i > 0 ? i - 1 : CORNERS - 1));
         place.joined = i > 0;
     } else {
-        vec2 after = ellipse_corner(ellipse_fan_about, i < 0 ? i + corner_count : i < corner_count ? i : 0, corner_count);
+        int count = corner_count();
+        vec2 after = ellipse_corner(ellipse_fan_about, i < 0 ? i + count : i < count ? i : 0, count);
         float gap = ellipse_gap(corner_here, after);
         place.direction = polygon_direction(ellipse_corner_between(ellipse_fan_about, corner_here, corner_gap_before + gap));
         place.joined = i > 0;
@@ -87,7 +86,10 @@ int clipped_length(Light light) { return outline_length(light) + (UNCUT ? 0 : 1)
 
 bool clipped_place(Light light, mat3 frame, vec3 p, int i) {
     bool closes = !UNCUT && i == outline_length(light);
-    if (!closes) next_edge(light, frame, p, i);
+    if (closes)
+        edge_begin = edge_end;
+    else
+        next_edge(light, frame, p, i);
     if (i < 1) return false;
     if (UNCUT)
         put_edge(edge_begin, edge_end);

@@ -180,6 +180,7 @@ vec3 vector_of(GgxView view, ConicArc edge) {
     for (int j = 1; j <= ARCS; j++) {
         float tau = edge.end;
         if (j < ARCS) tau = half_vector_split_pole_mapped(edge, float(j) / float(ARCS));
+        walk.b = half_vector_at(view, edge, walk.last.tau);  // again: to hold it takes registers
         walk = half_vector_next(walk, view, edge, tau);
         sum += ggx_arc(view, walk.a, walk.b);
         for (int i = 0; i < half_vector_nodes(); i++) {
@@ -217,10 +218,9 @@ vec2 by_arcs(Light light, Seen seen, mat3 frame, vec3 p, vec3 v, float ax, float
     float facing = seen.reversed ? -1.0 : 1.0;
     vec3 e = vec3(0.0);
     CubatureSums sums = CubatureSums(0.0, 0.0, vec2(0.0), vec2(1.0e30), vec2(-1.0e30));
-    int count = clipped_length(light);
     for (int turn = 0; turn < (DRAFT || EXACT ? 1 : 2); turn++) {
         begin_clip(facing);
-        for (int i = outline_first(); i < count; i++) {
+        for (int i = outline_first(); i < clipped_length(light); i++) {
             if (!clipped_place(light, frame, p, i)) continue;
             do {
                 if (has_clipped_edge()) {

@@ -18,22 +18,19 @@ PlaneRoundEnds round_ends(uint pair, uint first, vec2 p, vec2 light, vec4 center
     return plane_round_ends(-p, from_light - p, from_light, uintBitsToFloat(pairs[pair + uint(kPairRadius)]));
 }
 
-// A blocker within the light, or one for which no line decides.
-void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
-    if (!(pair_line(pair, 2, p) > 0.0)) return;
-    uint first = pairs[pair + uint(kPairFirst)];
-    uint kind = pairs[pair + uint(kPairKind)];
-    if ((kind & 255u) == 1u) {
-        PlaneRoundEnds e = round_ends(pair, first, p, light, center);
-        if (e.begins_ahead || e.ends_ahead) take(e.begins_ahead ? e.begin : -1.0e6, e.ends_ahead ? e.end : 1.0e6);
-        return;
-    }
-    // A vertex behind the pixel is beyond all of the light, on that side of the blocker's nearest point, which is ahead.
+// Places of a round blocker's ends.
+vec2 round_places(uint pair, uint first, vec2 p, vec2 light, vec4 center) {
+    PlaneRoundEnds e = round_ends(pair, first, p, light, center);
+    if (!e.begins_ahead && !e.ends_ahead) return vec2(1.0, -1.0);
+    return vec2(e.begins_ahead ? e.begin : -1.0e6, e.ends_ahead ? e.end : 1.0e6);
+}
+
+// Places of the ends of a blocker with corners. A vertex behind the pixel is beyond all of the light, on that side of the blocker's nearest
+// point, which is ahead.
+vec2 polygon_places(uint pair, uint first, uint count, vec2 p, vec2 light, vec4 center) {
     vec3 line = vec3(number_of_pair(pair, 2, 0), number_of_pair(pair, 2, 1), number_of_pair(pair, 2, 2));
     vec2 near = line.xy * (line.z / dot(line.xy, line.xy)) - p;
-    float from = 1.0e6;
-    float to = -1.0e6;
-    uint count = kind >> 8;
+    vec2 places = vec2(1.0e6, -1.0e6);
     turns += int(count);
     for (uint k = 0u; k < count; k++) {
         vec2 v = vertex_at(first + k, center);
@@ -42,10 +39,22 @@ void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
         float across = from_light.y * from_eye.x - from_light.x * from_eye.y;
         float place = across * inversesqrt(max(dot(from_eye, from_eye), smallest_divisor()));
         if (!(dot(p, from_eye) < 0.0)) place = plane_beyond(cross2(near, from_eye));
-        from = min(from, place);
-        to = max(to, place);
+        places = vec2(min(places.x, place), max(places.y, place));
     }
-    take(from, to);
+    return places;
+}
+
+// A blocker within the light, or one for which no line decides.
+void take_within(uint pair, vec2 p, vec2 light, vec4 center) {
+    if (!(pair_line(pair, 2, p) > 0.0)) return;
+    uint first = pairs[pair + uint(kPairFirst)];
+    uint kind = pairs[pair + uint(kPairKind)];
+    vec2 places;
+    if ((kind & 255u) == 1u)
+        places = round_places(pair, first, p, light, center);
+    else
+        places = polygon_places(pair, first, kind >> 8, p, light, center);
+    take(places.x, places.y);
 }
 
 // Occludes everything from one end of the light up to the blocker's end, or down to its beginning.

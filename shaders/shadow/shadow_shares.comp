@@ -9,11 +9,10 @@
 
 // Same declarations as in direct.glsl.
 layout(local_size_x = 64) in;
-layout(binding = 4) uniform samplerBuffer radiance_before;
-layout(binding = 5) uniform usamplerBuffer lists;
-layout(std430, binding = 6) writeonly buffer Radiance { vec4 radiance[]; };
-layout(std430, binding = 7) readonly buffer States { uint states[]; };
-layout(std430, binding = 8) readonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 4) readonly buffer Lists { uint lists[]; };
+layout(std430, binding = 5) buffer Radiance { vec4 radiance[]; };
+layout(std430, binding = 6) readonly buffer States { uint states[]; };
+layout(std430, binding = 7) readonly buffer Parts { vec4 parts[]; };
 layout(push_constant) uniform Push { uint first_entry; };
 
 #include "../entry.glsl"
@@ -36,6 +35,5 @@ void main() {
         vec3 light = parts[record + ahead - kPartSums + 2].xyz;
         for (int c = 0; c < 3; c++) sum[c] += arriving(light[c], part[c], polygon[c]);
     }
-    uint at = entry.tile * uint(kRadiance) + entry.slot;
-    radiance[at] = vec4(texelFetch(radiance_before, int(at)).xyz + sum, 0.0);
+    radiance[entry.tile * uint(kRadiance) + entry.slot].xyz += sum;
 }

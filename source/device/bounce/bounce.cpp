@@ -104,20 +104,12 @@ void put_glossy(const LightSet& set, std::size_t i, IndirectMode mode, FourWrite
   to.put(s.z[i], s.g.z[i]);
 }
 
-void check_buffers(const DeviceInfo& device) {
-  if (device.storage_buffers < kBuffers)
-    throw Error(
-        "Vulkan device '" + device.name + "'",
-        "lets a shader have " + std::to_string(device.storage_buffers) + " storage buffers, the bounce needs " + std::to_string(kBuffers),
-        "choose another --device, or --backend cpu");
-}
-
 std::size_t words_of(std::size_t lights) { return (lights + kLightsOfWord - 1) / kLightsOfWord; }
 
 }  // namespace
 
 Bounce::Bounce(const Device& device)
-    : device_((check_buffers(device.info()), device)),
+    : device_((check_device(device.info(), kBuffers, "the bounce"), device)),
       tables_(ltc_pack_tables(Method::ltc_compact)),
       lobe_program_(device, {shader("bounce_lobes.comp")}, 3),
       program_(device,

@@ -16,8 +16,7 @@ namespace {
 
 // Values of SHADOWED_LIGHTS of shaders/direct.glsl.
 constexpr int kUnoccluded = 0, kByPieces = 1, kWholeLights = 2;
-constexpr std::size_t kTexels = 6, kBuffers = 5;                // as bound in run
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
+constexpr std::size_t kTexels = 2, kBuffers = 8;  // as bound in run
 constexpr std::size_t kTilesOfBatch = 256;
 constexpr std::size_t kSlotsOfSquare = static_cast<std::size_t>(kGroupsOfSquare * kGroup);
 constexpr float kPushed =
@@ -69,13 +68,6 @@ Distances distances(Vec3f p, const Box3f& box) {
 
 }  // namespace
 
-void check_device(const DeviceInfo& device) {
-  const std::string who = "Vulkan device '" + device.name + "'";
-  if (device.storage_buffer < kLargestBuffer)
-    throw Error(who, "has no storage buffers of 128 MiB", "choose another --device, or --backend cpu");
-  if (!device.broadcasts) throw Error(who, "has no subgroup ballots in compute shaders", "choose another --device, or --backend cpu");
-}
-
 struct DirectPass::Pass {
   Procedure procedure = Procedure::diffuse;
   bool coat = false;
@@ -93,6 +85,13 @@ struct DirectPass::Pass {
            : coat                            ? "coat"
                                              : "specular";
   }
+};
+
+// How the points of a square may see a light.
+struct DirectPass::Sight {
+  bool small = false;     // some of them, as small
+  bool near_rim = false;  // some of them, from near its rim
+  bool whole = false;     // all of them, whole
 };
 
 // Lists of a batch: for each pipeline, tiles with their lights.
@@ -127,16 +126,17 @@ struct DirectPass::Work {
 
 DirectPass::Kept::Kept(const Device& d)
     : device(d),
-      tiles((check_device(d.info()), std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
+      tiles((check_device(d.info(), kBuffers, "direct light"),
+             std::min(kTilesOfBatch, d.info().texel_buffer / static_cast<std::size_t>(kPlanes * kSlots)))),
       program(d, shaders(), kBuffers, kTexels),
       surfaces(d, BufferUse::host_writes, BufferForm::texels),
-      radiance(d, BufferUse::host_reads, BufferForm::texels),
+      radiance(d, BufferUse::host_reads),
       tables(d, BufferUse::host_writes, BufferForm::texels),
-      details(d, BufferUse::host_writes, BufferForm::texels),
-      lights(d, BufferUse::host_writes, BufferForm::texels),
-      vertices(d, BufferUse::host_writes, BufferForm::texels),
-      lists(d, BufferUse::host_writes, BufferForm::numbers),
-      means(d, BufferUse::host_writes, BufferForm::texels),
+      details(d, BufferUse::host_writes),
+      lights(d, BufferUse::host_writes),
+      vertices(d, BufferUse::host_writes),
+      lists(d, BufferUse::host_writes),
+      means(d, BufferUse::host_writes),
       gates(d) {
   surfaces.fit(tiles * bytes_of_planes(kPlanes));
   radiance.fit(tiles * static_cast<std::size_t>(kRadiance) * sizeof(Vec4Floats));
@@ -229,17 +229,22 @@ double DirectPass::least_distance2(const LightRecord& light, const Pass& pass) c
   return pass.procedure == Procedure::phong_lobe ? pass.own->least_distance2 : limits().least_distance2.v;
 }
 
-// Returns true if some point of a box may see the light as small, or may be near its rim. Otherwise the shaders skip both tests.
-bool DirectPass::is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
+// Returns true if some point of a box may see the light as small. Otherwise the shaders skip the test.
+bool DirectPass::may_be_small(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const {
   if (light.kind == kPunctual) return false;
   const double least = least_distance2(light, pass);
-  const Distances d = distances(light.middle, where.positions);
   // Parts may be small at points where the whole light is not: kNeverSmall.
   const auto small = static_cast<float>(shadowed ? std::min(least, 100.0) : least);
-  return d.farthest > light.deviation2 * small || (pass.over_lobe() && d.nearest < light.near_distance2);
+  return distances(light.middle, where.positions).farthest > light.deviation2 * small;
 }
 
-std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, int shadowed) const {
+// Returns true if some point of a box may be near the rim of a light that has corners (ellipse_fan_near). Otherwise the shaders skip the
+// test.
+bool DirectPass::may_be_near_rim(const LightRecord& light, const SurfaceBounds& where, const Pass& pass) {
+  return pass.over_lobe() && distances(light.middle, where.positions).nearest < light.near_distance2;
+}
+
+std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pass& pass, Sight sight, int shadowed) const {
   const bool by_arcs = pass.procedure == Procedure::closed_form || pass.procedure == Procedure::half_vector;
   const bool by_points = pass.own != nullptr && pass.own->by_points;
   const bool fine = (by_arcs || by_points) && method_.quality == Quality::high;
@@ -251,26 +256,27 @@ std::vector<std::int32_t> DirectPass::choices(const LightRecord& light, const Pa
           pass.own != nullptr ? 2
           : pass.coat         ? 1
                               : 0,
-          careful ? 1 : 0,
+          sight.small ? 1 : 0,
           specular && fresnel_table_ ? 1 : 0,
           light.ball && shadowed != kByPieces ? 1 : 0,
           fine ? 16 : 12,
           matrix_size_,
           magnitude_size_,
           shadowed,
-          whole ? 1 : 0,
+          sight.whole ? 1 : 0,
           pass.asks_for_mean(light) ? 1 : 0,
           0,
           light.profiled ? 1 : 0,
           pass.own != nullptr ? pass.own->form : 0,
           pass.own != nullptr ? pass.own->phong : 0,
-          pass.own != nullptr ? pass.own->low : 0};
+          pass.own != nullptr ? pass.own->low : 0,
+          sight.near_rim && shadowed != kByPieces ? 1 : 0};
 }
 
 // Lists the mean of a textured light for a lobe. It is an entry of its own, since software devices limit a thread's loop
 // turns.
 void DirectPass::list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const {
-  std::vector<std::int32_t> constants = choices({}, {}, false, false, kUnoccluded);
+  std::vector<std::int32_t> constants = choices({}, {}, {}, kUnoccluded);
   constants[4] = !pass.over_lobe() ? 0 : pass.own != nullptr ? 3 : pass.coat ? 2 : 1;
   constants[9] = compact_size_;
   constants[14] = compact_first_;
@@ -340,10 +346,11 @@ void DirectPass::list(Work& work, std::uint32_t place, const Square& square, con
   own.with_diffuse = together && pass.procedure == Procedure::ltc && !pass.coat && pass.own == nullptr;
   const std::uint32_t number = number_of(*listed.light, listed.cut_for_tile);
   const LightRecord& record = records_.lights[number];
-  // The irradiance of tubes and balls has the same formula in both cases.
-  const bool whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball);
-  const bool careful = is_careful(record, square.bounds, own, shadowed != nullptr);
-  const auto key = [&](int how) { return Work::Key{shader_of(own.procedure), choices(record, own, careful, whole, how)}; };
+  // The irradiance of tubes and balls has the same formula whether they are seen whole or not.
+  const Sight sight = {.small = may_be_small(record, square.bounds, own, shadowed != nullptr),
+                       .near_rim = may_be_near_rim(record, square.bounds, own),
+                       .whole = own.over_lobe() ? listed.whole_about : listed.whole && !(record.kind == kCapsule || record.ball)};
+  const auto key = [&](int how) { return Work::Key{shader_of(own.procedure), choices(record, own, sight, how)}; };
   std::vector<std::uint32_t> numbers = {number};
   if (shadowed != nullptr) numbers.push_back(shadowed->states);
   if (own.asks_for_mean(record)) {
@@ -373,7 +380,7 @@ void DirectPass::run(const std::vector<Tile>& tiles, std::size_t first_tile, std
     }
   }
   if (work.groups.empty() && !visibility.record) return;
-  if (work.means > kLargestBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
+  if (work.means > kGuaranteedBuffer / sizeof(Vec4Floats) && end - first_tile > 1) {  // more than the buffer's capacity
     const std::size_t middle = (first_tile + end) / 2;
     run(tiles, first_tile, middle, visibility);
     run(tiles, middle, end, visibility);
@@ -415,8 +422,8 @@ void DirectPass::run(const std::vector<Tile>& tiles, std::size_t first_tile, std
   for (ComputeProgram::Dispatch& dispatch : dispatches) dispatch.groups = counts;
   const Buffer* states = visibility.states != nullptr ? visibility.states : none;
   const Buffer* parts = visibility.parts != nullptr ? visibility.parts : none;
-  kept_.program.record({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, radiance, lists, radiance, states, parts,
-                        &kept_.means.get(), &kept_.details.get()},
+  kept_.program.record({&kept_.surfaces.get(), &kept_.tables.get(), lights, vertices, lists, radiance, states, parts, &kept_.means.get(),
+                        &kept_.details.get()},
                        dispatches);
   kept_.program.run(visibility.record ? &visibility.record(*counts) : nullptr);
   const std::vector<double>& ms = kept_.program.times();

@@ -17,9 +17,6 @@
 
 namespace steradian::vulkan {
 
-// Throws Error, with the device's name, if the device lacks something.
-void check_device(const DeviceInfo& device);
-
 class DirectPass {
  public:
   // Objects on the device, for any number of pictures in turn. The device must outlive them. Throws Error if the device lacks something.
@@ -96,6 +93,7 @@ class DirectPass {
 
  private:
   struct Pass;
+  struct Sight;
   struct Work;
   Vec4Floats* planes_of(std::size_t place);
   static bool is_cut(const Tile& tile, const PackLight& light);
@@ -105,9 +103,10 @@ class DirectPass {
             const Tile::Shadowed* shadowed);
   double least_distance2(const LightRecord& light, const Pass& pass) const;
   void list_shares(Work& work, std::uint32_t place, const Tile& tile, const Square& square);
-  bool is_careful(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
+  bool may_be_small(const LightRecord& light, const SurfaceBounds& where, const Pass& pass, bool shadowed) const;
+  static bool may_be_near_rim(const LightRecord& light, const SurfaceBounds& where, const Pass& pass);
   void list_means(Work& work, std::uint32_t place, const Pass& pass, std::uint32_t light) const;
-  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, bool careful, bool whole, int shadowed) const;
+  std::vector<std::int32_t> choices(const LightRecord& light, const Pass& pass, Sight sight, int shadowed) const;
   std::uint32_t number_of(const PackLight& light, bool cut);
 
   Kept& kept_;

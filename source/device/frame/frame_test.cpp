@@ -401,6 +401,39 @@ TEST_F(VulkanFrame, HasNoSpaceForTheEdgesOfManyTrianglesBeforeManyLights) {
   EXPECT_EQ(DeviceFrame(scene, options).lacks(), "");
 }
 
+// A buffer of 128 MiB holds 33 million numbers.
+TEST_F(VulkanFrame, LeavesAProfileThatExceedsItsBuffersToTheCpu) {
+  LightProfile fine;
+  const std::size_t vertical = 4096, horizontal = list_devices().front().storage_buffer / sizeof(float) / vertical;
+  for (std::size_t i = 0; i < vertical; ++i) fine.vertical.push_back(180.0 * static_cast<double>(i) / static_cast<double>(vertical - 1));
+  for (std::size_t i = 0; i < horizontal; ++i)
+    fine.horizontal.push_back(360.0 * static_cast<double>(i) / static_cast<double>(horizontal - 1));
+  fine.candela.assign(vertical * horizontal, 10);
+  Scene scene = scene_of("glossy_floor");
+  scene.area_lights.clear();
+  scene.punctual_lights = {punctual(PunctualKind::point, {0, 1, 0}, {0, -1, 0})};
+  scene.punctual_lights[0].profile = std::make_shared<const LightProfile>(std::move(fine));
+  expect_rendered_by_cpu(scene, small("ltc-compact"), "a profiled point light exceeds its buffers");
+}
+
+// The host finds the surfaces of wider pictures. The first is as wide as the device draws.
+TEST_F(VulkanFrame, FindsTheSurfacesOfWidePicturesOnTheCpu) {
+  const auto device = std::make_shared<const Device>();
+  const Scene scene = scene_of("glossy_floor");
+  RenderOptions options = small("ltc-compact");
+  options.width = static_cast<int>(device->info().picture);
+  options.height = 1;
+  EXPECT_NO_THROW(DeviceFrame(scene, options, device, SurfacesBy::device));
+  ++options.width;
+  try {
+    DeviceFrame frame(scene, options, device, SurfacesBy::device);
+    FAIL();
+  } catch (const UsageError& e) {
+    EXPECT_NE(std::string(e.what()).find("a picture larger than the device draws"), std::string::npos) << e.what();
+  }
+  expect_same("wide", scene, options);
+}
+
 TEST_F(VulkanFrame, HasNoShadowsWithoutWhatTheirShadersNeed) {
   DeviceInfo device = Device().info();
   EXPECT_TRUE(DeviceShadows::has(device));

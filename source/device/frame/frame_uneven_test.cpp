@@ -1,4 +1,6 @@
 // The CPU is the reference for the device: textured lights, and their occluded parts.
+#include "fit/table_files.h"
+#include "integrals/tables/ggx_tables.h"
 #include "support/device_frames.h"
 
 namespace steradian::vulkan::frame_uneven_test {
@@ -106,6 +108,19 @@ TEST_F(VulkanFrame, LeavesTexturedLightsWithShadowsToTheCpu) {
   RenderOptions options = small("ltc-compact");
   options.shadows = Shadows::on;
   expect_rendered_by_cpu(scene, options, "no shadows under the textured light");
+}
+
+// The means of textured lights come from the project's own table.
+TEST_F(VulkanFrame, LeavesTexturedLightsUnderATableToTheCpu) {
+  Scene scene = under_triangles(12);
+  scene.images = {checkers()};
+  scene.area_lights = {textured(kSquare, {-1, 2.5, -1}, {1, 0, 0}, {0, 0, 1}, true)};
+  scene.area_lights[0].name = "lamp";
+  RenderOptions options = small("ltc");
+  options.shadows = Shadows::off;
+  options.table = testing::TempDir() + "frame_uneven_test.json";
+  fit::write_files(fit::classic_files(ggx_classic_table(), "another", options.table));
+  expect_rendered_by_cpu(scene, options, "no --table under the textured light 'lamp'");
 }
 
 TEST_F(VulkanFrame, TheValidationLayerFindsNothingUnderUnevenLights) {

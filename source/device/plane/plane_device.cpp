@@ -9,7 +9,6 @@
 #include <tbb/parallel_for.h>
 #include <utility>
 
-#include "device/direct/direct_light.h"
 #include "device/plane/listed_disks.h"
 #include "device/plane/pair_words.h"
 #include "device/plane/recorded_tiles.h"
@@ -30,7 +29,6 @@ using vulkan::BufferUse;
 
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // the size that Vulkan guarantees
 constexpr std::size_t kWordsOfBatch = std::size_t{4} << 20;
 constexpr std::size_t kTilesOfBatch = 8192;
 constexpr std::size_t kWordBytes = sizeof(std::uint32_t);
@@ -50,14 +48,15 @@ namespace steradian {
 using namespace plane;
 
 struct PlaneDevice::Impl {
-  explicit Impl(std::shared_ptr<const vulkan::Device> d) : device(std::move(d)), program(usable(*device), plane_shaders(), kBuffers) {
+  explicit Impl(std::shared_ptr<const vulkan::Device> d)
+      : device(std::move(d)), program((vulkan::check_device(device->info(), kBuffers, "the plane"), *device), plane_shaders(), kBuffers) {
     for (std::size_t g = 0; g < kPrograms; ++g) pipelines[g] = program.pipeline(g);
   }
 
   // A buffer of at least `bytes`. One that is too small is replaced by a new one with a capacity of half as much again.
   Buffer& fitting(std::unique_ptr<Buffer>& buffer, std::size_t bytes, BufferUse use) {
     if (buffer == nullptr || buffer->bytes() < bytes) {
-      const std::size_t room = std::min(bytes + bytes / 2, kLargestBuffer);
+      const std::size_t room = std::min(bytes + bytes / 2, vulkan::kGuaranteedBuffer);
       buffer.reset();
       buffer = std::make_unique<Buffer>(*device, std::max<std::size_t>(room, 4096), use);
     }
@@ -66,8 +65,8 @@ struct PlaneDevice::Impl {
 
   // Uploads pairs and vertices, and returns the number of pairs on the device. Lights with other pairs use the general rules.
   std::size_t upload_pairs(const FrameScene& frame) {
-    const std::size_t vertex_bytes = 4 * sizeof(float) * frame.vertices.size(), most = kLargestBuffer / (kPair * kWordBytes);
-    const std::size_t count = vertex_bytes > kLargestBuffer ? 0 : std::min(frame.pairs.size(), most);
+    const std::size_t vertex_bytes = 4 * sizeof(float) * frame.vertices.size(), most = vulkan::kGuaranteedBuffer / (kPair * kWordBytes);
+    const std::size_t count = vertex_bytes > vulkan::kGuaranteedBuffer ? 0 : std::min(frame.pairs.size(), most);
     auto* to = static_cast<std::uint32_t*>(fitting(pairs, count * kPair * kWordBytes, BufferUse::host_writes).mapped());
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { put_pair(to + i * kPair, frame.pairs[i]); });
     auto* v = static_cast<float*>(fitting(vertices, count == 0 ? 0 : vertex_bytes, BufferUse::host_writes).mapped());
@@ -98,17 +97,6 @@ struct PlaneDevice::Impl {
   std::vector<InBatch> batch;
   std::vector<const RecordedTile*> for_cpu;
   PlaneDeviceStats stats;
-
- private:
-  static const vulkan::Device& usable(const vulkan::Device& device) {
-    vulkan::check_device(device.info());
-    if (device.info().storage_buffers < kBuffers)
-      throw Error("Vulkan device '" + device.info().name + "'",
-                  "lets a shader have " + std::to_string(device.info().storage_buffers) + " storage buffers, the plane needs " +
-                      std::to_string(kBuffers),
-                  "choose another --device, or --backend cpu");
-    return device;
-  }
 };
 
 // Renders the batch's tiles on the device, and adds their sums to the picture.
@@ -226,7 +214,7 @@ void PlaneDevice::Impl::fill(const FrameScene& frame, const PlaneFrameOptions& o
                              PlaneFrameStats& counts) {
   auto start = Clock::now();
   const std::size_t on_device = upload_pairs(frame);
-  disks.choose(frame, grid, on_device, kLargestBuffer / kWordBytes);
+  disks.choose(frame, grid, on_device, vulkan::kGuaranteedBuffer / kWordBytes);
   fitting(masks, disks.mask_words() * kWordBytes, BufferUse::host_writes);
   lists_made = false;
   stats.lights_listed += disks.count();
@@ -248,7 +236,7 @@ void PlaneDevice::Impl::fill(const FrameScene& frame, const PlaneFrameOptions& o
       if (tile.words == 0 && of_disks.empty() && !tile.for_cpu) continue;
       counts.tile_lights += of_disks.size();
       const std::size_t more = tile.words + (tile.jobs + 1) * kJob + of_disks.size() * kListedLight;
-      if (tile.for_cpu || (more + 2 * kHeader + disks.records().size()) * kWordBytes > kLargestBuffer) {
+      if (tile.for_cpu || (more + 2 * kHeader + disks.records().size()) * kWordBytes > vulkan::kGuaranteedBuffer) {
         for_cpu.push_back(&tile);
         ++stats.tiles;
         continue;

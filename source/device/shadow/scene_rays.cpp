@@ -10,8 +10,6 @@
 namespace steradian::vulkan {
 namespace {
 
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
-
 bool casts(const Mesh& mesh) { return !mesh.is_light_shape && mesh.casts_shadow && !mesh.indices.empty(); }
 bool is_cut_out(const Scene& scene, const Mesh& mesh) {
   return scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::mask;
@@ -37,7 +35,7 @@ std::shared_ptr<const SceneRays> SceneRays::of(std::shared_ptr<const Device> dev
       triangles.push_back({static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t)});
     }
   }
-  const std::size_t most = std::min<std::size_t>(kLargestBuffer, device->info().storage_buffer);
+  const std::size_t most = std::min<std::size_t>(kGuaranteedBuffer, device->info().storage_buffer);
   if (least_of_hierarchy(sorted.size()) > most / (4 * sizeof(std::uint32_t))) return nullptr;
   const auto vectors = ray_hierarchy(std::move(sorted));
   const std::size_t bytes = vectors.size() * sizeof vectors[0];

@@ -312,6 +312,15 @@ TEST_F(VulkanSurfaces, SayWhatKeepsThemOnTheHost) {
   scene.multiple_scattering = true;
   ASSERT_EQ(materials_for_host(scene).size(), 1u);
   EXPECT_NE(materials_for_host(scene)[0].find("'a'"), std::string::npos);
+  DeviceInfo without = info;
+  without.graphics = false;
+  EXPECT_EQ(what_keeps_on_host(scene, without), "the device draws no triangles");
+  DeviceInfo small = info;
+  small.texel_buffer = 8;
+  EXPECT_EQ(what_keeps_on_host(scene, small), "more triangles than a buffer has room for");
+  small.texel_buffer = 1024;
+  scene.images.assign(1, Image{"", 32, 32, std::vector<std::uint8_t>(std::size_t{4} * 32 * 32)});
+  EXPECT_EQ(what_keeps_on_host(scene, small), "more texels than a buffer has room for");
 }
 
 namespace {

@@ -19,7 +19,6 @@ using Vec4Floats = std::array<float, 4>;
 
 constexpr std::size_t kMostNumbers = std::size_t{1} << 24;  // largest count that a float holds
 constexpr int kLongestSide = 1 << 20;                       // texture side: positions along longer ones are no whole numbers in float
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;
 
 static_assert(kMaterial == kMaterialTextures + kUses * kUse);
 
@@ -201,10 +200,10 @@ std::string what_keeps_on_host(const Scene& scene, const DeviceInfo& device) {
     triangles += mesh.triangle_count();
   }
   for (const Image& image : scene.images) texels += 2 * texels_of_pyramid(image);
-  const std::size_t most = std::min(device.texel_buffer, kLargestBuffer / sizeof(Vec4Floats));
+  const std::size_t most = std::min(device.texel_buffer, kGuaranteedBuffer / sizeof(Vec4Floats));
   if (vertices * kVertex > most || std::max(vertices, triangles) >= kMostNumbers || triangles > most)
     return "more triangles than a buffer has room for";
-  if (texels > std::min(device.texel_buffer, kLargestBuffer / 4)) return "more texels than a buffer has room for";
+  if (texels > std::min(device.texel_buffer, kGuaranteedBuffer / 4)) return "more texels than a buffer has room for";
   return {};
 }
 

@@ -55,9 +55,7 @@ Buffer::Buffer(const Device& device, std::size_t bytes, BufferUse use, BufferFor
     h.buffer.bindMemory(*h.memory, 0);
     h.mapped = h.memory.mapMemory(0, bytes);
     if (form == BufferForm::storage) return;
-    const vk::Format format = form == BufferForm::texels    ? vk::Format::eR32G32B32A32Sfloat
-                              : form == BufferForm::numbers ? vk::Format::eR32Uint
-                                                            : vk::Format::eR8G8B8A8Unorm;
+    const vk::Format format = form == BufferForm::texels ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR8G8B8A8Unorm;
     h.texels = d.device.createBufferView({{}, *h.buffer, format, 0, VK_WHOLE_SIZE});
   });
 }

@@ -18,7 +18,7 @@ namespace steradian::vulkan {
 enum class BufferUse { host_writes, host_reads };
 
 // Form in which shaders read it: a storage buffer, or also texels of four floats or four bytes (0 to 1), which devices fetch in one go.
-enum class BufferForm { storage, texels, colors, numbers };
+enum class BufferForm { storage, texels, colors };
 
 class Buffer {
  public:

@@ -140,6 +140,18 @@ std::map<std::tuple<std::string, bool, bool>, std::shared_ptr<const Device>> sha
 
 }  // namespace
 
+void check_device(const DeviceInfo& device, std::size_t buffers, const std::string& what) {
+  const std::string who = "Vulkan device '" + device.name + "'";
+  if (device.storage_buffer < kGuaranteedBuffer)
+    throw Error(who, "has no storage buffers of 128 MiB", "choose another --device, or --backend cpu");
+  if (device.storage_buffers < buffers)
+    throw Error(
+        who,
+        "lets a shader have " + std::to_string(device.storage_buffers) + " storage buffers, " + what + " needs " + std::to_string(buffers),
+        "choose another --device, or --backend cpu");
+  if (!device.broadcasts) throw Error(who, "has no subgroup ballots in compute shaders", "choose another --device, or --backend cpu");
+}
+
 std::vector<DeviceInfo> list_devices() {
   std::vector<DeviceInfo> infos;
   try {

@@ -33,6 +33,12 @@ struct DeviceInfo {
 // All devices of Vulkan 1.2 or later with a compute queue: hardware, then software, then what runs nothing. Empty if there is no loader.
 std::vector<DeviceInfo> list_devices();
 
+// Bytes of a storage buffer that Vulkan guarantees.
+inline constexpr std::size_t kGuaranteedBuffer = std::size_t{128} << 20;
+
+// Throws Error, with the device's name, if the device lacks something, such as so many storage buffers for a shader of `what`.
+void check_device(const DeviceInfo& device, std::size_t buffers, const std::string& what);
+
 struct DeviceOptions {
   std::string name;         // part of the device's name, or its place in list_devices(), from 0; empty: the first
   bool validation = false;  // require the validation layer, and record its messages

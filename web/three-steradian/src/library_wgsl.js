@@ -745,13 +745,16 @@ fn steradian_conic_polish_poles(arc: SteradianConicArc, start: SteradianQuarticP
     let tolerance = 1.0e-6;
     var moving = arc.end > arc.begin;
     for (var i: i32 = 0; i < sweeps; i++) {
-        let z1 = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
-        let z2 = steradian_conic_pole_step(arc, poles.z2, z1, d4);
-        let step1 = z1 - poles.z1;
-        let step2 = z2 - poles.z2;
-        poles.z1 = select(poles.z1, z1, moving);
-        poles.z2 = select(poles.z2, z2, moving);
-        moving = moving && (dot(step1, step1) > tolerance * z1.y * z1.y || dot(step2, step2) > tolerance * z2.y * z2.y);
+        var moves = steradian_mask_none();
+        for (var k: i32 = 0; k < 2; k++) {
+            var z = steradian_conic_pole_step(arc, poles.z1, poles.z2, d4);
+            let step = z - poles.z1;
+            moves = moves || dot(step, step) > tolerance * z.y * z.y;
+            z = select(poles.z1, z, moving);
+            poles.z1 = poles.z2;
+            poles.z2 = z;
+        }
+        moving = moving && moves;
         if (!moving) {
             break;
         }
@@ -908,19 +911,32 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     let cut = bottom > 0.0 && shows;
     var limit = sqrt(max(top, 0.0) / max(bottom, steradian_smallest_divisor()));
     limit = select(select(0.0, 1.0e15, shows), limit, cut);
-    let upper = min(limit, 1.0);
-    var sum = steradian_conic_vector(steradian_ellipse_arc(level, -upper, upper));
     let more = limit > 1.0;
-    if (more) {
-        var back: SteradianEllipse;
-        back.center = level.center;
-        back.axis_a = -level.axis_a;
-        back.axis_b = -level.axis_b;
-        var lower = select(1.0, 1.0 / max(limit, 1.0), more);
-        lower = select(lower, 0.0, limit > 1.0e14);
-        let far_side = steradian_conic_vector(steradian_ellipse_arc(back, -1.0, -lower)) + steradian_conic_vector(steradian_ellipse_arc(back, lower, 1.0));
-        sum = select(sum, sum + far_side, more);
+    var lower = select(1.0, 1.0 / max(limit, 1.0), more);
+    lower = select(lower, 0.0, limit > 1.0e14);
+    var from = level;
+    var begin = -min(limit, 1.0);
+    var end = min(limit, 1.0);
+    var sum = vec3f(0.0, 0.0, 0.0);
+    var far_side = sum;
+    for (var i: i32 = 0; i < 3; i++) {
+        let arc = steradian_conic_vector(steradian_ellipse_arc(from, begin, end));
+        if (i == 0) {
+            sum = arc;
+            from.axis_a = -level.axis_a;
+            from.axis_b = -level.axis_b;
+            begin = -1.0;
+            end = -lower;
+        } else {
+            far_side = far_side + arc;
+            begin = lower;
+            end = 1.0;
+        }
+        if (!more) {
+            break;
+        }
     }
+    sum = select(sum, sum + far_side, more);
     if (cut) {
         let inverse = 1.0 / (1.0 + limit * limit);
         let middle = level.center + level.axis_a * ((1.0 - limit * limit) * inverse);
@@ -1289,7 +1305,7 @@ struct SteradianCapsuleEnd {
     center: vec3f,
     middle: vec3f,
     side: vec3f,
-    half_angle: f32,
+    last: vec2f,
     corners: f32,
     turn: vec2f,
     beta: f32,
@@ -1312,7 +1328,7 @@ fn steradian_capsule_end(center: vec3f, radius: f32, middle: vec3f, half_angle: 
     end.center = center * cosine2;
     end.middle = middle * (radius * cosine);
     end.side = side * (radius * cosine);
-    end.half_angle = half_angle;
+    end.last = steradian_complex_unit(half_angle);
     let along = dot(r, axis);
     let place = vec2f(dot(r, middle), dot(r, side)) * (cosine / (sine * max(along, 1.0e-12)));
     let nearest = clamp(steradian_trig_atan2(place.y, place.x), -half_angle, half_angle);
@@ -1332,13 +1348,12 @@ fn steradian_capsule_corner(end: SteradianCapsuleEnd, j: f32) -> vec2f {
     let u = steradian_complex_unit(clamp(end.first + end.step * (j + 0.5), -steradian_pi(), steradian_pi()));
     let w = steradian_complex_sign(vec2f(u.x, end.beta * u.y));
     var corner = steradian_complex_product(steradian_complex_product(w, w), end.turn);
-    let last = steradian_complex_unit(end.half_angle);
     let limit = vec2f(0.939372712847378920, 0.342897807455451364);  
     let outer_low = j < 0.5;
     let outer_high = j > end.corners - 1.5;
-    let low = vec2f(last.x, -last.y);
+    let low = vec2f(end.last.x, -end.last.y);
     corner = select(corner, steradian_complex_product(low, limit), outer_low && dot(corner, low) < limit.x);
-    corner = select(corner, steradian_complex_product(last, vec2f(limit.x, -limit.y)), outer_high && dot(corner, last) < limit.x);
+    corner = select(corner, steradian_complex_product(end.last, vec2f(limit.x, -limit.y)), outer_high && dot(corner, end.last) < limit.x);
     return select(corner, vec2f(1.0, 0.0), outer_low && outer_high);
 }
 fn steradian_capsule_gap(corner: vec2f, neighbour: vec2f, joint: vec2f, outer: bool) -> f32 {
@@ -1355,15 +1370,18 @@ fn steradian_capsule_gap(corner: vec2f, neighbour: vec2f, joint: vec2f, outer: b
 }
 fn steradian_capsule_end_corner(end: SteradianCapsuleEnd, j: f32) -> vec3f {
     let here = steradian_capsule_corner(end, j);
-    let last = steradian_complex_unit(end.half_angle);
-    let low = vec2f(last.x, -last.y);
+    var joint = vec2f(end.last.x, -end.last.y);
+    var joins = j < 1.5;
     let outer_low = j < 0.5;
     let outer_high = j > end.corners - 1.5;
-    let before = steradian_capsule_gap(here, steradian_capsule_corner(end, j - 1.0), low, j < 1.5);
-    let after = steradian_capsule_gap(here, steradian_capsule_corner(end, j + 1.0), last, j > end.corners - 2.5);
-    let even = sqrt(0.5 * (before + after));
-    let outer = 1.0 / max(dot(here, select(last, low, outer_low)), 0.5);
-    let radius = select(even, outer, outer_low || outer_high);
+    let outer = 1.0 / max(dot(here, select(end.last, joint, outer_low)), 0.5);
+    var gaps = 0.0;
+    for (var i: i32 = 0; i < 2; i++) {
+        gaps = gaps + steradian_capsule_gap(here, steradian_capsule_corner(end, j + f32(2 * i - 1)), joint, joins);
+        joint = end.last;
+        joins = j > end.corners - 2.5;
+    }
+    let radius = select(sqrt(0.5 * gaps), outer, outer_low || outer_high);
     return end.center + (end.middle * here.x + end.side * here.y) * radius;
 }
 fn steradian_capsule_fan(c: SteradianCapsule, r: vec3f, width: f32, count: i32) -> SteradianCapsuleFan {
@@ -1389,7 +1407,7 @@ fn steradian_capsule_fan_corner(fan: SteradianCapsuleFan, k: i32) -> vec3f {
     end.center = select(fan.b.center, fan.a.center, first);
     end.middle = select(fan.b.middle, fan.a.middle, first);
     end.side = select(fan.b.side, fan.a.side, first);
-    end.half_angle = select(fan.b.half_angle, fan.a.half_angle, first);
+    end.last = select(fan.b.last, fan.a.last, first);
     end.corners = select(fan.b.corners, fan.a.corners, first);
     end.turn = select(fan.b.turn, fan.a.turn, first);
     end.beta = select(fan.b.beta, fan.a.beta, first);
