@@ -3,6 +3,7 @@
 
 usage: device_model.py PROGRAM            prints the tables of docs/measured/device-model.md; takes some minutes
        device_model.py PROGRAM PICTURE    a row for each shader of one picture, such as gallery
+       device_model.py PROGRAM edges      the table of Phong edges alone
        device_model.py --test             exit 1 when an assembly made up for the purpose is counted wrongly
 
 A time is instructions / (lanes x clock). RADV's assembly for gfx1100 gives the instructions of each loop. A loop's turns are counts of the
@@ -34,6 +35,11 @@ PICTURES = [
     ("ring, bounce of 262,144 virtual lights", "1280x720", ["scenes/ring.glb", "--shadows", "off", "--indirect", "ltc", "--vpls", "262144"]),
     ("plane, 1,000 lights, 2,000 occluders", "1280x720", ["FIELD"]),
 ]
+# The literature's comparison of Phong methods, by the numbers of shaders/lobes/phong_methods.glsl. The published ms of an edge of a screen on a
+# GTX 580 and a GTX 980 Ti (docs/theory/moments.md), by exponent where they depend on it.
+METHODS = [("arvo", {100: "13.6 | 0.41", 500: "49 | 1.57", 5000: "476 | 9.8"}), ("lorentzian", {0: "0.25 | 0.12"}), ("pearson", {0: "0.40 | 0.125"}),
+           ("ellipsoid", {0: "0.47 | 0.127"}), ("series", {0: " | "}), ("series, high", {0: " | "})]
+SCREEN = 1280 * 720
 KEPT_PAIRS = 48  # IndirectOptions::kept_pairs: virtual lights of a pixel, on average
 
 
@@ -145,6 +151,14 @@ def chain(whole, *turns):
     return work
 
 
+def edge_work(whole, method, n):
+    """Instructions of an edge of phong.comp: a turn of the outline with one arc of the horizon. Arvo's recurrence takes every other power."""
+    outline = loop = max(whole.inner, key=Loop.once)
+    while loop.inner:
+        loop = max(loop.inner, key=Loop.once)
+    return outline.once() + (((n - 1) // 2 - 1) * loop.once() if method == "arvo" else 0)
+
+
 # Instructions of a shader for all its threads. counts: --stats of the software device, or of the CPU for the plane.
 TURNS = {
     # The walk, two passes over the edges of leaves, and a sum over 64 threads between them.
@@ -159,13 +173,13 @@ TURNS = {
 }
 
 
-def compiled(program, arguments, size):
-    """The pipelines of a picture, with their loops."""
+def compiled(program, command):
+    """The pipelines that `info` or `bench` lists, with their loops."""
     environment = dict(os.environ, RADV_FORCE_FAMILY="gfx1100", VK_ICD_FILENAMES=DRIVER, MESA_SHADER_CACHE_DISABLE="1", RADV_DEBUG="shaders",
                        STERADIAN_PIPELINE_CACHE="")
-    made = subprocess.run([program, "info", *arguments, "--pipelines", "--json", "--size", size], env=environment, cwd=ROOT, capture_output=True, text=True)
+    made = subprocess.run([program, *command, "--pipelines", "--json"], env=environment, cwd=ROOT, capture_output=True, text=True)
     if made.returncode != 0:
-        sys.exit(f"device_model: info {' '.join(arguments)}: exit {made.returncode}: {made.stderr[-500:].strip()}")
+        sys.exit(f"device_model: {' '.join(command)}: exit {made.returncode}: {made.stderr[-500:].strip()}")
     pipelines, assemblies = json.loads(made.stdout)["pipelines"], listings(made.stderr)
     for pipeline, listing in zip(pipelines, assemblies, strict=True):
         pipeline["whole"] = loops_of(listing)
@@ -188,7 +202,7 @@ def counted(program, arguments, size):
 
 def work_of(program, arguments, size):
     """Threads and instructions of each shader."""
-    pipelines, counts = compiled(program, arguments, size), {}
+    pipelines, counts = compiled(program, ["info", *arguments, "--size", size]), {}
     if any(p["shader"].startswith(("shadow_parts", "plane_")) for p in pipelines):
         counts = counted(program, arguments, size)
     counts["words"] = 2 * math.ceil(int(arguments[-1]) / 64 / 32) if "--vpls" in arguments else 0  # 64 sets; dull and glossy
@@ -209,8 +223,20 @@ def work_of(program, arguments, size):
     return work, counts
 
 
-def times(instructions):
-    return " | ".join(f"{1e3 * instructions / (lanes * clock):.2f}" for _, lanes, clock in PARTS)
+def times(instructions, digits=2):
+    return " | ".join(f"{1e3 * instructions / (lanes * clock):.{digits}f}" for _, lanes, clock in PARTS)
+
+
+def print_edges(program):
+    print("| method | n | instructions an edge | " + " | ".join(f"ms, {name}" for name, _, _ in PARTS) + " | published ms, GTX 580 | GTX 980 Ti |")
+    print("|---|--:|" + "--:|" * (3 + len(PARTS)))
+    printed = set()
+    for p in compiled(program, ["bench"]):
+        (method, published), n = METHODS[p["constants"][0]], p["constants"][1]
+        work = edge_work(p["whole"], method, n)
+        if (method, work) not in printed:
+            print(f"| {method} | {n if n in published else 'any'} | {work:,} | {times(SCREEN * work, 3)} | {published.get(n) or published[0]} |")
+        printed.add((method, work))
 
 
 def main():
@@ -218,12 +244,14 @@ def main():
     if arguments == ["--test"]:
         sys.exit(self_test())
     names = [name for name, _, _ in PICTURES]
-    if not 1 <= len(arguments) <= 2 or arguments[0].startswith("-") or not set(arguments[1:]) <= set(names):
+    if not 1 <= len(arguments) <= 2 or arguments[0].startswith("-") or not set(arguments[1:]) <= {*names, "edges"}:
         sys.exit(__doc__)
     if not Path(DRIVER).exists():
         print("no RADV here: apt-get install mesa-vulkan-drivers", file=sys.stderr)
         sys.exit(77)
     program = str(Path(arguments[0]).resolve())
+    if arguments[1:] == ["edges"]:
+        return print_edges(program)
     built = str(Path(program).parent.parent / "scenes")
     heads = " | ".join(f"ms, {name}" for name, _, _ in PARTS)
     with tempfile.TemporaryDirectory() as folder:
@@ -256,6 +284,8 @@ def self_test():
     right = right and whole.inner[0].inner[0].once() == 3
     # Three turns around, ten inside: 2 + 3 x 3 + 10 x 3.
     right = right and chain(whole, 3, 10) == 41
+    # A turn of the outline has one of the recurrence, whose ten steps lead to n = 21: 6 + 9 x 3.
+    right = right and edge_work(whole, "arvo", 21) == 33 and edge_work(whole, "series", 21) == 6
     print("counted as they are" if right else "WRONG")
     return 0 if right else 1
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/benches.h"
+#include "bench/phong_on_device.h"
 #include "bench/studies/cie171.h"
 #include "bench/studies/plane_methods.h"
 #include "bench/studies/table2.h"
@@ -19,6 +20,7 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "fit/textured_error.h"
+#include "pipeline_facts.h"
 #include "steradian/error.h"
 #include "steradian/version.h"
 #include "verb.h"
@@ -190,6 +192,10 @@ void add_bench(CommandLine& line) {
     if (options->plane) return fmt::print("{}", plane::plane_methods_text(plane::measure_plane_methods({})));
     if (options->cie171) return fmt::print("{}", cie171::cie171_page(cie171::compare_with_cie171()));
     if (options->textured) return fmt::print("{}", textured_error_text(measure_textured_error({})));
+    if (options->pipelines) {
+      const nlohmann::ordered_json facts = facts_of(bench::compile_phong(options->device));
+      return fmt::print("{}", options->json ? facts.dump(1) + "\n" : pipeline_text(facts));
+    }
     if (options->list) {
       const BenchList list = benches_of(*options);
       for (const BenchList::Entry* entry : chosen_of(list, *options)) fmt::print("{}\n", entry->name);

@@ -24,6 +24,19 @@ constexpr std::uint32_t kShader[] =
 
 constexpr std::uint32_t kGroup = 64, kAcross = 32768;
 
+const std::vector<vulkan::ShaderCode>& shaders() {
+  static const std::vector<vulkan::ShaderCode> all = {{"phong.comp", {{{}, kShader}}}};
+  return all;
+}
+
+constexpr std::size_t kBuffers = 3;
+
+std::vector<std::int32_t> constants_of(const PhongOptions& options, int exponent, std::size_t edges) {
+  // The best variant of each fit: docs/theory/moments.md.
+  const bool x = options.method == Method::lorentzian || options.method == Method::pearson;
+  return {vulkan::phong_method(options), exponent, x ? 1 : 0, static_cast<std::int32_t>(edges)};
+}
+
 std::vector<float> points_of(const moment::PhongPlane& plane) {
   std::vector<float> points;
   for (std::size_t i = 0; i < plane.count; ++i)
@@ -53,17 +66,14 @@ std::vector<float> corners_of(const moment::NamedLight& light) {
 struct PhongOnDevice::Parts {
   Parts(const moment::PhongPlane& plane, const moment::NamedLight& light, int exponent, const PhongOptions& options,
         const std::string& name)
-      : device({name, false}), program(device, {{"phong.comp", {{{}, kShader}}}}, 3), count(plane.count) {
+      : device({name, false}), program(device, shaders(), kBuffers), count(plane.count) {
     const std::vector<float> p = points_of(plane), c = corners_of(light);
     points = std::make_unique<Buffer>(device, p.size() * sizeof(float), BufferUse::host_writes);
     points->write(p.data(), p.size() * sizeof(float));
     corners = std::make_unique<Buffer>(device, c.size() * sizeof(float), BufferUse::host_writes);
     corners->write(c.data(), c.size() * sizeof(float));
     results = std::make_unique<Buffer>(device, count * sizeof(float), BufferUse::host_reads);
-    // The best variant of each fit: docs/theory/moments.md.
-    const bool x = options.method == Method::lorentzian || options.method == Method::pearson;
-    const auto edges = static_cast<std::int32_t>(light.corners.size());
-    dispatch.pipeline = program.pipeline(0, {vulkan::phong_method(options), exponent, x ? 1 : 0, edges});
+    dispatch.pipeline = program.pipeline(0, constants_of(options, exponent, light.corners.size()));
     const auto groups = static_cast<std::uint32_t>((count + kGroup - 1) / kGroup);
     dispatch.groups_x = std::min(groups, kAcross);
     dispatch.groups_y = (groups + kAcross - 1) / kAcross;
@@ -96,6 +106,14 @@ std::vector<float> PhongOnDevice::radiance() const {
 }
 
 double PhongOnDevice::device_ms() const { return parts_->ms; }
+
+std::vector<vulkan::PipelineReport> compile_phong(const std::string& name) {
+  const vulkan::Device device({name, false, true});
+  ComputeProgram program(device, shaders(), kBuffers);
+  for (const PhongVariant& v : phong_variants())
+    for (const int n : kPhongExponents) program.pipeline(0, constants_of(v.options, n, 4));
+  return device.pipelines();
+}
 
 namespace {
 

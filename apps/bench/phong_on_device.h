@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/phong_plane.h"
+#include "device/vulkan/pipeline_report.h"
 
 namespace steradian::bench {
 
@@ -26,5 +27,8 @@ class PhongOnDevice {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+// The pipelines of vulkan/kernel/*/quad, on a device whose hardware may be absent.
+std::vector<vulkan::PipelineReport> compile_phong(const std::string& device);
 
 }  // namespace steradian::bench

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "bench/phong_methods.h"
 #include "core/float_mode.h"
@@ -41,6 +42,16 @@ TEST(VulkanPhong, HasEveryMethodOfTheComparison) {
           std::printf("%-12s %-9s n=%d: largest difference %.1e of the brightest\n", method.name.c_str(), light.name.c_str(), n,
                       largest / brightest);
       }
+}
+
+TEST(VulkanPhong, ListsThePipelinesOfEveryMethod) {
+  if (vulkan::list_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  std::set<std::vector<std::int32_t>> constants;
+  for (const vulkan::PipelineReport& p : compile_phong("")) {
+    EXPECT_EQ(p.shader, "phong.comp");
+    constants.insert(p.constants);
+  }
+  EXPECT_EQ(constants.size(), phong_variants().size() * std::size(kPhongExponents));
 }
 
 }  // namespace

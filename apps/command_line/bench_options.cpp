@@ -11,6 +11,7 @@ void add_bench_options(Verb& verb, BenchArguments& arguments) {
   verb.add_word("--backend", arguments.backend, "vulkan: frames on a device").group("Choice");
   verb.add("--device", arguments.device, "of vulkan: number or part of the name in `steradian info`").group("Choice").default_text("");
   verb.add_flag("--list", arguments.list, "print the names of the chosen benches").group("Choice");
+  verb.add_flag("--pipelines", arguments.pipelines, "those of vulkan/kernel on --device, whose hardware may be absent").group("Choice");
   verb.add("--min-time", arguments.min_time, "seconds of runs per bench").group("Measurement").range(0.0, 3600.0);
   verb.add_flag("--json", arguments.json, "print JSON").group("Measurement");
   verb.add("--compare", arguments.base, "print ratios to this file of --json; above 1 is slower").group("Measurement").existing_file();

@@ -12,7 +12,7 @@ struct BenchArguments {
   std::string filter, simd, device;
   Backend backend = Backend::cpu;
   double min_time = 0.5;
-  bool json = false, list = false;
+  bool json = false, list = false, pipelines = false;
   bool table2 = false, textured = false, plane = false, cie171 = false;
   std::string figures, base;
   double slower = 0;

@@ -504,18 +504,18 @@ vec3 steradian_ellipse_irradiance_vector(SteradianEllipse e) {
     bool more = limit > 1.0;
     float lower = steradian_select(more, 1.0 / max(limit, 1.0), 1.0);
     lower = steradian_select(limit > 1.0e14, 0.0, lower);
-    SteradianEllipse from = level;
+    SteradianEllipse turned = level;
     float begin = -min(limit, 1.0);
     float end = min(limit, 1.0);
     vec3 sum = vec3(0.0, 0.0, 0.0);
     vec3 far_side = sum;
     // The arc about the highest place, and two that meet at the lowest.
     for (int i = 0; i < 3; i++) {
-        vec3 arc = steradian_conic_vector(steradian_ellipse_arc(from, begin, end));
+        vec3 arc = steradian_conic_vector(steradian_ellipse_arc(turned, begin, end));
         if (i == 0) {
             sum = arc;
-            from.axis_a = -level.axis_a;
-            from.axis_b = -level.axis_b;
+            turned.axis_a = -level.axis_a;
+            turned.axis_b = -level.axis_b;
             begin = -1.0;
             end = -lower;
         } else {

@@ -77,18 +77,18 @@ vec3 ellipse_irradiance_vector(Ellipse e) {
     mask more = limit > 1.0;
     real lower = select(more, 1.0 / max(limit, 1.0), 1.0);
     lower = select(limit > 1.0e14, 0.0, lower);
-    Ellipse from = level;
+    Ellipse turned = level;
     real begin = -min(limit, 1.0);
     real end = min(limit, 1.0);
     vec3 sum = vec3(0.0, 0.0, 0.0);
     vec3 far_side = sum;
     // The arc about the highest place, and two that meet at the lowest.
     for (int i = 0; i < 3; i++) {
-        vec3 arc = conic_vector(ellipse_arc(from, begin, end));
+        vec3 arc = conic_vector(ellipse_arc(turned, begin, end));
         if (i == 0) {
             sum = arc;
-            from.axis_a = -level.axis_a;
-            from.axis_b = -level.axis_b;
+            turned.axis_a = -level.axis_a;
+            turned.axis_b = -level.axis_b;
             begin = -1.0;
             end = -lower;
         } else {

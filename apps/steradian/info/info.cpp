@@ -12,6 +12,7 @@
 #include "info/info_pipelines.h"
 #include "info/info_plane.h"
 #include "info/info_scene.h"
+#include "pipeline_facts.h"
 #include "render/picture_options.h"
 #include "render/render_plane.h"
 #include "steradian/version.h"

@@ -1,15 +1,12 @@
 #include "info/info_pipelines.h"
 
-#include <fmt/format.h>
-
 #include "device/frame/back_end.h"
 #include "device/plane/plane_device.h"
+#include "pipeline_facts.h"
 #include "render/render_plane.h"
 
 namespace steradian::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<vulkan::PipelineReport> plane_pipelines(const std::string& path, const Limits& limits, const RenderOptions& options) {
   PlaneFrameOptions frame;
@@ -31,33 +28,8 @@ std::vector<vulkan::PipelineReport> scene_pipelines(const std::string& path, con
 
 }  // namespace
 
-Json pipeline_facts(const std::string& path, const Limits& limits, const RenderOptions& options) {
-  Json list = Json::array();
-  for (const vulkan::PipelineReport& p :
-       is_plane_scene(path) ? plane_pipelines(path, limits, options) : scene_pipelines(path, limits, options)) {
-    Json statistics = Json::object();
-    for (const auto& [name, value] : p.statistics) statistics[name] = value;
-    list.push_back({{"shader", p.shader},
-                    {"constants", p.constants},
-                    {"module_bytes", p.module_bytes},
-                    {"ms", p.ms},
-                    {"dispatches", p.dispatches},
-                    {"groups", p.groups},
-                    {"units", p.units},
-                    {"statistics", statistics}});
-  }
-  return {{"pipelines", list}};
-}
-
-std::string pipeline_text(const Json& facts) {
-  std::string text;
-  for (const Json& p : facts.at("pipelines")) {
-    text += fmt::format("{:<24} {:>8} bytes {:>8.1f} ms {:>5} dispatches", p.at("shader").get<std::string>(),
-                        p.at("module_bytes").get<std::size_t>(), p.at("ms").get<double>(), p.at("dispatches").get<std::uint64_t>());
-    for (const auto& [name, value] : p.at("statistics").items()) text += fmt::format(", {} {}", name, value.get<std::uint64_t>());
-    text += "\n";
-  }
-  return text;
+nlohmann::ordered_json pipeline_facts(const std::string& path, const Limits& limits, const RenderOptions& options) {
+  return facts_of(is_plane_scene(path) ? plane_pipelines(path, limits, options) : scene_pipelines(path, limits, options));
 }
 
 }  // namespace steradian::app

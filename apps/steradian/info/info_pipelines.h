@@ -9,11 +9,7 @@
 
 namespace steradian::app {
 
-// For each pipeline: shader, constants, SPIR-V bytes, milliseconds, work, and the statistics of the driver's compiler. Nothing runs on the
-// device. Throws Error if there is no device, or if no device renders the picture.
+// Nothing runs on the device. Throws Error if there is no device, or if no device renders the picture.
 nlohmann::ordered_json pipeline_facts(const std::string& path, const Limits& limits, const RenderOptions& options);
-
-// The same for people: a line for each pipeline.
-std::string pipeline_text(const nlohmann::ordered_json& facts);
 
 }  // namespace steradian::app

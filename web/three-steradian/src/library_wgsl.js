@@ -914,17 +914,17 @@ fn steradian_ellipse_irradiance_vector(e: SteradianEllipse) -> vec3f {
     let more = limit > 1.0;
     var lower = select(1.0, 1.0 / max(limit, 1.0), more);
     lower = select(lower, 0.0, limit > 1.0e14);
-    var from = level;
+    var turned = level;
     var begin = -min(limit, 1.0);
     var end = min(limit, 1.0);
     var sum = vec3f(0.0, 0.0, 0.0);
     var far_side = sum;
     for (var i: i32 = 0; i < 3; i++) {
-        let arc = steradian_conic_vector(steradian_ellipse_arc(from, begin, end));
+        let arc = steradian_conic_vector(steradian_ellipse_arc(turned, begin, end));
         if (i == 0) {
             sum = arc;
-            from.axis_a = -level.axis_a;
-            from.axis_b = -level.axis_b;
+            turned.axis_a = -level.axis_a;
+            turned.axis_b = -level.axis_b;
             begin = -1.0;
             end = -lower;
         } else {
