@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_vote : require
 
 #include "shadow_layout.glsl"
 
@@ -24,16 +25,17 @@ shared uint list_begin;
 float size_of(vec3 v) { return dot(abs(v), vec3(1.0)); }
 vec4 shaft_vector(uint shaft, int i) { return uintBitsToFloat(groups[shaft + uint(i)]); }
 
+// The lanes of a subgroup test the sides of the shaft together.
 bool meets_box(uint shaft, vec3 low, vec3 high) {
     vec3 middle = 0.5 * (low + high);
     vec3 half_sides = 0.5 * (high - low);
     float margin = 2.0 * kRounding * (size_of(middle) + size_of(half_sides) + shaft_vector(shaft, kShaftBounds + 3).w);
-    bool meets = true;
-    for (int i = 0; i < kShaftBounds; i++) {
-        vec4 bound = shaft_vector(shaft, i);
-        meets = meets && dot(bound.xyz, middle) - dot(abs(bound.xyz), half_sides) <= bound.w + margin * size_of(bound.xyz);
+    bool beyond = false;
+    for (uint i = gl_SubgroupInvocationID; i < uint(kShaftBounds); i += gl_SubgroupSize) {
+        vec4 bound = shaft_vector(shaft, int(i));
+        beyond = beyond || !(dot(bound.xyz, middle) - dot(abs(bound.xyz), half_sides) <= bound.w + margin * size_of(bound.xyz));
     }
-    return meets;
+    return !subgroupAny(beyond);
 }
 
 bool meets_edge(uint shaft, vec3 a, vec3 b) {
