@@ -61,7 +61,7 @@ class Loop:
     def __init__(self, begin, end):
         self.begin, self.end, self.inner = begin, end, []
         self.head = end - begin  # instructions up to the first jump over most of a turn
-        self.branches = []  # instructions of its largest branches that are no loops, in their order
+        self.branches = []  # begin and end of what jumps ahead leave out, but for what stands in another such branch
 
     def own(self):
         return self.end - self.begin - sum(i.end - i.begin for i in self.inner)
@@ -96,7 +96,8 @@ def loops_of(listing):
         over = [a for a, to in jumps if begin < a < end and begin + (end - begin) // 2 < at[to] - (a - begin) <= end]
         loop.head = min(over) - begin if over else end - begin
         for a, to in jumps:
-            if begin < a < at[to] < end and at[to] - a < (end - begin) * 0.95 and not any(b < a < e for b, e in loop.branches):
+            leaves = at[to] - a > 0.95 * (end - begin)  # what leaves out nearly all of a turn ends the loop
+            if begin < a < at[to] < end and not leaves and not any(b < a < e for b, e in loop.branches):
                 loop.branches.append((a, at[to]))
     return whole
 
@@ -286,6 +287,9 @@ def self_test():
     right = right and chain(whole, 3, 10) == 41
     # A turn of the outline has one of the recurrence, whose ten steps lead to n = 21: 6 + 9 x 3.
     right = right and edge_work(whole, "arvo", 21) == 33 and edge_work(whole, "series", 21) == 6
+    # A loop whose third instruction jumps over two others, of which one would jump over one.
+    ahead = "BB0:\n\tv_a\n\tv_b\n\ts_cbranch_execz BB2\n\ts_cbranch_execz BB1\n\tv_c\nBB1:\nBB2:\n\tv_d\n\ts_cbranch_scc1 BB0\n\ts_endpgm"
+    right = right and loops_of(ahead.splitlines()).inner[0].branches == [(3, 5)]
     print("counted as they are" if right else "WRONG")
     return 0 if right else 1
 

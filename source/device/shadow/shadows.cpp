@@ -14,9 +14,8 @@ namespace {
 #include "shaders/shadow/shadow_layout.glsl"
 
 constexpr std::size_t kVector = 4 * sizeof(std::uint32_t);
-constexpr std::size_t kLargestBuffer = std::size_t{128} << 20;  // guaranteed by Vulkan
 // Limits of one search: work groups in a row, lights and groups whose values fill half of a buffer.
-constexpr std::size_t kMostGroups = 65535, kMostLights = 16384, kMostValues = kLargestBuffer / 2 / sizeof(std::uint32_t);
+constexpr std::size_t kMostGroups = 65535, kMostLights = 16384, kMostValues = kGuaranteedBuffer / 2 / sizeof(std::uint32_t);
 constexpr std::size_t kVectorsOfPart = 32;                                        // initial number for each point
 constexpr std::size_t kEdgesOfGroup = 512, kEdgesAtFirst = std::size_t{1} << 20;  // the same of the edges of groups
 // Capacities of a subgroup for one point: segments, and as many pieces of them. The smaller ones let more subgroups run at a time
